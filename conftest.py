@@ -1,0 +1,46 @@
+"""Fixtures for every test of the workspace: a DDS domain of its own for each test that asks for one."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+# Domain IDs up to 101 keep DDS ports below Linux's ephemeral range (ROS 2 documentation, "The ROS_DOMAIN_ID").
+# 0 to 19 are left to people.
+_DOMAINS = range(20, 102)
+
+
+@pytest.fixture
+def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """A DDS domain that no other test of this machine uses, confined to localhost; also in the environment."""
+    folder = Path(tempfile.gettempdir()) / "teo_test_domains"
+    folder.mkdir(exist_ok=True)
+    # Start at a place of this process's own, so that a domain is not reused at once by the next test.
+    start = (os.getpid() * 7 + domain_id_counter()) % len(_DOMAINS)
+    for offset in range(len(_DOMAINS)):
+        domain = _DOMAINS[(start + offset) % len(_DOMAINS)]
+        with (folder / str(domain)).open("w") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+            monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+            yield domain
+            return
+    raise RuntimeError(f"expected a free DDS domain in {_DOMAINS}, all are in use by other tests")
+
+
+_counter = 0
+
+
+def domain_id_counter() -> int:
+    """Count the calls of this process."""
+    global _counter
+    _counter += 1
+    return _counter

@@ -1,0 +1,30 @@
+from glob import glob
+
+from setuptools import find_packages, setup
+
+PACKAGE = "teo_description"
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        ("share/teo_description/urdf", sorted(glob("urdf/*"))),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+    maintainer="TEO signing project",
+    maintainer_email="teo-sign@example.org",
+    description="TEO's robot description: URDF, joint groups, limits, collision model and a renderer that needs no display.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": [
+            "render = teo_description.render_cli:main",
+            "build_urdf = teo_description.build_urdf:main",
+        ],
+    },
+)

@@ -1,0 +1,31 @@
+from glob import glob
+
+from setuptools import find_packages, setup
+
+PACKAGE = "teo_lut_executor"
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        ("share/teo_lut_executor/lut/lse", sorted(glob("lut/lse/*.json"))),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+    maintainer="TEO signing project",
+    maintainer_email="teo-sign@example.org",
+    description="Look-up table of signs and the executor that turns sign tokens into smooth joint trajectories within TEO's limits.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": [
+            "executor_node = teo_lut_executor.executor_node:main",
+            "lut = teo_lut_executor.lut_cli:main",
+            "plan = teo_lut_executor.plan_cli:main",
+        ],
+    },
+)

@@ -1,0 +1,26 @@
+from setuptools import find_packages, setup
+
+PACKAGE = "teo_ros2cli"
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+    maintainer="TEO signing project",
+    maintainer_email="teo-sign@example.org",
+    description="A ros2 command for machines whose ROS 2 comes from PyPI; MCAP recording and playing. Steps aside for the genuine ros2cli.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": [
+            "ros2 = teo_ros2cli.main:main",
+        ],
+    },
+)

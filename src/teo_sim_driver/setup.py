@@ -1,0 +1,26 @@
+from setuptools import find_packages, setup
+
+PACKAGE = "teo_sim_driver"
+
+setup(
+    name=PACKAGE,
+    version="0.1.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+    maintainer="TEO signing project",
+    maintainer_email="teo-sign@example.org",
+    description="Simulated joint driver of TEO: validates, interpolates and limits joint trajectories and publishes joint states.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": [
+            "driver_node = teo_sim_driver.driver_node:main",
+        ],
+    },
+)

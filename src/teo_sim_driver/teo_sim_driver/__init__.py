@@ -1,0 +1,1 @@
+"""Simulated joint driver of TEO: validates, interpolates and limits joint trajectories and publishes joint states."""
