@@ -1,0 +1,27 @@
+# make setup | demo TEXT="..." | test | lint | bench
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+TEXT ?= Hola, me llamo Ana. ¿Qué tal?
+ENV := . ./env.sh &&
+
+.PHONY: help setup demo test lint bench
+
+help: ## what can be made
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 10
+
+setup: ## install what is missing and build the workspace
+	@PYTHON="$(PYTHON)" scripts/setup.sh
+
+demo: setup ## sign TEXT="...": leaves the bag, a video and a film strip in out/
+	@$(ENV) python scripts/demo.py "$$TEXT"
+
+test: setup ## all tests
+	@$(ENV) python -m pytest
+
+lint: setup ## style, types
+	@$(ENV) scripts/lint.sh
+
+bench: setup ## the figures of the README
+	@$(ENV) python bench/run.py
+
+export TEXT
