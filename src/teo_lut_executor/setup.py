@@ -1,4 +1,4 @@
-from glob import glob
+from pathlib import Path
 
 from setuptools import find_packages, setup
 
@@ -12,17 +12,19 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        ("share/teo_lut_executor/lut/lse", sorted(glob("lut/lse/*.json"))),
+        ("share/teo_lut_executor/lut", ["lut/sign.schema.json"]),
+        ("share/teo_lut_executor/lut/lse", sorted(map(str, Path("lut/lse").glob("*.json")))),
     ],
     install_requires=["setuptools"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
-    description="Look-up table of signs and the executor that turns sign tokens into smooth joint trajectories within TEO's limits.",
+    description="Look-up table of signs and the executor that turns sign tokens into smooth trajectories.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
+            "capture_letters = teo_lut_executor.capture_letters:main",
             "executor_node = teo_lut_executor.executor_node:main",
             "lut = teo_lut_executor.lut_cli:main",
             "plan = teo_lut_executor.plan_cli:main",

@@ -1,1 +1,1 @@
-"""Look-up table of signs and the executor that turns sign tokens into smooth joint trajectories within TEO's limits."""
+"""Look-up table of signs and the executor that turns sign tokens into smooth joint trajectories."""

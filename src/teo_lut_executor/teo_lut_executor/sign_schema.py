@@ -1,0 +1,107 @@
+"""The text form of a sign, field by field: one JSON object, `SCHEMA_VERSION` 1.
+
+`sign_json_schema()` is published as `lut/sign.schema.json`, so that editors and other programs can check an
+entry without this package. What a schema cannot say (limits of the robot, order of the times, one row of
+knots for each time) is checked in `sign_file.py`.
+"""
+
+from __future__ import annotations
+
+import datetime
+import unicodedata
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat
+
+SCHEMA_VERSION = 1
+
+Kind = Literal["lexical", "letter", "number"]
+Handedness = Literal["right", "left", "both"]
+
+# A file name may hold 255 bytes on the usual file systems, and a letter of a gloss takes up to 4 of them.
+MAX_GLOSS_LENGTH = 60
+
+
+def _gloss(value: str) -> str:
+    if value != unicodedata.normalize("NFC", value):
+        raise ValueError("Unicode in composed form (NFC)")
+    if any(not (char.isalnum() or char in "_-+()") for char in value):
+        raise ValueError("letters, digits and _-+() only")
+    if value != value.upper():
+        raise ValueError(f"upper case ({value.upper()!r})")
+    return value
+
+
+def _date(value: str) -> str:
+    try:
+        datetime.date.fromisoformat(value)
+    except ValueError:
+        raise ValueError("a day of the calendar, written YYYY-MM-DD") from None
+    return value
+
+
+Date = Annotated[
+    str,
+    Field(pattern=r"^\d{4}-\d{2}-\d{2}$", json_schema_extra={"format": "date"}),
+    AfterValidator(_date),
+]
+Text = Annotated[str, Field(min_length=1)]
+
+
+class Provenance(BaseModel):
+    """Where a sign came from."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+
+    source: Text = Field(description="Recording, publication or person that the sign was taken from.")
+    method: Text = Field(description="How the source became joint angles.")
+    recorded: Date | None = Field(description="Day on which the source was recorded; null where not known.")
+    created: Date = Field(description="Day on which this entry was made.")
+    licence: Text = Field(description="Terms of the source, as an SPDX identifier or a sentence.")
+    description_hash: str = Field(
+        pattern=r"^[0-9a-f]{64}$",
+        description="SHA-256 of the URDF text that the joint angles were made for, lower-case hexadecimal.",
+    )
+    notes: str = Field(description="What a reader must know beside the numbers; may be empty.")
+
+
+class SignFile(BaseModel):
+    """One sign of TEO's look-up table, as its JSON file holds it."""
+
+    model_config = ConfigDict(
+        strict=True,
+        extra="forbid",
+        frozen=True,
+        title="TEO sign",
+        json_schema_extra={"$schema": "https://json-schema.org/draft/2020-12/schema"},
+    )
+
+    # "schema" is the field's name in the file; pydantic keeps that name for itself.
+    schema_version: Literal[1] = Field(alias="schema", description="Version of this format.")
+    gloss: Annotated[str, AfterValidator(_gloss)] = Field(
+        min_length=1,
+        max_length=MAX_GLOSS_LENGTH,
+        description="Name of the sign: upper-case Spanish with accents (NFC), a space written '_'.",
+    )
+    language: str = Field(pattern=r"^[a-z]{3}$", description="Sign language: 'lse' is Spanish Sign Language.")
+    kind: Kind = Field(description="A sign of its own, a letter of the manual alphabet, or a number.")
+    handedness: Handedness = Field(description="The hands that make the sign.")
+    joints: list[str] = Field(
+        min_length=1, description="Names of the joints that the sign moves, each once; the others are free."
+    )
+    times: list[FiniteFloat] = Field(
+        min_length=1, description="Time of each knot [s]: the first is 0, each later than the one before."
+    )
+    knots: list[list[FiniteFloat]] = Field(
+        min_length=1,
+        description="A row for each time: the position [rad] of each of 'joints', in its order.",
+    )
+    provenance: Provenance
+    quality: dict[str, FiniteFloat] = Field(
+        description="Figures of how well the sign was captured: name with its unit as last word, value."
+    )
+
+
+def sign_json_schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of a sign's file."""
+    return SignFile.model_json_schema()
