@@ -4,7 +4,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-python="${PYTHON:-python3}"
+# The Python asked for, else the one that .venv was made with, else the system's.
+python="${PYTHON:-$(readlink -e .venv/bin/python || echo python3)}"
 
 fail() {
     echo "setup: $1" >&2
@@ -76,7 +77,7 @@ build_workspace() {
     fi
     echo "setup: building the workspace (about half a minute the first time)"
     PATH="$PWD/.venv/bin:$PATH" .venv/bin/colcon --log-level error build --merge-install --symlink-install \
-        --event-handlers console_direct- status- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" -Wno-dev ||
+        --event-handlers console_direct- console_start_end- status- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" ||
         fail "the build failed; its log is in log/latest_build"
     echo "$want" >install/.ready
 }
