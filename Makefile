@@ -1,10 +1,10 @@
-# make setup | demo TEXT="..." | test | lint | bench
+# make setup | run | demo TEXT="..." | test | lint | bench
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
 ENV := . ./env.sh &&
 
-.PHONY: help setup demo test lint bench
+.PHONY: help setup run demo test lint bench
 
 help: ## what can be made
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 10
@@ -14,6 +14,13 @@ setup: ## install what is missing and build the workspace
 
 demo: setup ## sign TEXT="...": leaves the bag, a video and a film strip in out/
 	@$(ENV) python scripts/demo.py "$$TEXT"
+
+run: setup ## start translator, executor and driver, until Ctrl-C
+	@$(ENV) trap 'kill 0' EXIT; \
+	    ros2 run teo_sign_translator translator_node & \
+	    ros2 run teo_lut_executor executor_node & \
+	    ros2 run teo_sim_driver driver_node & \
+	    wait -n
 
 test: setup ## all tests
 	@$(ENV) python -m pytest

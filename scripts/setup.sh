@@ -77,7 +77,7 @@ build_workspace() {
     fi
     echo "setup: building the workspace (about half a minute the first time)"
     PATH="$PWD/.venv/bin:$PATH" .venv/bin/colcon --log-level error build --merge-install --symlink-install \
-        --event-handlers console_direct- console_start_end- status- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" ||
+        --event-handlers console_direct- console_start_end- status- summary- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" ||
         fail "the build failed; its log is in log/latest_build"
     echo "$want" >install/.ready
 }

@@ -1,0 +1,54 @@
+"""Follows one text through the graph: which of its sentences have been signed, and how."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TokenTiming
+
+
+@dataclass
+class Progress:
+    """What is known of the sentences of one text, from the messages that the nodes publish."""
+
+    sentences: dict[int, SignSentence] = field(default_factory=dict)
+    started: dict[int, ExecutorStatus] = field(default_factory=dict)
+    refusals: list[str] = field(default_factory=list)
+    at_rest: bool = False
+
+    def on_tokens(self, sentence: SignSentence) -> None:
+        """Take a sentence that the translator published."""
+        self.sentences[sentence.sentence_index] = sentence
+
+    def on_status(self, status: ExecutorStatus) -> None:
+        """Take what the executor says it is doing."""
+        if status.state == ExecutorStatus.STATE_SIGNING:
+            self.started[status.sentence_index] = status
+            self.at_rest = False
+        elif status.state == ExecutorStatus.STATE_REFUSED:
+            self.refusals.append(f"{status.code}: {status.message}")
+            self.at_rest = status.queued == 0
+        elif status.state == ExecutorStatus.STATE_IDLE:
+            self.at_rest = bool(self.started)
+
+    @property
+    def expected(self) -> int:
+        """Number of sentences in the text; 0 while unknown."""
+        return next((int(s.sentence_count) for s in self.sentences.values()), 0)
+
+    @property
+    def finished(self) -> bool:
+        """True when every sentence was signed or refused, and the robot is at rest again."""
+        return self.at_rest and 0 < self.expected <= len(self.started) + len(self.refusals)
+
+    @property
+    def signed(self) -> bool:
+        """True when every sentence was signed."""
+        return self.finished and not self.refusals and self.expected == len(self.started)
+
+    def timing_at(self, index: int, elapsed: float) -> TokenTiming | None:
+        """Give the token of a sentence that is signed `elapsed` seconds after its first point, if any."""
+        for timing in self.started[index].timings:
+            if timing.start <= elapsed <= timing.start + timing.duration:
+                return timing
+        return None
