@@ -8,11 +8,11 @@ setup(
     name=PACKAGE,
     version="0.1.0",
     packages=find_packages(exclude=["test"]),
-    package_data={PACKAGE: ["py.typed"]},
+    package_data={PACKAGE: ["py.typed", "data/*.csv"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        ("share/teo_description/urdf", sorted(glob("urdf/*"))),
+        (f"share/{PACKAGE}/urdf", sorted(glob("urdf/*"))),
     ],
     install_requires=["setuptools"],
     zip_safe=False,

@@ -1,1 +1,44 @@
 """TEO's robot description: URDF, joint groups, limits, collision model and a renderer that needs no display."""
+
+from teo_description.errors import DescriptionError
+from teo_description.files import urdf_path
+from teo_description.home import HOME
+from teo_description.joints import (
+    ALL_JOINTS,
+    BODY_JOINTS,
+    COMMANDED_JOINTS,
+    HEAD,
+    LEFT_ARM,
+    LEFT_HAND,
+    LEFT_LEG,
+    LEG_JOINTS,
+    RIGHT_ARM,
+    RIGHT_HAND,
+    RIGHT_LEG,
+    TRUNK,
+    mirrored_name,
+)
+from teo_description.limits import JointLimits, description_hash, joint_limits, urdf_text
+
+__all__ = [
+    "ALL_JOINTS",
+    "BODY_JOINTS",
+    "COMMANDED_JOINTS",
+    "HEAD",
+    "HOME",
+    "LEFT_ARM",
+    "LEFT_HAND",
+    "LEFT_LEG",
+    "LEG_JOINTS",
+    "RIGHT_ARM",
+    "RIGHT_HAND",
+    "RIGHT_LEG",
+    "TRUNK",
+    "DescriptionError",
+    "JointLimits",
+    "description_hash",
+    "joint_limits",
+    "mirrored_name",
+    "urdf_path",
+    "urdf_text",
+]

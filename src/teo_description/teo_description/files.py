@@ -1,0 +1,55 @@
+"""Where this package's files are, and writing files so that a reader never sees half of one."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from teo_description.errors import DescriptionError
+
+
+def urdf_path() -> Path:
+    """Path of ``teo.urdf``: in the source tree, or in the share folder of the prefix that holds this package.
+
+    Raises:
+        DescriptionError: ``urdf_missing``.
+    """
+    here = Path(__file__).resolve()
+    places = [here.parents[1] / "urdf" / "teo.urdf"]
+    places += [parent / "share" / "teo_description" / "urdf" / "teo.urdf" for parent in here.parents]
+    for place in places:
+        if place.is_file():
+            return place
+    raise DescriptionError(
+        "urdf_missing",
+        f"expected teo.urdf in the source tree or under share/teo_description above {here.parent}; build the package again",
+    )
+
+
+@contextmanager
+def atomic_path(path: Path) -> Iterator[Path]:
+    """Give a temporary file beside `path` that takes its name when the block ends well, and goes away otherwise."""
+    handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        temporary.chmod(0o666 & ~_umask())  # mkstemp's 0600 is for secrets
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Write a whole file or nothing."""
+    with atomic_path(path) as temporary:
+        temporary.write_bytes(content)
+
+
+def _umask() -> int:
+    value = os.umask(0)
+    os.umask(value)
+    return value

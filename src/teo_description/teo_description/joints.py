@@ -1,0 +1,38 @@
+"""Names and groups of TEO's joints, in the order in which the whole project lists them."""
+
+from __future__ import annotations
+
+_ARM = ("Frontal{}Shoulder", "Sagittal{}Shoulder", "Axial{}Shoulder", "Frontal{}Elbow", "Axial{}Wrist", "Frontal{}Wrist")
+_HAND = ("{}HandAbductor", "{}ThumbFinger", "{}IndexFinger", "{}MiddleFinger", "{}RingFinger", "{}PinkyFinger")
+_LEG = ("Axial{}Hip", "Sagittal{}Hip", "Frontal{}Hip", "Frontal{}Knee", "Frontal{}Ankle", "Sagittal{}Ankle")
+
+
+def _side(group: tuple[str, ...], side: str) -> tuple[str, ...]:
+    return tuple(name.format(side) for name in group)
+
+
+HEAD = ("AxialNeck", "FrontalNeck")
+TRUNK = ("AxialTrunk", "FrontalTrunk")
+LEFT_ARM, RIGHT_ARM = _side(_ARM, "Left"), _side(_ARM, "Right")
+LEFT_HAND, RIGHT_HAND = _side(_HAND, "Left"), _side(_HAND, "Right")
+LEFT_LEG, RIGHT_LEG = _side(_LEG, "Left"), _side(_LEG, "Right")
+
+BODY_JOINTS = HEAD + TRUNK + LEFT_ARM + RIGHT_ARM
+"""The 16 upper-body joints without the hands."""
+
+COMMANDED_JOINTS = BODY_JOINTS + LEFT_HAND + RIGHT_HAND
+"""The 28 joints that a sign can move, in the order of every trajectory."""
+
+LEG_JOINTS = LEFT_LEG + RIGHT_LEG
+"""The 12 joints that stand still while TEO signs."""
+
+ALL_JOINTS = COMMANDED_JOINTS + LEG_JOINTS
+"""The 40 joints of the joint state; the phalanges that follow a tendon are not among them."""
+
+
+def mirrored_name(name: str) -> str:
+    """Return the same joint, link or frame of the other side; a name without a side comes back unchanged."""
+    for one, other in (("Left", "Right"), ("Right", "Left"), ("left_", "right_"), ("right_", "left_")):
+        if one in name:
+            return name.replace(one, other)
+    return name

@@ -1,0 +1,75 @@
+"""Joint limits, read from the URDF."""
+
+from __future__ import annotations
+
+import hashlib
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.errors import DescriptionError
+from teo_description.files import urdf_path
+from teo_description.joints import ALL_JOINTS, COMMANDED_JOINTS
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class JointLimits:
+    """Limits of some joints, in the order of `names`; the arrays are read-only.
+
+    Attributes:
+        names: Joint names.
+        lower, upper: Position limits [rad]. Shape (n,).
+        velocity: Greatest speed [rad/s]. Shape (n,).
+    """
+
+    names: tuple[str, ...]
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+
+
+@cache
+def urdf_text() -> str:
+    """TEO's URDF."""
+    return urdf_path().read_text(encoding="utf-8")
+
+
+@cache
+def description_hash() -> str:
+    """SHA-256 of the URDF text (UTF-8), in hexadecimal: names the robot that a trajectory was made for."""
+    return hashlib.sha256(urdf_text().encode("utf-8")).hexdigest()
+
+
+@cache
+def _limits() -> Mapping[str, tuple[float, float, float]]:
+    limits = {}
+    for joint in ET.fromstring(urdf_text()).iter("joint"):
+        limit = joint.find("limit")
+        if limit is not None and joint.find("mimic") is None:
+            lower, upper, velocity = (float(limit.attrib[key]) for key in ("lower", "upper", "velocity"))
+            limits[joint.attrib["name"]] = (lower, upper, velocity)
+    return limits
+
+
+def joint_limits(names: Sequence[str] = COMMANDED_JOINTS) -> JointLimits:
+    """Limits of the named joints.
+
+    Args:
+        names: Joints among `ALL_JOINTS`, in the order wanted.
+
+    Raises:
+        DescriptionError: ``unknown_joint``.
+    """
+    table = _limits()
+    unknown = [name for name in names if name not in table]
+    if unknown:
+        raise DescriptionError(
+            "unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {', '.join(map(repr, unknown))}"
+        )
+    values = np.array([table[name] for name in names], dtype=np.float64).reshape(-1, 3)
+    values.setflags(write=False)
+    return JointLimits(names=tuple(names), lower=values[:, 0], upper=values[:, 1], velocity=values[:, 2])

@@ -1,0 +1,171 @@
+"""TEO as a rigid-body model: where its links are at a pose, and how they move with the joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from teo_description.clearance import Clearance, ClearanceChecker
+from teo_description.errors import DescriptionError
+from teo_description.home import HOME
+from teo_description.joints import ALL_JOINTS
+from teo_description.limits import urdf_text
+
+Matrix = NDArray[np.float64]
+
+
+class Robot:
+    """Kinematics of the URDF in Pinocchio.
+
+    A configuration `q` is an array of all of the model's joint values [rad], the following phalanges included; make it with
+    `configuration`. Link frames are named ``<joint>_link``; fixed frames as in the URDF: ``right_palm``, ``left_palm`` and
+    ``RightIndexFingerTip`` (x along the fingers, z out of the palmar face, on both hands), ``right_sensor_plate``,
+    ``right_sole``, ``camera_link``, ``camera_optical_frame``, ``base_link``.
+
+    Not for use by several threads at once: the results of Pinocchio's last call live in the object. Loading one takes some
+    milliseconds, so give each thread its own.
+    """
+
+    def __init__(self, model: pin.Model) -> None:
+        self.model = model
+        self.data = model.createData()
+        self._frames = {frame.name: index for index, frame in enumerate(model.frames) if frame.type == pin.BODY}
+        self._column = {name: index for index, name in enumerate(ALL_JOINTS)}
+        self._expansion = self._expansion_matrix()
+        # One source column for each model joint: all multipliers are 1 and all offsets 0 (checked at loading).
+        self._source = np.argmax(self._expansion, axis=1)
+        self._home = np.array([HOME[name] for name in ALL_JOINTS])
+
+    @classmethod
+    def load(cls) -> Robot:
+        """Load TEO from the package's URDF."""
+        return cls(pin.buildModelFromXML(urdf_text()))
+
+    def _expansion_matrix(self) -> Matrix:
+        """Which of `ALL_JOINTS` moves which model joint. Shape (nq, 40)."""
+        import xml.etree.ElementTree as ET  # noqa: N817, PLC0415
+
+        matrix = np.zeros((self.model.nq, len(ALL_JOINTS)))
+        for joint in ET.fromstring(urdf_text()).iter("joint"):
+            if joint.attrib["type"] != "revolute":
+                continue
+            mimic = joint.find("mimic")
+            leader = joint.attrib["name"] if mimic is None else mimic.attrib["joint"]
+            row = self.model.joints[self.model.getJointId(joint.attrib["name"])].idx_q
+            matrix[row, self._column[leader]] = 1.0
+        return matrix
+
+    @property
+    def frame_names(self) -> tuple[str, ...]:
+        """Names of all link and fixed frames."""
+        return tuple(self._frames)
+
+    def configuration(self, positions: Mapping[str, float]) -> Matrix:
+        """Expand named joint positions to the model's configuration.
+
+        Args:
+            positions: Joint positions [rad] by name, any of `ALL_JOINTS`; joints not named are at `HOME`. Limits are not
+                checked here.
+
+        Returns:
+            Configuration, the phalanges following their finger. Shape (nq,).
+
+        Raises:
+            DescriptionError: ``unknown_joint`` or ``not_finite``.
+        """
+        values = self._home.copy()
+        for name, value in positions.items():
+            column = self._column.get(name)
+            if column is None:
+                raise DescriptionError(
+                    "unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {name!r}"
+                )
+            values[column] = value
+        if not np.isfinite(values).all():
+            bad = [name for name, value in zip(ALL_JOINTS, values, strict=True) if not np.isfinite(value)]
+            raise DescriptionError("not_finite", f"expected finite positions [rad]; got NaN or infinity for {', '.join(bad)}")
+        expanded: Matrix = values[self._source]
+        return expanded
+
+    def placement(self, q: Matrix, frame: str) -> Matrix:
+        """Pose of a frame in ``base_link``.
+
+        Args:
+            q: Configuration, shape (nq,).
+            frame: A name of `frame_names`.
+
+        Returns:
+            Homogeneous transform [m]. Shape (4, 4).
+
+        Raises:
+            DescriptionError: ``unknown_frame`` or ``wrong_shape``.
+        """
+        index = self._frame_index(frame)
+        pin.forwardKinematics(self.model, self.data, self._checked(q))
+        matrix: Matrix = pin.updateFramePlacement(self.model, self.data, index).homogeneous
+        return matrix
+
+    def placements(self, q: Matrix, frames: Sequence[str]) -> Matrix:
+        """Poses of several frames in ``base_link`` from one pass over the tree. Shape (n, 4, 4)."""
+        indices = [self._frame_index(frame) for frame in frames]
+        pin.forwardKinematics(self.model, self.data, self._checked(q))
+        poses = np.empty((len(indices), 4, 4))
+        for row, index in enumerate(indices):
+            poses[row] = pin.updateFramePlacement(self.model, self.data, index).homogeneous
+        return poses
+
+    def jacobian(self, q: Matrix, frame: str, joints: Sequence[str]) -> Matrix:
+        """How a frame moves with some joints, the phalanges that follow included.
+
+        Args:
+            q: Configuration, shape (nq,).
+            frame: A name of `frame_names`.
+            joints: n names of `ALL_JOINTS`.
+
+        Returns:
+            Linear velocity of the frame's origin [m/rad] over angular velocity [rad/rad], both in the axes of ``base_link``
+            (Pinocchio's LOCAL_WORLD_ALIGNED). Shape (6, n).
+
+        Raises:
+            DescriptionError: ``unknown_frame``, ``unknown_joint`` or ``wrong_shape``.
+        """
+        index = self._frame_index(frame)
+        unknown = [name for name in joints if name not in self._column]
+        if unknown:
+            raise DescriptionError("unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {unknown}")
+        columns = [self._column[name] for name in joints]
+        full = pin.computeFrameJacobian(self.model, self.data, self._checked(q), index, pin.LOCAL_WORLD_ALIGNED)
+        jacobian: Matrix = full @ self._expansion[:, columns]
+        return jacobian
+
+    def clearance(self, q: Matrix) -> Clearance:
+        """Smallest distance between parts of the robot that must not touch; negative when they interpenetrate.
+
+        Which pairs count is said in `clearance.ClearanceChecker`.
+
+        Raises:
+            DescriptionError: ``wrong_shape``.
+        """
+        return self._checker.clearance(self._checked(q))
+
+    @cached_property
+    def _checker(self) -> ClearanceChecker:
+        return ClearanceChecker(self.model, urdf_text())
+
+    def _frame_index(self, frame: str) -> int:
+        index = self._frames.get(frame)
+        if index is None:
+            raise DescriptionError("unknown_frame", f"expected a frame among {', '.join(self._frames)}; got {frame!r}")
+        return index
+
+    def _checked(self, q: Matrix) -> Matrix:
+        if np.shape(q) != (self.model.nq,):
+            raise DescriptionError(
+                "wrong_shape",
+                f"expected a configuration of shape ({self.model.nq},) as configuration() makes it; got {np.shape(q)}",
+            )
+        return q
