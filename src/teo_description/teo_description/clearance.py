@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -20,14 +21,103 @@ class Clearance(NamedTuple):
     """Name of the other link."""
 
 
+_TORSO = (
+    "root_link",
+    "AxialTrunk_link",
+    "FrontalTrunk_link",
+    "AxialNeck_link",
+    "FrontalNeck_link",
+    "FrontalLeftHip_link",
+    "FrontalRightHip_link",
+    "FrontalLeftKnee_link",
+    "FrontalRightKnee_link",
+)
+
+
+def _shoulder(side: str) -> tuple[str, ...]:
+    return f"Frontal{side}Shoulder_link", f"Sagittal{side}Shoulder_link"
+
+
+def _upper_arm(side: str) -> tuple[str, ...]:
+    return (f"Axial{side}Shoulder_link",)
+
+
+def _forearm(side: str) -> tuple[str, ...]:
+    return f"Frontal{side}Elbow_link", f"Axial{side}Wrist_link"
+
+
+def _hand(side: str) -> tuple[str, ...]:
+    fingers = [f"{side}{finger}Finger{part}_link" for finger in ("Index", "Middle", "Ring", "Pinky") for part in ("", "Middle", "Distal")]
+    thumb = (f"{side}HandAbductor_link", f"{side}ThumbFinger_link", f"{side}ThumbFingerDistal_link")
+    return (f"Frontal{side}Wrist_link", f"{side}Hand_link", *thumb, *fingers)
+
+
+def watched_pairs() -> tuple[tuple[str, str], ...]:
+    """Pairs of links that must not touch.
+
+    Upper arm, forearm and hand of each side against trunk, head, pelvis and legs; all of one arm from the shoulder on against
+    all of the other; and each hand against its own shoulder, upper arm and elbow. Left out are neighbours (a link and the next,
+    the two links at a shoulder or wrist), which touch or nearly touch at every pose because of how their joint is built, and the
+    parts of one hand among themselves: fingers and thumb are meant to meet there.
+    """
+    pairs: list[tuple[str, str]] = []
+    for side in ("Left", "Right"):
+        pairs += product(_upper_arm(side) + _forearm(side) + _hand(side), _TORSO)
+        # The rest of the hand's own arm: two joints at the wrist lie between, so it is not a neighbour of the elbow link.
+        pairs += product(_hand(side)[1:], (*_shoulder(side), *_upper_arm(side), _forearm(side)[0]))
+    left, right = (_shoulder(side) + _upper_arm(side) + _forearm(side) + _hand(side) for side in ("Left", "Right"))
+    pairs += product(left, right)
+    return tuple(pairs)
+
+
 class ClearanceChecker:
-    """Distances between the collision shapes of links that can meet."""
+    """Exact distances between the collision shapes of `watched_pairs`, the nearest pairs first.
+
+    A pair of shapes is measured only when the distance of their bounding spheres leaves room for a smaller result than the
+    one found, which makes the answer exact at a small part of the cost. A pair of shapes that overlaps at `HOME` would be an error of
+    the description: a test forbids it.
+    """
 
     def __init__(self, model: pin.Model, urdf: str) -> None:
         self._model = model
         self._data = model.createData()
         self._geometry = pin.buildGeomFromUrdfString(model, urdf, pin.GeometryType.COLLISION)
+        objects = list(self._geometry.geometryObjects)
+        links = [model.frames[item.parentFrame].name for item in objects]
+        by_link: dict[str, list[int]] = {}
+        for index, link in enumerate(links):
+            by_link.setdefault(link, []).append(index)
+        pairs = [
+            (first, second)
+            for one, other in watched_pairs()
+            for first, second in product(by_link.get(one, ()), by_link.get(other, ()))
+        ]
+        for first, second in pairs:
+            self._geometry.addCollisionPair(pin.CollisionPair(first, second))
+        self._geometry_data = self._geometry.createData()
+        for request in self._geometry_data.distanceRequests:
+            request.enable_signed_distance = True
+        self._links = links
+        self._pairs = np.array(pairs)
+        for item in objects:
+            item.geometry.computeLocalAABB()
+        self._centres = np.array([item.geometry.aabb_center for item in objects]).reshape(-1, 3)
+        radii = np.array([item.geometry.aabb_radius for item in objects])
+        self._reach = radii[self._pairs[:, 0]] + radii[self._pairs[:, 1]]
 
     def clearance(self, q: NDArray[np.float64]) -> Clearance:
-        """Smallest distance at a configuration."""
-        raise NotImplementedError
+        """Smallest distance at a configuration, shape (nq,)."""
+        pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._geometry_data, q)
+        centres = np.array([pose.act(centre) for pose, centre in zip(self._geometry_data.oMg, self._centres, strict=True)])
+        apart = centres[self._pairs[:, 0]] - centres[self._pairs[:, 1]]
+        bounds = np.sqrt(np.einsum("ij,ij->i", apart, apart)) - self._reach
+        best, closest = np.inf, 0
+        for index in np.argsort(bounds):
+            if bounds[index] >= best:
+                break
+            pair = int(index)
+            distance = pin.computeDistance(self._geometry, self._geometry_data, pair).min_distance
+            if distance < best:
+                best, closest = distance, pair
+        first, second = self._pairs[closest]
+        return Clearance(float(best), self._links[first], self._links[second])
