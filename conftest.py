@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-# Domain IDs up to 101 keep DDS ports below Linux's ephemeral range (ROS 2 documentation, "The ROS_DOMAIN_ID").
-# 0 to 19 are left to people.
+# Domain IDs up to 101 keep DDS ports below Linux's ephemeral range (ROS 2 documentation, "The
+# ROS_DOMAIN_ID"). 0 to 19 are left to people.
 _DOMAINS = range(20, 102)
 
 
 @pytest.fixture
 def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    """A DDS domain that no other test of this machine uses, confined to localhost; also in the environment."""
+    """A DDS domain that no other test here uses, confined to localhost; also in the environment."""
     folder = Path(tempfile.gettempdir()) / "teo_test_domains"
     folder.mkdir(exist_ok=True)
     # Start at a place of this process's own, so that a domain is not reused at once by the next test.

@@ -1,8 +1,9 @@
-"""Time from a text on `text` to its first JointTrajectory, through the real translator and executor processes.
+"""Time from a text on `text` to its first JointTrajectory, through the real translator and executor.
 
-The bench stands in for driver and clock: as soon as a trajectory arrives it sets simulated time past the trajectory's
-end and reports the robot there, so that 200 sentences take seconds instead of the hour that signing them would take.
-The baseline, in the same run, is the same text echoed by a process that does nothing with it: what DDS alone costs.
+The bench stands in for driver and clock: as soon as a trajectory arrives it sets simulated time past the
+trajectory's end and reports the robot there, so that 200 sentences take seconds instead of the hour that
+signing them would take. The baseline, in the same run, is the same text echoed by a process that does nothing
+with it: what DDS alone costs.
 """
 
 from __future__ import annotations
@@ -30,7 +31,15 @@ from trajectory_msgs.msg import JointTrajectory
 from teo_description import ALL_JOINTS, HOME
 
 SENTENCES = 200
-_TEXTS = ("¿Qué tal?", "Me llamo Ana.", "Buenos días", "Yo tengo 7 años", "Hola", "¡Vamos a comer!", "Dame la mano")
+_TEXTS = (
+    "¿Qué tal?",
+    "Me llamo Ana.",
+    "Buenos días",
+    "Yo tengo 7 años",
+    "Hola",
+    "¡Vamos a comer!",
+    "Dame la mano",
+)
 _TIMEOUT = 60.0  # [s] for one answer, start of the processes included
 _TICK = 0.005  # [s] between clock messages while waiting
 
@@ -66,11 +75,15 @@ def measure(sentences: int = SENTENCES) -> dict[str, np.ndarray]:
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     node.create_subscription(JointTrajectory, "joint_trajectory", inbox.trajectories.append, 10)
     node.create_subscription(String, "echo", inbox.echoes.append, 10)
-    node.create_subscription(ExecutorStatus, "executor_status", lambda m: inbox.states.append(m.state), latched)
+    node.create_subscription(
+        ExecutorStatus, "executor_status", lambda m: inbox.states.append(m.state), latched
+    )
     text = node.create_publisher(String, "text", 10)
     clock = node.create_publisher(Clock, "clock", 10)
     joints = node.create_publisher(JointState, "joint_states", 10)
-    home = JointState(name=list(ALL_JOINTS), position=[HOME[name] for name in ALL_JOINTS], velocity=[0.0] * 40)
+    home = JointState(
+        name=list(ALL_JOINTS), position=[HOME[name] for name in ALL_JOINTS], velocity=[0.0] * 40
+    )
     now = 1.0
 
     def tick(seconds: float = _TICK) -> None:
@@ -96,7 +109,10 @@ def measure(sentences: int = SENTENCES) -> dict[str, np.ndarray]:
         simulated = ("--ros-args", "-p", "use_sim_time:=true")
         graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)
         graph.start("echo", sys.executable, "-c", _ECHO)
-        wait(lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1, ticking=True)
+        wait(
+            lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1,
+            ticking=True,
+        )
         wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states, ticking=True)
         for index in range(sentences):
             inbox.trajectories.clear()

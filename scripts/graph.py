@@ -29,7 +29,7 @@ class Graph:
     """Processes that are all stopped, by SIGINT as Ctrl-C does, when the `with` block ends."""
 
     def __init__(self, *, log_folder: Path, environment: Mapping[str, str] | None = None) -> None:
-        """Keep what each process prints in `log_folder`/NAME.log; `environment` is added to this process's own."""
+        """Keep what each process prints in `log_folder`/NAME.log; add `environment` to our own."""
         self._log_folder = log_folder
         self._environment = {**os.environ, **(environment or {})}
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
@@ -78,9 +78,8 @@ class Graph:
         """Raise `GraphError` if a process has ended by itself."""
         for name, process in self._processes.items():
             if process.poll() is not None:
-                raise GraphError(
-                    f"expected {name} to keep running, it ended with status {process.returncode}:\n{self.tail(name)}"
-                )
+                status, said = process.returncode, self.tail(name)
+                raise GraphError(f"expected {name} to keep running, it ended with status {status}:\n{said}")
 
     def tail(self, name: str, lines: int = 15) -> str:
         """Give the last lines that a process printed."""

@@ -78,9 +78,11 @@ def test_a_typed_sentence_moves_the_robot_and_brings_it_back_to_rest(
 
         def ready() -> bool:
             graph.check()
-            return bool(node.states) and all(
-                node.count_subscribers(topic) for topic in ("text", "joint_trajectory")
-            ) and node.count_subscribers("sign_tokens") == 2
+            return (
+                bool(node.states)
+                and all(node.count_subscribers(topic) for topic in ("text", "joint_trajectory"))
+                and node.count_subscribers("sign_tokens") == 2
+            )
 
         spin_until(ready, START_TIMEOUT)
         np.testing.assert_allclose(node.positions()[-1], home, atol=1e-9)

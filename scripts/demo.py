@@ -1,0 +1,242 @@
+"""The main job, from one command: a Spanish text in, TEO signing it out.
+
+Starts translator, executor, driver and a recorder as processes, publishes the text as anyone would, waits until
+TEO rests again, and leaves the bag, a film and a film strip. Exit status 0: everything was signed.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import rclpy
+import typer
+from film import FRAMES_PER_SECOND, LiveFilm
+from graph import Graph, GraphError
+from progress import Progress
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
+from rich.console import Console
+from rich.table import Table
+from sensor_msgs.msg import JointState
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
+
+from teo_description.rendering import CAMERAS, film_strip, render_pose, save_png
+
+RECORDED = (
+    "text",
+    "sign_tokens",
+    "joint_trajectory",
+    "joint_states",
+    "robot_description",
+    "executor_status",
+)
+# The tests use domains 20 to 101, people 0 unless they say otherwise.
+DOMAIN = "18"
+START_TIMEOUT = 30.0  # [s] for every process to be there: a loaded machine takes 10 s
+TRANSLATION_TIMEOUT = 10.0  # [s] from the text to its tokens: a slow machine takes 1 s
+# [s] that a sentence may take: a thousand letters at two seconds each, the most that one message holds.
+SIGNING_TIMEOUT = 2000.0
+KINDS = {
+    SignToken.KIND_LEXICAL: "sign",
+    SignToken.KIND_LETTER: "letter",
+    SignToken.KIND_NUMBER: "number",
+    SignToken.KIND_PAUSE: "pause",
+}
+
+
+class DemoError(Exception):
+    """The demo could not do its job; the message says what was expected and what came."""
+
+
+class Spectator(Node):
+    """Sees what any other participant of the graph can see, and films it."""
+
+    def __init__(self, film: LiveFilm) -> None:
+        super().__init__("demo_spectator")
+        self.progress = Progress()
+        self.states: list[tuple[float, dict[str, float]]] = []
+        self._film = film
+        self._filming = False
+        self._next_frame = 0.0
+        status_qos = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.create_subscription(JointState, "joint_states", self._on_state, 100)
+        self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, 100)
+        self.create_subscription(ExecutorStatus, "executor_status", self.progress.on_status, status_qos)
+
+    def start_filming(self) -> None:
+        """Keep and film every state from now on."""
+        self._filming = True
+
+    def _on_state(self, message: JointState) -> None:
+        now = seconds(message.header.stamp)
+        if not self._filming:
+            self.states = [(now, {})]
+            return
+        positions = dict(zip(message.name, message.position, strict=True))
+        self.states.append((now, positions))
+        if now >= self._next_frame:
+            self._next_frame = max(self._next_frame + 1.0 / FRAMES_PER_SECOND, now - 1.0 / FRAMES_PER_SECOND)
+            self._film.add(positions, self._caption(now))
+
+    def _caption(self, now: float) -> str:
+        for index, status in self.progress.started.items():
+            elapsed = now - seconds(status.header.stamp)
+            if 0.0 <= elapsed <= status.duration:
+                timing = self.progress.timing_at(index, elapsed)
+                text = self.progress.sentences[index].text if index in self.progress.sentences else ""
+                return f"{text}   {timing.token.gloss}" if timing else text
+        return ""
+
+    def state_at(self, moment: float) -> dict[str, float]:
+        """Positions [rad] by joint name at the sample nearest to a moment [s]."""
+        return min(self.states, key=lambda state: abs(state[0] - moment))[1]
+
+
+def seconds(stamp: object) -> float:
+    """Give a message's stamp in seconds."""
+    return float(Time.from_msg(stamp).nanoseconds) * 1e-9
+
+
+def sign(text: str, out: Path, console: Console) -> bool:
+    """Have the text signed; True if all of it was."""
+    os.environ.update(ROS_DOMAIN_ID=DOMAIN, ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
+    shutil.rmtree(out / "bag", ignore_errors=True)
+    out.mkdir(parents=True, exist_ok=True)
+    began = time.monotonic()
+    with Graph(log_folder=out / "log") as graph:
+        graph.start_nodes()
+        graph.start("recorder", "ros2", "bag", "record", "-o", str(out / "bag"), "--topics", *RECORDED)
+        rclpy.init()
+        try:
+            with LiveFilm(out / "signing.mp4") as film:
+                spectator = Spectator(film)
+                executor = SingleThreadedExecutor()
+                executor.add_node(spectator)
+                perform(text, graph, spectator, executor, console)
+        finally:
+            rclpy.try_shutdown()
+        if not film.whole:
+            raise DemoError(f"expected a film at {out / 'signing.mp4'}; the process that draws it failed")
+        if graph.stop("recorder") != 0:
+            raise DemoError(f"expected the recorder to end cleanly:\n{graph.tail('recorder')}")
+    draw_strip(spectator, out / "signing.png")
+    console.print(table(spectator.progress))
+    moved = sum(status.duration for status in spectator.progress.started.values())
+    console.print(
+        f"signing took {moved:.1f} s, the whole run {time.monotonic() - began:.1f} s; left in {out}/:"
+    )
+    console.print("  bag/ (MCAP), signing.mp4, signing.png, log/")
+    for refusal in spectator.progress.refusals:
+        console.print(f"[red]not signed: {refusal}[/red]")
+    return spectator.progress.signed
+
+
+def perform(
+    text: str, graph: Graph, spectator: Spectator, executor: SingleThreadedExecutor, console: Console
+) -> None:
+    """Publish the text once everybody listens, and wait until TEO is at rest again."""
+
+    def wait(condition: Callable[[], bool], timeout: float, expected: str, process: str) -> None:
+        deadline = time.monotonic() + timeout
+        while not condition():
+            graph.check()
+            if time.monotonic() > deadline:
+                raise DemoError(
+                    f"expected {expected} within {timeout:.0f} s; {process} said:\n{graph.tail(process)}"
+                )
+            executor.spin_once(timeout_sec=0.1)
+
+    with console.status("starting translator, executor, driver and recorder"):
+        listeners = {
+            "text": 2,
+            "sign_tokens": 3,
+            "joint_trajectory": 2,
+            "joint_states": 3,
+            "executor_status": 2,
+        }
+        wait(
+            lambda: (
+                bool(spectator.states)
+                and all(spectator.count_subscribers(topic) >= count for topic, count in listeners.items())
+            ),
+            START_TIMEOUT,
+            f"every process to listen ({', '.join(listeners)})",
+            "executor",
+        )
+    spectator.start_filming()
+    console.print(f"ros2 topic pub --once text std_msgs/msg/String  [bold]{text}[/bold]")
+    message = f"{{data: {yaml_quoted(text)}}}"
+    publisher = subprocess.Popen(
+        ["ros2", "topic", "pub", "--once", "text", "std_msgs/msg/String", message], stdout=subprocess.DEVNULL
+    )
+    progress = spectator.progress
+    with console.status("translating"):
+        wait(lambda: publisher.poll() is not None, START_TIMEOUT, "ros2 topic pub to end", "translator")
+        wait(lambda: progress.expected > 0, TRANSLATION_TIMEOUT, "sign tokens", "translator")
+    with console.status("TEO is signing"):
+        wait(lambda: progress.finished, SIGNING_TIMEOUT, "TEO at rest after the last sentence", "executor")
+
+
+def yaml_quoted(text: str) -> str:
+    """Write a text as a YAML scalar in single quotes."""
+    return "'" + text.replace("'", "''") + "'"
+
+
+def draw_strip(spectator: Spectator, path: Path) -> None:
+    """Draw the middle of every sign, between rest and rest."""
+    frames, captions = [spectator.states[1][1]], ["(rest)"]
+    for _, status in sorted(spectator.progress.started.items()):
+        start = seconds(status.header.stamp)
+        for timing in status.timings:
+            frames.append(spectator.state_at(start + timing.start + timing.duration / 2))
+            captions.append(timing.token.gloss or "(pause)")
+    frames.append(spectator.states[-1][1])
+    captions.append("(rest)")
+    camera = CAMERAS["front"].sized(400, 400)
+    save_png(path, film_strip([render_pose(frame, camera) for frame in frames], captions, columns=6))
+
+
+def table(progress: Progress) -> Table:
+    """Lay out every token with its times, measured from the first movement."""
+    result = Table("token", "kind", "start [s]", "duration [s]", "stretch", title="What TEO signed")
+    first = min((seconds(status.header.stamp) for status in progress.started.values()), default=0.0)
+    for _, status in sorted(progress.started.items()):
+        begin = seconds(status.header.stamp) - first
+        for timing in status.timings:
+            result.add_row(
+                timing.token.gloss or "-",
+                KINDS[timing.token.kind],
+                f"{begin + timing.start:.2f}",
+                f"{timing.duration:.2f}",
+                f"{timing.stretch:.2f}",
+            )
+        result.add_section()
+    return result
+
+
+def main(
+    text: Annotated[str, typer.Argument(help="Spanish text, one or more sentences.")],
+    out: Annotated[Path, typer.Option(help="Folder for what the run leaves.")] = Path("out"),
+) -> None:
+    """Sign TEXT with the simulated TEO."""
+    console = Console()
+    try:
+        signed = sign(text, out, console)
+    except (DemoError, GraphError) as error:
+        console.print(f"[red]{error}[/red]")
+        signed = False
+    if not signed:
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    typer.run(main)

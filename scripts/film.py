@@ -1,0 +1,51 @@
+"""Films the robot while it moves."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Mapping
+from pathlib import Path
+
+from teo_description.rendering import MotionVideo, Renderer
+
+FRAMES_PER_SECOND = 25.0
+_Frame = tuple[dict[str, float], str]
+
+
+class LiveFilm:
+    """An MP4 that grows as poses are added.
+
+    Drawing happens in a process of its own, so that it never delays the listening; the file appears, whole,
+    when the `with` block ends.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Prepare a film at `path`; its folder exists."""
+        context = multiprocessing.get_context("spawn")
+        self._frames: multiprocessing.Queue[_Frame | None] = context.Queue()
+        self._process = context.Process(target=_draw, args=(path, self._frames), daemon=True)
+
+    def __enter__(self) -> LiveFilm:
+        self._process.start()
+        return self
+
+    def add(self, positions: Mapping[str, float], caption: str) -> None:
+        """Append a frame: joint positions [rad] by name, and a line of text."""
+        self._frames.put((dict(positions), caption))
+
+    def __exit__(self, *_: object) -> None:
+        self._frames.put(None)
+        self._process.join()
+
+    @property
+    def whole(self) -> bool:
+        """True once the film has been written."""
+        return self._process.exitcode == 0
+
+
+def _draw(path: Path, frames: multiprocessing.Queue[_Frame | None]) -> None:
+    renderer = Renderer()
+    with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as video:
+        while (frame := frames.get()) is not None:
+            positions, caption = frame
+            video.add(renderer.render(positions), caption)
