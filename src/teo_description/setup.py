@@ -1,4 +1,4 @@
-from glob import glob
+from pathlib import Path
 
 from setuptools import find_packages, setup
 
@@ -12,13 +12,13 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        (f"share/{PACKAGE}/urdf", sorted(glob("urdf/*"))),
+        (f"share/{PACKAGE}/urdf", sorted(map(str, Path("urdf").glob("*.urdf")))),
     ],
     install_requires=["setuptools"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
-    description="TEO's robot description: URDF, joint groups, limits, collision model and a renderer that needs no display.",
+    description="TEO's URDF, joint groups, limits, self-collision and a renderer without a display.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={

@@ -1,4 +1,4 @@
-"""TEO's robot description: URDF, joint groups, limits, collision model and a renderer that needs no display."""
+"""TEO's robot description: URDF, joint groups, limits, self-collision and a renderer without a display."""
 
 from teo_description.errors import DescriptionError
 from teo_description.files import urdf_path

@@ -47,7 +47,11 @@ def _forearm(side: str) -> tuple[str, ...]:
 
 
 def _hand(side: str) -> tuple[str, ...]:
-    fingers = [f"{side}{finger}Finger{part}_link" for finger in ("Index", "Middle", "Ring", "Pinky") for part in ("", "Middle", "Distal")]
+    fingers = [
+        f"{side}{finger}Finger{part}_link"
+        for finger in ("Index", "Middle", "Ring", "Pinky")
+        for part in ("", "Middle", "Distal")
+    ]
     thumb = (f"{side}HandAbductor_link", f"{side}ThumbFinger_link", f"{side}ThumbFingerDistal_link")
     return (f"Frontal{side}Wrist_link", f"{side}Hand_link", *thumb, *fingers)
 
@@ -55,17 +59,21 @@ def _hand(side: str) -> tuple[str, ...]:
 def watched_pairs() -> tuple[tuple[str, str], ...]:
     """Pairs of links that must not touch.
 
-    Upper arm, forearm and hand of each side against trunk, head, pelvis and legs; all of one arm from the shoulder on against
-    all of the other; and each hand against its own shoulder, upper arm and elbow. Left out are neighbours (a link and the next,
-    the two links at a shoulder or wrist), which touch or nearly touch at every pose because of how their joint is built, and the
-    parts of one hand among themselves: fingers and thumb are meant to meet there.
+    Upper arm, forearm and hand of each side against trunk, head, pelvis and legs; all of one arm from the
+    shoulder on against all of the other; and each hand against its own shoulder, upper arm and elbow. Left
+    out are neighbours (a link and the next, the two links at a shoulder or wrist), which touch or nearly
+    touch at every pose because of how their joint is built, and the parts of one hand among themselves:
+    fingers and thumb are meant to meet there.
     """
     pairs: list[tuple[str, str]] = []
     for side in ("Left", "Right"):
         pairs += product(_upper_arm(side) + _forearm(side) + _hand(side), _TORSO)
-        # The rest of the hand's own arm: two joints at the wrist lie between, so it is not a neighbour of the elbow link.
+        # The rest of the hand's own arm: two joints at the wrist lie between, so it is not a neighbour of the
+        # elbow link.
         pairs += product(_hand(side)[1:], (*_shoulder(side), *_upper_arm(side), _forearm(side)[0]))
-    left, right = (_shoulder(side) + _upper_arm(side) + _forearm(side) + _hand(side) for side in ("Left", "Right"))
+    left, right = (
+        _shoulder(side) + _upper_arm(side) + _forearm(side) + _hand(side) for side in ("Left", "Right")
+    )
     pairs += product(left, right)
     return tuple(pairs)
 
@@ -73,9 +81,9 @@ def watched_pairs() -> tuple[tuple[str, str], ...]:
 class ClearanceChecker:
     """Exact distances between the collision shapes of `watched_pairs`, the nearest pairs first.
 
-    A pair of shapes is measured only when the distance of their bounding spheres leaves room for a smaller result than the
-    one found, which makes the answer exact at a small part of the cost. A pair of shapes that overlaps at `HOME` would be an error of
-    the description: a test forbids it.
+    A pair of shapes is measured only when the distance of their bounding spheres leaves room for a smaller
+    result than the one found, which makes the answer exact at a small part of the cost. A pair of shapes that
+    overlaps at `HOME` would be an error of the description: a test forbids it.
     """
 
     def __init__(self, model: pin.Model, urdf: str) -> None:
@@ -90,7 +98,7 @@ class ClearanceChecker:
         pairs = [
             (first, second)
             for one, other in watched_pairs()
-            for first, second in product(by_link.get(one, ()), by_link.get(other, ()))
+            for first, second in product(by_link[one], by_link[other])
         ]
         for first, second in pairs:
             self._geometry.addCollisionPair(pin.CollisionPair(first, second))
@@ -108,7 +116,9 @@ class ClearanceChecker:
     def clearance(self, q: NDArray[np.float64]) -> Clearance:
         """Smallest distance at a configuration, shape (nq,)."""
         pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._geometry_data, q)
-        centres = np.array([pose.act(centre) for pose, centre in zip(self._geometry_data.oMg, self._centres, strict=True)])
+        centres = np.array(
+            [pose.act(centre) for pose, centre in zip(self._geometry_data.oMg, self._centres, strict=True)]
+        )
         apart = centres[self._pairs[:, 0]] - centres[self._pairs[:, 1]]
         bounds = np.sqrt(np.einsum("ij,ij->i", apart, apart)) - self._reach
         best, closest = np.inf, 0

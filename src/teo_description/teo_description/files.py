@@ -25,13 +25,14 @@ def urdf_path() -> Path:
             return place
     raise DescriptionError(
         "urdf_missing",
-        f"expected teo.urdf in the source tree or under share/teo_description above {here.parent}; build the package again",
+        f"expected teo.urdf in the source tree or under share/teo_description above {here.parent}; "
+        "build the package again",
     )
 
 
 @contextmanager
 def atomic_path(path: Path) -> Iterator[Path]:
-    """Give a temporary file beside `path` that takes its name when the block ends well, and goes away otherwise."""
+    """Give a temporary file beside `path`: it takes that name when the block ends well, else it goes away."""
     handle, name = tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent)
     os.close(handle)
     temporary = Path(name)

@@ -11,7 +11,8 @@ from teo_description.joints import ALL_JOINTS
 
 def _home() -> Mapping[str, float]:
     rows = {
-        row.name: row for row in (*tables.body_joints(), *tables.hand_joints("Left"), *tables.hand_joints("Right"))
+        row.name: row
+        for row in (*tables.body_joints(), *tables.hand_joints("Left"), *tables.hand_joints("Right"))
     }
     # 0 where the joint can reach it, else the nearest it can: the fingers rest at their most extended, 7 deg.
     return MappingProxyType({name: min(max(0.0, rows[name].lower), rows[name].upper) for name in ALL_JOINTS})

@@ -2,8 +2,22 @@
 
 from __future__ import annotations
 
-_ARM = ("Frontal{}Shoulder", "Sagittal{}Shoulder", "Axial{}Shoulder", "Frontal{}Elbow", "Axial{}Wrist", "Frontal{}Wrist")
-_HAND = ("{}HandAbductor", "{}ThumbFinger", "{}IndexFinger", "{}MiddleFinger", "{}RingFinger", "{}PinkyFinger")
+_ARM = (
+    "Frontal{}Shoulder",
+    "Sagittal{}Shoulder",
+    "Axial{}Shoulder",
+    "Frontal{}Elbow",
+    "Axial{}Wrist",
+    "Frontal{}Wrist",
+)
+_HAND = (
+    "{}HandAbductor",
+    "{}ThumbFinger",
+    "{}IndexFinger",
+    "{}MiddleFinger",
+    "{}RingFinger",
+    "{}PinkyFinger",
+)
 _LEG = ("Axial{}Hip", "Sagittal{}Hip", "Frontal{}Hip", "Frontal{}Knee", "Frontal{}Ankle", "Sagittal{}Ankle")
 
 

@@ -68,7 +68,8 @@ def joint_limits(names: Sequence[str] = COMMANDED_JOINTS) -> JointLimits:
     unknown = [name for name in names if name not in table]
     if unknown:
         raise DescriptionError(
-            "unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {', '.join(map(repr, unknown))}"
+            "unknown_joint",
+            f"expected joints among {', '.join(ALL_JOINTS)}; got {', '.join(map(repr, unknown))}",
         )
     values = np.array([table[name] for name in names], dtype=np.float64).reshape(-1, 3)
     values.setflags(write=False)

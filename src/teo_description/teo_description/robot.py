@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 
@@ -21,23 +22,24 @@ Matrix = NDArray[np.float64]
 class Robot:
     """Kinematics of the URDF in Pinocchio.
 
-    A configuration `q` is an array of all of the model's joint values [rad], the following phalanges included; make it with
-    `configuration`. Link frames are named ``<joint>_link``; fixed frames as in the URDF: ``right_palm``, ``left_palm`` and
-    ``RightIndexFingerTip`` (x along the fingers, z out of the palmar face, on both hands), ``right_sensor_plate``,
-    ``right_sole``, ``camera_link``, ``camera_optical_frame``, ``base_link``.
+    A configuration `q` is an array of all of the model's joint values [rad], the following phalanges
+    included; make it with `configuration`. Link frames are named ``<joint>_link``; fixed frames as in the
+    URDF: ``right_palm``, ``left_palm`` and ``RightIndexFingerTip`` (x along the fingers, z out of the palmar
+    face, on both hands), ``right_sensor_plate``, ``right_sole``, ``camera_link``, ``camera_optical_frame``,
+    ``base_link``.
 
-    Not for use by several threads at once: the results of Pinocchio's last call live in the object. Loading one takes some
-    milliseconds, so give each thread its own.
+    Not for use by several threads at once: the results of Pinocchio's last call live in the object. Loading
+    one takes some milliseconds, so give each thread its own.
     """
 
     def __init__(self, model: pin.Model) -> None:
         self.model = model
         self.data = model.createData()
-        self._frames = {frame.name: index for index, frame in enumerate(model.frames) if frame.type == pin.BODY}
+        self._frames = {
+            frame.name: index for index, frame in enumerate(model.frames) if frame.type == pin.BODY
+        }
         self._column = {name: index for index, name in enumerate(ALL_JOINTS)}
-        self._expansion = self._expansion_matrix()
-        # One source column for each model joint: all multipliers are 1 and all offsets 0 (checked at loading).
-        self._source = np.argmax(self._expansion, axis=1)
+        self._expansion, self._offset = self._following()
         self._home = np.array([HOME[name] for name in ALL_JOINTS])
 
     @classmethod
@@ -45,19 +47,21 @@ class Robot:
         """Load TEO from the package's URDF."""
         return cls(pin.buildModelFromXML(urdf_text()))
 
-    def _expansion_matrix(self) -> Matrix:
-        """Which of `ALL_JOINTS` moves which model joint. Shape (nq, 40)."""
-        import xml.etree.ElementTree as ET  # noqa: N817, PLC0415
-
-        matrix = np.zeros((self.model.nq, len(ALL_JOINTS)))
+    def _following(self) -> tuple[Matrix, Matrix]:
+        """Matrix and offset that make a configuration of `ALL_JOINTS`' values. Shapes (nq, 40) and (nq,)."""
+        matrix, offset = np.zeros((self.model.nq, len(ALL_JOINTS))), np.zeros(self.model.nq)
         for joint in ET.fromstring(urdf_text()).iter("joint"):
-            if joint.attrib["type"] != "revolute":
+            if joint.attrib["type"] == "fixed":
                 continue
+            name = joint.attrib["name"]
             mimic = joint.find("mimic")
-            leader = joint.attrib["name"] if mimic is None else mimic.attrib["joint"]
-            row = self.model.joints[self.model.getJointId(joint.attrib["name"])].idx_q
-            matrix[row, self._column[leader]] = 1.0
-        return matrix
+            row = self.model.joints[self.model.getJointId(name)].idx_q
+            if mimic is None:
+                matrix[row, self._column[name]] = 1.0
+            else:
+                matrix[row, self._column[mimic.attrib["joint"]]] = float(mimic.attrib["multiplier"])
+                offset[row] = float(mimic.attrib["offset"])
+        return matrix, offset
 
     @property
     def frame_names(self) -> tuple[str, ...]:
@@ -68,8 +72,8 @@ class Robot:
         """Expand named joint positions to the model's configuration.
 
         Args:
-            positions: Joint positions [rad] by name, any of `ALL_JOINTS`; joints not named are at `HOME`. Limits are not
-                checked here.
+            positions: Joint positions [rad] by name, any of `ALL_JOINTS`; joints not named are at `HOME`.
+                Limits are not checked here.
 
         Returns:
             Configuration, the phalanges following their finger. Shape (nq,).
@@ -87,8 +91,10 @@ class Robot:
             values[column] = value
         if not np.isfinite(values).all():
             bad = [name for name, value in zip(ALL_JOINTS, values, strict=True) if not np.isfinite(value)]
-            raise DescriptionError("not_finite", f"expected finite positions [rad]; got NaN or infinity for {', '.join(bad)}")
-        expanded: Matrix = values[self._source]
+            raise DescriptionError(
+                "not_finite", f"expected finite positions [rad]; got NaN or infinity for {', '.join(bad)}"
+            )
+        expanded: Matrix = self._expansion @ values + self._offset
         return expanded
 
     def placement(self, q: Matrix, frame: str) -> Matrix:
@@ -127,8 +133,8 @@ class Robot:
             joints: n names of `ALL_JOINTS`.
 
         Returns:
-            Linear velocity of the frame's origin [m/rad] over angular velocity [rad/rad], both in the axes of ``base_link``
-            (Pinocchio's LOCAL_WORLD_ALIGNED). Shape (6, n).
+            Linear velocity of the frame's origin [m/rad] over angular velocity [rad/rad], both in the axes of
+            ``base_link`` (Pinocchio's LOCAL_WORLD_ALIGNED). Shape (6, n).
 
         Raises:
             DescriptionError: ``unknown_frame``, ``unknown_joint`` or ``wrong_shape``.
@@ -136,14 +142,18 @@ class Robot:
         index = self._frame_index(frame)
         unknown = [name for name in joints if name not in self._column]
         if unknown:
-            raise DescriptionError("unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {unknown}")
+            raise DescriptionError(
+                "unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {unknown}"
+            )
         columns = [self._column[name] for name in joints]
-        full = pin.computeFrameJacobian(self.model, self.data, self._checked(q), index, pin.LOCAL_WORLD_ALIGNED)
+        full = pin.computeFrameJacobian(
+            self.model, self.data, self._checked(q), index, pin.LOCAL_WORLD_ALIGNED
+        )
         jacobian: Matrix = full @ self._expansion[:, columns]
         return jacobian
 
     def clearance(self, q: Matrix) -> Clearance:
-        """Smallest distance between parts of the robot that must not touch; negative when they interpenetrate.
+        """Smallest distance between parts of the robot that must not touch; negative when they overlap.
 
         Which pairs count is said in `clearance.ClearanceChecker`.
 
@@ -159,13 +169,16 @@ class Robot:
     def _frame_index(self, frame: str) -> int:
         index = self._frames.get(frame)
         if index is None:
-            raise DescriptionError("unknown_frame", f"expected a frame among {', '.join(self._frames)}; got {frame!r}")
+            raise DescriptionError(
+                "unknown_frame", f"expected a frame among {', '.join(self._frames)}; got {frame!r}"
+            )
         return index
 
     def _checked(self, q: Matrix) -> Matrix:
         if np.shape(q) != (self.model.nq,):
             raise DescriptionError(
                 "wrong_shape",
-                f"expected a configuration of shape ({self.model.nq},) as configuration() makes it; got {np.shape(q)}",
+                f"expected a configuration of shape ({self.model.nq},) as configuration() makes it; "
+                f"got {np.shape(q)}",
             )
         return q

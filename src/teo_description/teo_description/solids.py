@@ -57,7 +57,9 @@ def visual_solids(shapes: Iterable[Shape], link: str) -> tuple[Solid, ...]:
             if shape.kind == "capsule":
                 ends = (shape.start, shape.end)
                 size = (shape.radius, 0.0, 0.0)
-                solids += [Solid(kind="sphere", size=size, centre=end, material=shape.material) for end in ends]
+                solids += [
+                    Solid(kind="sphere", size=size, centre=end, material=shape.material) for end in ends
+                ]
     return tuple(solids)
 
 

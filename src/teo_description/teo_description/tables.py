@@ -1,6 +1,7 @@
-"""The figures from which the URDF is built: one CSV table an idea in ``data/``, each naming its sources in its head.
+"""The figures from which the URDF is built: CSV tables in ``data/``, each naming its sources in its head.
 
-Tables describe the body as published; hands, fixed frames and shapes are listed for the right side and mirrored here about y = 0.
+Tables describe the body as published; hands, fixed frames and shapes are listed for the right side and
+mirrored here about y = 0.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class JointRow:
 
 @dataclass(frozen=True, kw_only=True)
 class Inertial:
-    """Mass [kg], centre of mass [m] in the link frame and inertia about it (ixx, iyy, izz, ixy, ixz, iyz) [kg m^2]."""
+    """Mass [kg], its centre [m] in the link frame and ixx, iyy, izz, ixy, ixz, iyz [kg m^2] about that."""
 
     mass: float
     centre: Vector
@@ -85,7 +86,7 @@ def _mirrored(vector: Vector) -> Vector:
 
 
 def _mirrored_axial(vector: Vector) -> Vector:
-    """Mirror an axis of rotation (or roll, pitch, yaw): a turn about x or z changes its sense, one about y does not."""
+    """Mirror an axis of rotation (or roll, pitch, yaw): turns about x and z change their sense."""
     return -vector[0] + 0.0, vector[1], -vector[2] + 0.0
 
 

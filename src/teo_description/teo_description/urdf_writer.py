@@ -14,7 +14,7 @@ ROBOT_NAME = "teo"
 ROOT_LINK = "base_link"
 
 VELOCITY_LIMIT = math.radians(50.0)
-"""[rad/s] maxVel of every iPOS axis (teo-configuration-files, nodes/common-ipos.ini); the hands get the same by decision."""
+"""[rad/s] maxVel of every iPOS axis (teo-configuration-files, nodes/common-ipos.ini); the hands get it too."""
 
 EFFORT_PLACEHOLDER = 30.0
 """[N m] A placeholder: URDF demands a figure and none is published for the real joints."""
@@ -26,8 +26,8 @@ PALM_MASS, PHALANX_MASS = 0.3, 0.1
 """[kg] Placeholders of dextra-yarp-devices' simulation model; no mass of the Dextra is published."""
 
 _HEAD_COMMENT = """
-  TEO, the humanoid of Universidad Carlos III de Madrid, with two Dextra hands. Written by `build_urdf` from the tables in
-  teo_description/data, where every figure names its source: do not edit.
+  TEO, the humanoid of Universidad Carlos III de Madrid, with two Dextra hands. Written by `build_urdf` from
+  the tables in teo_description/data, where every figure names its source: do not edit.
   Units: m, rad, kg. x forward, y left, z up. Joint effort limits and the hands' masses are placeholders.
   Velocity limits: 50 deg/s on every axis. Phalanges beyond the first copy it (mimic).
   """
@@ -45,7 +45,11 @@ def urdf() -> str:
     inertials = tables.inertials()
     # An empty root link: dynamics libraries such as KDL ignore the inertia of a root.
     ET.SubElement(root, "link", name=ROOT_LINK)
-    _add_fixed(root, FixedFrame(name="root_link", parent=ROOT_LINK, origin=(0, 0, 0), rpy=(0, 0, 0)), joint="base_fixed")
+    _add_fixed(
+        root,
+        FixedFrame(name="root_link", parent=ROOT_LINK, origin=(0, 0, 0), rpy=(0, 0, 0)),
+        joint="base_fixed",
+    )
     _add_link(root, "root_link", inertials["root_link"], shapes)
     for joint in tables.body_joints():
         _add_joint(root, joint)
@@ -127,8 +131,8 @@ def _add_fixed(root: ET.Element, frame: FixedFrame, joint: str | None = None) ->
 
 
 def _number(value: float) -> str:
-    # 12 digits: a picometre, and no digits from binary rounding in a file that people read.
-    return f"{value + 0.0:.12g}"
+    # 14 digits: right angles stay right, and no digits from binary rounding in a file that people read.
+    return f"{value + 0.0:.14g}"
 
 
 def _numbers(values: Vector | Iterable[float]) -> str:

@@ -1,0 +1,138 @@
+"""Motions in a CSV file: a header line, then time [s] first and a column of positions [rad] per joint."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.errors import DescriptionError
+from teo_description.joints import ALL_JOINTS
+from teo_description.limits import joint_limits
+
+LIMIT_TOLERANCE = 1e-5
+"""[rad] Positions written with six decimals may end this little outside a limit that they stand on."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Motion:
+    """Joint positions over time, linear in between.
+
+    Attributes:
+        names: Joint names.
+        times: Strictly increasing [s]. Shape (n,).
+        positions: [rad]. Shape (n, number of joints).
+    """
+
+    names: tuple[str, ...]
+    times: NDArray[np.float64]
+    positions: NDArray[np.float64]
+
+    @property
+    def duration(self) -> float:
+        """From the first time to the last [s]."""
+        return float(self.times[-1] - self.times[0])
+
+    def at(self, time: float) -> dict[str, float]:
+        """Positions [rad] by joint at a time [s] after the first row; outside the motion its ends hold."""
+        when = self.times[0] + time
+        return {
+            name: float(np.interp(when, self.times, column))
+            for name, column in zip(self.names, self.positions.T, strict=True)
+        }
+
+
+def read_motion(path: Path) -> Motion:
+    """Read and check a motion.
+
+    Raises:
+        DescriptionError: ``unreadable_file``, ``empty_motion``, ``bad_header``, ``unknown_joint``,
+            ``bad_row``, ``not_finite``, ``times_not_increasing`` or ``outside_limits``; the message names
+            file and line.
+    """
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            rows = [row for row in csv.reader(file) if row]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise DescriptionError("unreadable_file", f"expected a CSV file at {path}: {error}") from error
+    if len(rows) < 2:
+        raise DescriptionError(
+            "empty_motion", f"{path.name}: expected a header and at least one row, got {len(rows)} lines"
+        )
+    names = _checked_header(path, [name.strip() for name in rows[0]])
+    table = np.array(
+        [_numbers(path, line, row, len(names) + 1) for line, row in enumerate(rows[1:], start=2)]
+    )
+    late = np.flatnonzero(np.diff(table[:, 0]) <= 0.0)
+    if late.size:
+        line = int(late[0]) + 3
+        raise DescriptionError(
+            "times_not_increasing",
+            f"{path.name}, row {line}: expected a time after {table[line - 3, 0]:g} s, "
+            f"got {table[line - 2, 0]:g} s",
+        )
+    check_limits(names, table[:, 1:], path.name)
+    return Motion(names=names, times=table[:, 0], positions=table[:, 1:])
+
+
+def check_limits(names: tuple[str, ...], positions: NDArray[np.float64], where: str) -> None:
+    """Refuse positions that TEO cannot reach.
+
+    Args:
+        names: Joints, m of them.
+        positions: [rad]. Shape (n, m).
+        where: What to call their source in the message.
+
+    Raises:
+        DescriptionError: ``outside_limits``.
+    """
+    limits = joint_limits(names)
+    outside = (positions < limits.lower - LIMIT_TOLERANCE) | (positions > limits.upper + LIMIT_TOLERANCE)
+    if outside.any():
+        row, column = (int(index) for index in np.argwhere(outside)[0])
+        lower, upper, value = limits.lower[column], limits.upper[column], positions[row, column]
+        raise DescriptionError(
+            "outside_limits",
+            f"{where}, row {row + 2}: expected {names[column]} within {lower:.4f} .. {upper:.4f} rad "
+            f"({np.degrees(lower):.1f} .. {np.degrees(upper):.1f} deg), "
+            f"got {value:.4f} rad ({np.degrees(value):.1f} deg)",
+        )
+
+
+def _checked_header(path: Path, header: list[str]) -> tuple[str, ...]:
+    names = tuple(header[1:])
+    if header[0] in ALL_JOINTS or not names:
+        raise DescriptionError(
+            "bad_header",
+            f"{path.name}: expected a header with time first and then joint names, got {','.join(header)!r}",
+        )
+    unknown = [name for name in names if name not in ALL_JOINTS]
+    if unknown:
+        raise DescriptionError(
+            "unknown_joint",
+            f"{path.name}: expected joints among {', '.join(ALL_JOINTS)}; "
+            f"got {', '.join(map(repr, unknown))}",
+        )
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise DescriptionError(
+            "bad_header", f"{path.name}: expected each joint once, got several columns of {', '.join(twice)}"
+        )
+    return names
+
+
+def _numbers(path: Path, line: int, row: list[str], count: int) -> list[float]:
+    if len(row) != count:
+        raise DescriptionError("bad_row", f"{path.name}, row {line}: expected {count} values, got {len(row)}")
+    try:
+        values = [float(value) for value in row]
+    except ValueError as error:
+        raise DescriptionError("bad_row", f"{path.name}, row {line}: expected numbers; {error}") from error
+    if not np.isfinite(values).all():
+        raise DescriptionError(
+            "not_finite", f"{path.name}, row {line}: expected finite numbers, got NaN or infinity"
+        )
+    return values

@@ -1,0 +1,100 @@
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from teo_description import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
+from teo_description.clearance import watched_pairs
+
+# Poses [deg] in which the real TEO signed in public (teo-demos-misc, 20191023-ttd-congress.py): left arm, right arm.
+REST = (0, 0, 0, 0, 0, 0)
+DEMONSTRATED = {
+    "hola 1": (REST, (-56.0, 9.9, 21.8, -99.6, 33.5, -26.1)),
+    "hola 2": (REST, (-59.6, 9.9, 21.8, -83.6, 33.5, -17.6)),
+    "mi": ((-24.5, 13.9, -51.6, -72.3, 0, 0), (-55.0, -5.0, 57.0, -99.6, -56.5, 6.7)),
+    "nombre 1": ((-35.0, 7.0, -35.0, -85.0, 0, 0), (-65.0, 0, 50.0, -99.6, -20.0, 6.7)),
+    "nombre 2": ((-35.0, 7.0, -35.0, -85.0, 0, 0), (-51.0, 2.0, 50.0, -80.0, -30.0, 15.0)),
+    "T": (REST, (-73.2, 10.7, 10.6, -74.6, 34.7, 1.9)),
+    "E": (REST, (-75.4, 12.4, 9.6, -83.5, 86.2, 2.3)),
+    "O": (REST, (-73.4, 10.5, 13.1, -83.5, 25.7, -0.9)),
+}
+
+
+def arms(left, right):
+    return dict(zip(LEFT_ARM, np.radians(left), strict=True)) | dict(zip(RIGHT_ARM, np.radians(right), strict=True))
+
+
+def test_home_is_free_of_contact_with_room_to_spare(robot):
+    assert robot.clearance(robot.configuration({})).distance > 0.03
+
+
+@pytest.mark.parametrize("pose", DEMONSTRATED)
+def test_poses_that_the_real_robot_took_are_free_of_contact(robot, pose):
+    assert robot.clearance(robot.configuration(arms(*DEMONSTRATED[pose]))).distance > 0.0
+
+
+def test_a_hand_pressed_into_the_belly_is_a_collision_with_the_trunk(robot):
+    q = robot.configuration(arms(REST, (25, 0, 57.0, -99.6, 0, 0)))
+    x, y, _ = robot.placement(q, "right_palm")[:3, 3]
+    assert 0.0 < x < 0.105  # the front of the trunk's shape (RootWaist.stl: x to 0.12)
+    assert abs(y) < 0.13
+    found = robot.clearance(q)
+    assert found.distance < -0.01
+    assert found.second == "FrontalTrunk_link"
+
+
+def test_hands_that_meet_are_a_collision_of_both(robot):
+    positions = arms((-40, -20, -51, -80, 0, 0), (-40, 20, 51, -80, 0, 0))
+    found = robot.clearance(robot.configuration(positions))
+    assert found.distance < 0.0
+    assert "Left" in found.first
+    assert "Right" in found.second
+
+
+def test_clearance_shrinks_to_nothing_as_the_hand_nears_the_chest(robot):
+    distances = [
+        robot.clearance(robot.configuration(arms(REST, (shoulder, 0, 57.0, -99.6, 0, 0)))).distance
+        for shoulder in np.linspace(-60, 10, 15)
+    ]
+    assert distances[0] > 0.03
+    assert min(distances) < 0.0
+
+
+def test_clearance_is_the_smallest_over_all_pairs(robot, random_positions):
+    """The short cut by bounding spheres against every pair measured one by one."""
+    geometry = pin.buildGeomFromUrdfString(robot.model, urdf_text(), pin.GeometryType.COLLISION)
+    by_link = {}
+    for index, item in enumerate(geometry.geometryObjects):
+        by_link.setdefault(robot.model.frames[item.parentFrame].name, []).append(index)
+    for one, other in watched_pairs():
+        for first in by_link[one]:
+            for second in by_link[other]:
+                geometry.addCollisionPair(pin.CollisionPair(first, second))
+    data, geometry_data = robot.model.createData(), geometry.createData()
+    for _ in range(40):
+        q = robot.configuration(random_positions())
+        pin.computeDistances(robot.model, data, geometry, geometry_data, q)
+        smallest = min(result.min_distance for result in geometry_data.distanceResults)
+        assert robot.clearance(q).distance == pytest.approx(smallest, abs=2e-6)  # coal's own tolerance is 1e-6 m
+
+
+def test_pairs_are_the_same_on_both_sides_and_none_is_a_neighbour(robot):
+    pairs = {frozenset(pair) for pair in watched_pairs()}
+    assert pairs == {frozenset(map(mirrored_name, pair)) for pair in pairs}
+    parents = {
+        frozenset((robot.model.names[joint] + "_link", robot.model.names[robot.model.parents[joint]] + "_link"))
+        for joint in range(1, robot.model.njoints)
+    }
+    assert not pairs & parents
+
+
+def test_clearance_is_quick_enough_to_check_a_plan(robot, random_positions):
+    configurations = [robot.configuration(random_positions()) for _ in range(200)]
+    robot.clearance(configurations[0])
+    start = time.process_time()
+    for q in configurations:
+        robot.clearance(q)
+    assert (time.process_time() - start) / len(configurations) < 0.002

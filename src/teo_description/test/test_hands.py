@@ -1,0 +1,96 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from teo_description import ALL_JOINTS, HOME, joint_limits, mirrored_name
+
+MIRROR = np.diag([1.0, -1.0, 1.0])
+FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+
+
+def mirrored(positions):
+    """The mirrored pose about y = 0: turns about x and z change their sense, except where the axis itself is mirrored."""
+    other = {}
+    for name, value in positions.items():
+        hand = "Hand" in name or "Finger" in name
+        keeps = hand or name.startswith("Frontal")
+        other[mirrored_name(name)] = value if keeps else -value
+    return other
+
+
+def reachable_on_both_sides(positions):
+    names = tuple(positions)
+    limits = joint_limits(names)
+    other = mirrored(positions)
+    return all(low <= other[name] <= high for name, low, high in zip(names, limits.lower, limits.upper, strict=True))
+
+
+@pytest.mark.parametrize(
+    "frame", ["right_palm", *(f"Right{finger}FingerTip" for finger in FINGERS), "RightHandAbductor_link", "right_sole"]
+)
+def test_mirrored_joint_values_give_the_mirror_image(robot, random_positions, frame):
+    for _ in range(50):
+        positions = random_positions()
+        here = robot.placement(robot.configuration(positions), frame)
+        there = robot.placement(robot.configuration(mirrored(positions)), mirrored_name(frame))
+        assert there[:3, 3] == pytest.approx(MIRROR @ here[:3, 3], abs=1e-9)
+        assert there[:3, :3] == pytest.approx(MIRROR @ here[:3, :3] @ MIRROR, abs=1e-9)
+
+
+def test_home_is_its_own_mirror_image():
+    assert mirrored(HOME) == dict(HOME)
+    assert reachable_on_both_sides(dict(HOME))
+
+
+@pytest.mark.parametrize(("side", "medial"), [("Left", -1.0), ("Right", 1.0)])
+class TestAtHome:
+    def test_palms_face_the_body_and_fingers_point_down(self, robot, side, medial):
+        palm = robot.placement(robot.configuration({}), f"{side.lower()}_palm")
+        assert palm[:3, 2] == pytest.approx([0, medial, 0])
+        assert palm[:3, 0] == pytest.approx([0, 0, -1])
+
+    def test_flexion_takes_each_finger_tip_towards_the_palm_side(self, robot, side, medial):
+        for finger in FINGERS[1:]:
+            before = robot.placement(robot.configuration({}), f"{side}{finger}FingerTip")
+            after = robot.placement(robot.configuration({f"{side}{finger}Finger": 0.6}), f"{side}{finger}FingerTip")
+            moved = (after - before)[:3, 3]
+            assert moved[1] * medial > 0.02
+            assert moved[0] == pytest.approx(0.0, abs=1e-12)
+
+    def test_thumb_stands_in_front_of_the_index_finger(self, robot, side, medial):
+        q = robot.configuration({})
+        thumb, index = robot.placements(q, [f"{side}ThumbFingerTip", f"{side}IndexFingerTip"])[:, :3, 3]
+        assert thumb[0] > index[0]
+        assert abs(thumb[1] - index[1]) < 0.03
+
+    def test_abductor_brings_the_thumb_before_the_palm_where_it_opposes_the_fingers(self, robot, side, medial):
+        q = robot.configuration({f"{side}HandAbductor": np.pi / 2})
+        palm, base = robot.placements(q, [f"{side.lower()}_palm", f"{side}ThumbFinger_link"])
+        assert (base - palm)[:3, 3] @ palm[:3, 2] > 0.005  # before the palmar face
+        before = robot.placement(q, f"{side}ThumbFingerTip")
+        closed = robot.configuration({f"{side}HandAbductor": np.pi / 2, f"{side}ThumbFinger": 0.5})
+        after = robot.placement(closed, f"{side}ThumbFingerTip")
+        assert (after - before)[1, 3] * medial < -0.01  # flexing moves it towards the palm: against the fingers
+
+    def test_fingers_stand_in_order_with_the_index_in_front(self, robot, side, medial):
+        frames = [f"{side}{finger}Finger_link" for finger in FINGERS]
+        x = robot.placements(robot.configuration({}), frames)[:, 0, 3]
+        assert list(x) == sorted(x, reverse=True)
+
+
+def test_phalanges_copy_the_first_one(robot):
+    for angle in (0.2, 1.0, 1.4):
+        q = robot.configuration({"RightIndexFinger": angle})
+        tip, wrist = robot.placements(q, ["RightIndexFingerTip", "FrontalRightWrist_link"])
+        # Three equal joints about the wrist's x, segments of 35, 25 and 27 mm from the knuckle on.
+        expected = np.array([0.0395, -0.001, -0.213])
+        for length, turns in ((0.035, 1), (0.025, 2), (0.027, 3)):
+            expected = expected + length * np.array([0.0, np.sin(turns * angle), -np.cos(turns * angle)])
+        assert tip[:3, 3] - wrist[:3, 3] == pytest.approx(expected, abs=1e-12)
+
+
+def test_each_hand_has_fifteen_joints_of_which_six_are_commanded(robot):
+    names = [name for name in robot.model.names if name.startswith("Right")]
+    assert len(names) == 15
+    assert sum(name in ALL_JOINTS for name in names) == 6

@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from teo_description import ALL_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, DescriptionError
+
+
+def test_joints_not_named_are_at_home(robot):
+    assert np.array_equal(robot.configuration({}), robot.configuration(HOME))
+
+
+def test_unknown_and_following_joints_are_refused_by_name(robot):
+    for name in ("Elbow", "RightIndexFingerDistal"):
+        with pytest.raises(DescriptionError, match=name) as caught:
+            robot.configuration({name: 0.1})
+        assert caught.value.code == "unknown_joint"
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_values_that_are_no_numbers_are_refused_by_joint(robot, value):
+    with pytest.raises(DescriptionError, match="AxialNeck") as caught:
+        robot.configuration({"AxialNeck": value})
+    assert caught.value.code == "not_finite"
+
+
+def test_unknown_frames_are_refused_with_those_there_are(robot):
+    with pytest.raises(DescriptionError, match="right_palm") as caught:
+        robot.placement(robot.configuration({}), "palm")
+    assert caught.value.code == "unknown_frame"
+
+
+def test_a_configuration_of_the_wrong_length_is_refused(robot):
+    for q in (np.zeros(40), np.zeros((58, 1)), np.zeros(0)):
+        with pytest.raises(DescriptionError) as caught:
+            robot.placement(q, "right_palm")
+        assert caught.value.code == "wrong_shape"
+
+
+def test_placements_are_those_of_single_calls(robot, random_positions):
+    q = robot.configuration(random_positions())
+    frames = ["right_palm", "LeftPinkyFingerTip", "camera_link"]
+    together = robot.placements(q, frames)
+    for pose, frame in zip(together, frames, strict=True):
+        assert np.array_equal(pose, robot.placement(q, frame))
+    assert robot.placements(q, []).shape == (0, 4, 4)
+
+
+def test_a_placement_stays_as_it_was_when_the_robot_moves_on(robot):
+    before = robot.placement(robot.configuration({}), "right_palm")
+    copy = before.copy()
+    robot.placement(robot.configuration({"FrontalRightElbow": -1.0}), "right_palm")
+    assert np.array_equal(before, copy)
+
+
+@pytest.mark.parametrize("frame", ["right_palm", "RightIndexFingerTip", "RightThumbFingerTip"])
+def test_jacobian_is_the_derivative_of_the_placement(robot, random_positions, frame):
+    joints = ("AxialTrunk", "FrontalTrunk", *RIGHT_ARM, *RIGHT_HAND, "FrontalLeftElbow")
+    step = 1e-6
+    for _ in range(5):
+        positions = random_positions()
+        jacobian = robot.jacobian(robot.configuration(positions), frame, joints)
+        assert jacobian.shape == (6, len(joints))
+        for column, name in enumerate(joints):
+            ends = [
+                robot.placement(robot.configuration({**positions, name: positions[name] + sign * step}), frame)
+                for sign in (1, -1)
+            ]
+            slope = (ends[0] - ends[1]) / (2 * step)
+            turning = slope[:3, :3] @ ((ends[0] + ends[1]) / 2)[:3, :3].T
+            assert jacobian[:3, column] == pytest.approx(slope[:3, 3], abs=1e-7)
+            assert jacobian[3:, column] == pytest.approx([turning[2, 1], turning[0, 2], turning[1, 0]], abs=1e-7)
+
+
+def test_jacobian_of_unknown_joints_is_refused(robot):
+    with pytest.raises(DescriptionError) as caught:
+        robot.jacobian(robot.configuration({}), "right_palm", ["Shoulder"])
+    assert caught.value.code == "unknown_joint"
+    assert robot.jacobian(robot.configuration({}), "right_palm", []).shape == (6, 0)
+
+
+def test_camera_looks_forward_from_the_head(robot):
+    optical = robot.placement(robot.configuration({}), "camera_optical_frame")
+    assert optical[:3, 2] == pytest.approx([1, 0, 0], abs=1e-9)
+    assert optical[:3, 1] == pytest.approx([0, 0, -1], abs=1e-9)
+    assert len(ALL_JOINTS) == 40
