@@ -1,7 +1,7 @@
 """The main job, from one command: a Spanish text in, TEO signing it out.
 
-Starts translator, executor, driver and a recorder as processes, publishes the text as anyone would, waits until
-TEO rests again, and leaves the bag, a film and a film strip. Exit status 0: everything was signed.
+Starts translator, executor, driver and a recorder as processes, publishes the text as anyone would, waits
+until TEO rests again, and leaves the bag, a film and a film strip. Exit status 0: everything was signed.
 """
 
 from __future__ import annotations
