@@ -26,11 +26,12 @@ def captioned(image: Image, caption: str) -> Image:
         image: Shape (height, width, 3).
         caption: Any text of the Latin, Greek or Cyrillic scripts; line breaks become spaces.
     """
-    caption = " ".join(caption.split())
+    height, width = image.shape[:2]
+    # No font fits more than a letter in two pixels; a long text is not measured letter by letter beyond that.
+    caption = " ".join(caption[: 4 * width].split())[: width // 2]
     if not caption:
         return image
-    height, width = image.shape[:2]
-    band = _band(caption, width, height)
+    band = _band(caption.encode("utf-8", "replace").decode("utf-8"), width, height)
     result = image.copy()
     foot = result[height - band.shape[0] :]
     foot[:] = (foot * (1.0 - _BAND_OPACITY) + band * _BAND_OPACITY).astype(np.uint8)

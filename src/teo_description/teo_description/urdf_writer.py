@@ -14,7 +14,7 @@ ROBOT_NAME = "teo"
 ROOT_LINK = "base_link"
 
 VELOCITY_LIMIT = math.radians(50.0)
-"""[rad/s] maxVel of every iPOS axis (teo-configuration-files, nodes/common-ipos.ini); the hands get it too."""
+"""[rad/s] maxVel of every iPOS axis (teo-configuration-files, nodes/common-ipos.ini); the hands too."""
 
 EFFORT_PLACEHOLDER = 30.0
 """[N m] A placeholder: URDF demands a figure and none is published for the real joints."""

@@ -9,7 +9,7 @@ import pytest
 from teo_description import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
 from teo_description.clearance import watched_pairs
 
-# Poses [deg] in which the real TEO signed in public (teo-demos-misc, 20191023-ttd-congress.py): left arm, right arm.
+# Poses [deg] in which the real TEO signed in public (teo-demos-misc, 20191023-ttd-congress.py): left, right.
 REST = (0, 0, 0, 0, 0, 0)
 DEMONSTRATED = {
     "hola 1": (REST, (-56.0, 9.9, 21.8, -99.6, 33.5, -26.1)),
@@ -24,7 +24,9 @@ DEMONSTRATED = {
 
 
 def arms(left, right):
-    return dict(zip(LEFT_ARM, np.radians(left), strict=True)) | dict(zip(RIGHT_ARM, np.radians(right), strict=True))
+    return dict(zip(LEFT_ARM, np.radians(left), strict=True)) | dict(
+        zip(RIGHT_ARM, np.radians(right), strict=True)
+    )
 
 
 def test_home_is_free_of_contact_with_room_to_spare(robot):
@@ -78,14 +80,18 @@ def test_clearance_is_the_smallest_over_all_pairs(robot, random_positions):
         q = robot.configuration(random_positions())
         pin.computeDistances(robot.model, data, geometry, geometry_data, q)
         smallest = min(result.min_distance for result in geometry_data.distanceResults)
-        assert robot.clearance(q).distance == pytest.approx(smallest, abs=2e-6)  # coal's own tolerance is 1e-6 m
+        assert robot.clearance(q).distance == pytest.approx(
+            smallest, abs=2e-6
+        )  # coal's own tolerance is 1e-6 m
 
 
 def test_pairs_are_the_same_on_both_sides_and_none_is_a_neighbour(robot):
     pairs = {frozenset(pair) for pair in watched_pairs()}
     assert pairs == {frozenset(map(mirrored_name, pair)) for pair in pairs}
     parents = {
-        frozenset((robot.model.names[joint] + "_link", robot.model.names[robot.model.parents[joint]] + "_link"))
+        frozenset(
+            (robot.model.names[joint] + "_link", robot.model.names[robot.model.parents[joint]] + "_link")
+        )
         for joint in range(1, robot.model.njoints)
     }
     assert not pairs & parents

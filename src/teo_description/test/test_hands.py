@@ -10,7 +10,7 @@ FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 
 
 def mirrored(positions):
-    """The mirrored pose about y = 0: turns about x and z change their sense, except where the axis itself is mirrored."""
+    """The pose mirrored about y = 0: turns about x and z change sense; hand axes are mirrored already."""
     other = {}
     for name, value in positions.items():
         hand = "Hand" in name or "Finger" in name
@@ -23,11 +23,19 @@ def reachable_on_both_sides(positions):
     names = tuple(positions)
     limits = joint_limits(names)
     other = mirrored(positions)
-    return all(low <= other[name] <= high for name, low, high in zip(names, limits.lower, limits.upper, strict=True))
+    return all(
+        low <= other[name] <= high for name, low, high in zip(names, limits.lower, limits.upper, strict=True)
+    )
 
 
 @pytest.mark.parametrize(
-    "frame", ["right_palm", *(f"Right{finger}FingerTip" for finger in FINGERS), "RightHandAbductor_link", "right_sole"]
+    "frame",
+    [
+        "right_palm",
+        *(f"Right{finger}FingerTip" for finger in FINGERS),
+        "RightHandAbductor_link",
+        "right_sole",
+    ],
 )
 def test_mirrored_joint_values_give_the_mirror_image(robot, random_positions, frame):
     for _ in range(50):
@@ -53,27 +61,33 @@ class TestAtHome:
     def test_flexion_takes_each_finger_tip_towards_the_palm_side(self, robot, side, medial):
         for finger in FINGERS[1:]:
             before = robot.placement(robot.configuration({}), f"{side}{finger}FingerTip")
-            after = robot.placement(robot.configuration({f"{side}{finger}Finger": 0.6}), f"{side}{finger}FingerTip")
+            after = robot.placement(
+                robot.configuration({f"{side}{finger}Finger": 0.6}), f"{side}{finger}FingerTip"
+            )
             moved = (after - before)[:3, 3]
             assert moved[1] * medial > 0.02
             assert moved[0] == pytest.approx(0.0, abs=1e-12)
 
-    def test_thumb_stands_in_front_of_the_index_finger(self, robot, side, medial):
+    def test_thumb_stands_in_front_of_the_index_finger(self, robot, side, medial):  # noqa: ARG002 - class parameters
         q = robot.configuration({})
         thumb, index = robot.placements(q, [f"{side}ThumbFingerTip", f"{side}IndexFingerTip"])[:, :3, 3]
         assert thumb[0] > index[0]
         assert abs(thumb[1] - index[1]) < 0.03
 
-    def test_abductor_brings_the_thumb_before_the_palm_where_it_opposes_the_fingers(self, robot, side, medial):
+    def test_abductor_brings_the_thumb_before_the_palm_where_it_opposes_the_fingers(
+        self, robot, side, medial
+    ):
         q = robot.configuration({f"{side}HandAbductor": np.pi / 2})
         palm, base = robot.placements(q, [f"{side.lower()}_palm", f"{side}ThumbFinger_link"])
         assert (base - palm)[:3, 3] @ palm[:3, 2] > 0.005  # before the palmar face
         before = robot.placement(q, f"{side}ThumbFingerTip")
         closed = robot.configuration({f"{side}HandAbductor": np.pi / 2, f"{side}ThumbFinger": 0.5})
         after = robot.placement(closed, f"{side}ThumbFingerTip")
-        assert (after - before)[1, 3] * medial < -0.01  # flexing moves it towards the palm: against the fingers
+        assert (after - before)[
+            1, 3
+        ] * medial < -0.01  # flexing moves it towards the palm: against the fingers
 
-    def test_fingers_stand_in_order_with_the_index_in_front(self, robot, side, medial):
+    def test_fingers_stand_in_order_with_the_index_in_front(self, robot, side, medial):  # noqa: ARG002 - class parameters
         frames = [f"{side}{finger}Finger_link" for finger in FINGERS]
         x = robot.placements(robot.configuration({}), frames)[:, 0, 3]
         assert list(x) == sorted(x, reverse=True)

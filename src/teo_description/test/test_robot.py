@@ -65,13 +65,17 @@ def test_jacobian_is_the_derivative_of_the_placement(robot, random_positions, fr
         assert jacobian.shape == (6, len(joints))
         for column, name in enumerate(joints):
             ends = [
-                robot.placement(robot.configuration({**positions, name: positions[name] + sign * step}), frame)
+                robot.placement(
+                    robot.configuration({**positions, name: positions[name] + sign * step}), frame
+                )
                 for sign in (1, -1)
             ]
             slope = (ends[0] - ends[1]) / (2 * step)
             turning = slope[:3, :3] @ ((ends[0] + ends[1]) / 2)[:3, :3].T
             assert jacobian[:3, column] == pytest.approx(slope[:3, 3], abs=1e-7)
-            assert jacobian[3:, column] == pytest.approx([turning[2, 1], turning[0, 2], turning[1, 0]], abs=1e-7)
+            assert jacobian[3:, column] == pytest.approx(
+                [turning[2, 1], turning[0, 2], turning[1, 0]], abs=1e-7
+            )
 
 
 def test_jacobian_of_unknown_joints_is_refused(robot):

@@ -8,10 +8,18 @@ import numpy as np
 import pytest
 
 import teo_description
-from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, DescriptionError, joint_limits, urdf_path, urdf_text
+from teo_description import (
+    ALL_JOINTS,
+    COMMANDED_JOINTS,
+    HOME,
+    DescriptionError,
+    joint_limits,
+    urdf_path,
+    urdf_text,
+)
 from teo_description.urdf_writer import urdf
 
-# Position limits [deg] of teo-configuration-files, share/robots/teo/nodes; typed here once more, from the published table.
+# Position limits [deg] of teo-configuration-files, share/robots/teo/nodes, typed once more.
 PUBLISHED = {
     "AxialNeck": (-60.0, 60.0),
     "FrontalNeck": (-10.0, 10.0),
@@ -58,7 +66,9 @@ def tree():
 
 
 def test_committed_file_is_what_the_generator_writes():
-    assert urdf_path().read_text(encoding="utf-8") == urdf(), "run: ros2 run teo_description build_urdf --out urdf/teo.urdf"
+    assert urdf_path().read_text(encoding="utf-8") == urdf(), (
+        "run: ros2 run teo_description build_urdf --out urdf/teo.urdf"
+    )
 
 
 def test_limits_are_the_published_ones():
@@ -89,7 +99,8 @@ def test_limits_of_an_unknown_or_following_joint_are_refused():
 def test_groups_hold_every_joint_once():
     groups = [
         getattr(teo_description, name)
-        for name in "HEAD TRUNK LEFT_ARM RIGHT_ARM LEFT_HAND RIGHT_HAND LEFT_LEG RIGHT_LEG".split()
+        for part in ("HEAD", "TRUNK", "{}_ARM", "{}_HAND", "{}_LEG")
+        for name in dict.fromkeys(part.format(side) for side in ("LEFT", "RIGHT"))
     ]
     assert tuple(name for group in groups for name in group) == ALL_JOINTS
     assert (len(COMMANDED_JOINTS), len(set(ALL_JOINTS))) == (28, 40)
@@ -101,13 +112,18 @@ def test_home_is_within_limits_and_names_every_joint():
     assert len(HOME) == 40
     assert (limits.lower <= home).all()
     assert (home <= limits.upper).all()
-    assert {name for name in HOME if HOME[name] != 0.0} == {name for name in ALL_JOINTS if name.endswith("Finger")}
+    assert {name for name in HOME if HOME[name] != 0.0} == {
+        name for name in ALL_JOINTS if name.endswith("Finger")
+    }
     assert HOME["LeftThumbFinger"] == math.radians(7.0)
 
 
 def test_robot_is_a_tree_from_base_link(tree):
     links = {link.attrib["name"] for link in tree.iter("link")}
-    parents = {joint.find("child").attrib["link"]: joint.find("parent").attrib["link"] for joint in tree.iter("joint")}
+    parents = {
+        joint.find("child").attrib["link"]: joint.find("parent").attrib["link"]
+        for joint in tree.iter("joint")
+    }
     assert tree.attrib["name"] == "teo"
     assert links - parents.keys() == {"base_link"}
     assert parents.keys() | set(parents.values()) == links
@@ -139,7 +155,7 @@ def test_every_inertia_is_that_of_a_possible_body(tree):
             float(inertial.find("inertia").attrib[key]) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
         )
         small, middle, large = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-        assert 0.0 < small, link.attrib["name"]
+        assert small > 0.0, link.attrib["name"]
         assert large <= (small + middle) * (1 + 1e-9), link.attrib["name"]
         assert float(inertial.find("mass").attrib["value"]) > 0.0
         checked += 1

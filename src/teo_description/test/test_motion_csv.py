@@ -1,0 +1,129 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from teo_description import DescriptionError
+from teo_description.motion_csv import read_motion
+from teo_description.pose_arguments import read_pose
+
+GOOD = "time,AxialNeck,FrontalRightElbow\n0.0,0.0,-0.5\n0.5,0.2,-1.0\n1.0,0.4,-1.0\n"
+
+
+@pytest.fixture
+def read(tmp_path):
+    def from_text(text):
+        path = tmp_path / "plan.csv"
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return read_motion(path)
+
+    return from_text
+
+
+def test_a_plan_is_read_as_it_was_written(read):
+    motion = read(GOOD)
+    assert motion.names == ("AxialNeck", "FrontalRightElbow")
+    assert np.array_equal(motion.times, [0.0, 0.5, 1.0])
+    assert np.array_equal(motion.positions, [[0.0, -0.5], [0.2, -1.0], [0.4, -1.0]])
+
+
+def test_motion_is_linear_between_rows_and_held_outside(read):
+    motion = read(GOOD.replace("0.0,0.0", "-1.0,0.0"))
+    assert motion.duration == 2.0
+    assert motion.at(0.75) == pytest.approx({"AxialNeck": 0.1, "FrontalRightElbow": -0.75})
+    assert motion.at(-3.0) == pytest.approx({"AxialNeck": 0.0, "FrontalRightElbow": -0.5})
+    assert motion.at(99.0) == pytest.approx({"AxialNeck": 0.4, "FrontalRightElbow": -1.0})
+
+
+def test_blank_lines_spaces_and_a_byte_order_mark_do_no_harm(read):
+    assert read("\ufeff" + GOOD.replace(",", ", ") + "\n\n").names == ("AxialNeck", "FrontalRightElbow")
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "says"),
+    [
+        ("", "empty_motion", "header"),
+        ("time,AxialNeck\n", "empty_motion", "at least one row"),
+        ("0.0,0.1\n0.5,0.2\n", "unknown_joint", "0.1"),
+        ("AxialNeck,FrontalNeck\n0.1,0.1\n", "bad_header", "time first"),
+        ("time\n0.1\n", "bad_header", "joint names"),
+        (GOOD.replace("AxialNeck", "Cuello"), "unknown_joint", "Cuello"),
+        (GOOD.replace("AxialNeck", "FrontalRightElbow"), "bad_header", "each joint once"),
+        (GOOD.replace("0.5,0.2,-1.0", "0.5,0.2"), "bad_row", "row 3"),
+        (GOOD.replace("0.5,0.2", "0.5,mucho"), "bad_row", "mucho"),
+        (GOOD.replace("0.5,0.2", "0.5,nan"), "not_finite", "row 3"),
+        (GOOD.replace("0.5,0.2", "0.5,inf"), "not_finite", "row 3"),
+        (GOOD.replace("0.5,0.2", "0.0,0.2"), "times_not_increasing", "row 3"),
+        (GOOD.replace("0.5,0.2", "0.5,1.3"), "outside_limits", "row 3: expected AxialNeck"),
+        (b"\xff\xfe\x00binary", "unreadable_file", "plan.csv"),
+        (b"PK\x03\x04\x00\x00", "empty_motion", "plan.csv"),
+    ],
+)
+def test_a_bad_plan_is_refused_with_the_place(read, text, code, says):
+    with pytest.raises(DescriptionError) as caught:
+        read(text)
+    assert caught.value.code == code
+    assert says in str(caught.value)
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(DescriptionError, match=r"plan\.csv"):
+        read_motion(tmp_path / "plan.csv")
+
+
+def test_a_position_rounded_at_a_limit_is_within_it(read):
+    assert read(f"time,AxialNeck\n0,{math.radians(60):.6f}\n").duration == 0.0
+
+
+class TestPose:
+    def test_later_arguments_win_and_degrees_are_understood(self, tmp_path):
+        path = tmp_path / "a=b.json"
+        path.write_text('{"AxialNeck": 0.1, "FrontalNeck": 0}')
+        pose = read_pose([str(path), "AxialNeck=-0.2", "FrontalRightElbow=-90deg"])
+        assert pose == pytest.approx(
+            {"AxialNeck": -0.2, "FrontalNeck": 0.0, "FrontalRightElbow": -math.pi / 2}
+        )
+
+    def test_no_arguments_mean_home(self):
+        assert read_pose([]) == {}
+
+    @pytest.mark.parametrize(
+        ("argument", "code"),
+        [
+            ("Elbow=1", "unknown_joint"),
+            ("AxialNeck=", "bad_pose"),
+            ("AxialNeck=1rad", "bad_pose"),
+            ("AxialNeck=nan", "not_finite"),
+            ("AxialNeck=1e3deg", "outside_limits"),
+            ("RightIndexFinger=0", "outside_limits"),
+            ("nothing.json", "unreadable_file"),
+        ],
+    )
+    def test_bad_arguments_are_refused(self, argument, code):
+        with pytest.raises(DescriptionError) as caught:
+            read_pose([argument])
+        assert caught.value.code == code
+
+    @pytest.mark.parametrize(
+        ("text", "code"),
+        [
+            ("", "unreadable_file"),
+            ("{", "unreadable_file"),
+            ("[" * 100_000, "unreadable_file"),
+            ("{}", "bad_pose"),
+            ("[1, 2]", "bad_pose"),
+            ('{"AxialNeck": "0"}', "bad_pose"),
+            ('{"AxialNeck": true}', "bad_pose"),
+            ('{"AxialNeck": NaN}', "not_finite"),
+            ('{"AxialNeck": 1e999}', "not_finite"),
+            ('{"Cuello": 0}', "unknown_joint"),
+        ],
+    )
+    def test_bad_files_are_refused(self, tmp_path, text, code):
+        path = tmp_path / "pose.json"
+        path.write_text(text)
+        with pytest.raises(DescriptionError) as caught:
+            read_pose([str(path)])
+        assert caught.value.code == code

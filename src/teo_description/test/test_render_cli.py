@@ -1,0 +1,97 @@
+from __future__ import annotations
+
+import av
+import cv2
+import pytest
+
+from teo_description import build_urdf, render_cli, urdf_text
+
+PLAN = "time,FrontalRightElbow\n0.0,0.0\n0.4,-0.3\n"
+
+
+def run(monkeypatch, capsys, main, *arguments):
+    monkeypatch.setattr("sys.argv", ["render", *map(str, arguments)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    output = capsys.readouterr()
+    return ended.value.code, output.out, output.err
+
+
+@pytest.fixture
+def render(monkeypatch, capsys):
+    return lambda *arguments: run(monkeypatch, capsys, render_cli.main, *arguments)
+
+
+@pytest.fixture
+def plan(tmp_path):
+    path = tmp_path / "plan.csv"
+    path.write_text(PLAN)
+    return path
+
+
+def test_a_pose_becomes_a_picture(render, tmp_path):
+    out = tmp_path / "pose.png"
+    code, _, said = render(
+        "--pose",
+        "FrontalRightElbow=-90deg",
+        "AxialNeck=0.2",
+        "--out",
+        out,
+        "--camera",
+        "full",
+        "--size",
+        "320x240",
+    )
+    assert (code, str(out) in said.replace("\n", "")) == (0, True)
+    assert cv2.imread(str(out)).shape == (240, 320, 3)
+
+
+def test_a_plan_becomes_a_film_and_a_strip(render, plan, tmp_path):
+    film, strip = tmp_path / "motion.mp4", tmp_path / "motion.png"
+    code, _, _ = render(
+        "--csv", plan, "--mp4", film, "--strip", strip, "--size", "160x120", "--moments", 4, "--columns", 2
+    )
+    assert code == 0
+    with av.open(str(film)) as container:
+        assert len(list(container.decode(video=0))) == 11  # 0.4 s at 25 frames per second, and the last pose
+    assert cv2.imread(str(strip)).shape == (2 * 124 + 4, 2 * 164 + 4, 3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "says"),
+    [
+        ((), 2, "--out"),
+        (("--pose", "Codo=1", "--out", "x.png"), 1, "Codo"),
+        (("--pose", "AxialNeck=2", "--out", "x.png"), 1, "-1.0472 .. 1.0472"),
+        (("--pose", "AxialNeck=nan", "--out", "x.png"), 1, "NaN"),
+        (("--out", "x.png", "--camera", "side"), 1, "front, hand, full"),
+        (("--out", "x.png", "--size", "big"), 2, "640x480"),
+        (("--out", "x.png", "--size", "3x3"), 1, "16 to 4096"),
+        (("--out", "nowhere/x.png"), 1, "nowhere"),
+        (("--csv", "plan.csv"), 2, "--mp4 or --strip"),
+        (("--csv", "plan.csv", "--mp4", "nowhere/x.mp4"), 1, "nowhere"),
+        (("--csv", "plan.csv", "--mp4", "x.mp4", "--fps", "0"), 1, "frames per second"),
+        (("--csv", "plan.csv", "--out", "x.png"), 2, "either"),
+        (("--csv", "none.csv", "--mp4", "x.mp4"), 1, "none.csv"),
+        (("--csv", "empty.csv", "--mp4", "x.mp4"), 1, "at least one row"),
+    ],
+)
+def test_mistakes_end_with_a_sentence_and_no_picture(render, plan, monkeypatch, arguments, code, says):
+    monkeypatch.chdir(plan.parent)
+    (plan.parent / "empty.csv").write_text("")
+    ended, _, said = render(*arguments)
+    assert ended == code
+    assert says in said.replace("\n", " ")
+    assert "Traceback" not in said
+    assert not {file.suffix for file in plan.parent.iterdir()} & {".png", ".mp4"}
+
+
+def test_urdf_is_printed_or_written_whole(monkeypatch, capsys, tmp_path):
+    code, printed, _ = run(monkeypatch, capsys, build_urdf.main)
+    assert (code, printed) == (0, urdf_text())
+    code, _, _ = run(monkeypatch, capsys, build_urdf.main, "--out", tmp_path / "teo.urdf")
+    assert code == 0
+    assert (tmp_path / "teo.urdf").read_text(encoding="utf-8") == urdf_text()
+    code, _, said = run(monkeypatch, capsys, build_urdf.main, "--out", tmp_path / "nowhere" / "teo.urdf")
+    assert code == 1
+    assert "nowhere" in said

@@ -1,0 +1,188 @@
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from itertools import pairwise
+
+import cv2
+import numpy as np
+import pytest
+
+from teo_description import HOME, LEFT_ARM, RIGHT_ARM, DescriptionError
+from teo_description.rendering import CAMERAS, Camera, Renderer, render_pose, save_png
+
+# The right hand raised, its palm towards the addressee (the arm of TEO's own letter E).
+RAISED = dict(zip(RIGHT_ARM, np.radians([-75.4, 12.4, 9.6, -83.5, 86.2, 2.3]), strict=True))
+
+
+@pytest.fixture(scope="module")
+def renderer():
+    return Renderer()
+
+
+def pixel(camera, point):
+    """Where a point of base_link [m] falls on the picture: a pinhole camera of the test's own."""
+    eye, forward = np.array(camera.position), np.subtract(camera.target, camera.position)
+    forward = forward / np.linalg.norm(forward)
+    right = np.cross(forward, [0, 0, 1])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    ray = np.asarray(point) - eye
+    width, height = camera.size
+    scale = height / 2 / np.tan(camera.field_of_view / 2) / (ray @ forward)
+    return round(width / 2 + scale * (ray @ right)), round(height / 2 - scale * (ray @ up))
+
+
+def figure(image):
+    """Which pixels are not background, which is what a camera that looks away from TEO sees."""
+    height, width = image.shape[:2]
+    away = Camera(position=(5, 0, 0), target=(9, 0, 0), field_of_view=0.5, size=(width, height))
+    return np.abs(image.astype(int) - render_pose({}, away).astype(int)).sum(axis=2) > 6
+
+
+def test_a_picture_has_the_size_of_the_camera_and_shows_something(renderer):
+    for name, camera in CAMERAS.items():
+        image = renderer.render({}, name)
+        assert image.shape == (480, 640, 3), name
+        assert image.dtype == np.uint8
+        assert image.shape[:2] == camera.size[::-1]
+        assert 0.05 < figure(image).mean() < 0.7, name
+    assert renderer.render({}, CAMERAS["full"].sized(300, 200)).shape == (200, 300, 3)
+
+
+def test_full_view_holds_the_whole_robot_and_front_view_the_head_and_a_raised_hand(renderer):
+    for camera, positions, edges in (
+        ("full", HOME, "all"),
+        ("full", {"FrontalLeftShoulder": -1.57, "FrontalRightShoulder": -1.57}, "all"),
+        ("front", RAISED, "top and sides"),
+        ("front", {"FrontalLeftShoulder": -1.57, "FrontalRightShoulder": -1.57}, "top and sides"),
+    ):
+        seen = figure(renderer.render(positions, camera))
+        assert not seen[0].any()
+        assert not seen[:, [0, -1]].any()
+        assert edges != "all" or not seen[-1].any()
+
+
+def test_finger_tips_are_drawn_where_the_kinematics_puts_them(renderer, robot):
+    camera = CAMERAS["front"].sized(1280, 960)
+    image = renderer.render(RAISED, camera)
+    q = robot.configuration(RAISED)
+    for finger in ("Index", "Middle", "Ring", "Pinky"):
+        tip, joint = robot.placements(q, [f"Right{finger}FingerTip", f"Right{finger}FingerDistal_link"])[
+            :, :3, 3
+        ]
+        x, y = pixel(camera, 0.6 * tip + 0.4 * joint)
+        red, _, blue = image[y, x].astype(int)
+        assert blue > red + 40, finger  # the tips are blue
+
+
+def test_fingers_can_be_told_apart_in_the_front_view(renderer, robot):
+    camera = CAMERAS["front"]
+    grey = renderer.render(RAISED, camera).astype(int).sum(axis=2)
+    q = robot.configuration(RAISED)
+    names = [f"Right{finger}Finger" for finger in ("Index", "Middle", "Ring", "Pinky")]
+    across = []
+    for name in names:  # the middle of each first phalanx
+        ends = robot.placements(q, [f"{name}_link", f"{name}Middle_link"])[:, :3, 3]
+        across.append(np.array(pixel(camera, ends.mean(axis=0))))
+    for first, second in pairwise(across):
+        line = [grey[y, x] for x, y in np.linspace(first, second, 9).round().astype(int)]
+        edges = min(line[0], line[-1])
+        assert max(abs(value - edges) for value in line[2:-2]) > 60  # of 765
+
+
+def test_right_hand_is_on_the_left_of_the_picture_and_the_face_looks_at_the_viewer(renderer):
+    image = renderer.render(RAISED)
+    home = renderer.render(HOME)
+    moved = np.abs(image.astype(int) - home.astype(int)).sum(axis=2) > 30
+    assert moved[:, :320].sum() > 50 * moved[:, 320:].sum()
+    eyes = np.array(pixel(CAMERAS["front"], (0.1, 0.0, 0.72)))
+    x, y = eyes
+    assert image[y, x].mean() < 60  # the visor between the eyes is dark
+    behind = replace(CAMERAS["front"], position=(-2.3, 0.0, 0.55))
+    x, y = pixel(behind, (-0.1, 0.0, 0.72))
+    assert renderer.render(HOME, behind)[y, x].mean() > 90  # no face on the back of the head
+
+
+def test_a_mirrored_pose_has_the_mirrored_outline(renderer):
+    left = dict(zip(LEFT_ARM, np.radians([-75.4, -12.4, -9.6, -83.5, -86.2, 2.3]), strict=True))
+    seen = figure(renderer.render(RAISED))
+    other = figure(renderer.render(left))[:, ::-1]
+    assert (seen ^ other).mean() < 0.01
+
+
+def test_hand_view_follows_the_hand(renderer):
+    for positions in ({}, RAISED):
+        seen = figure(renderer.render(positions, "hand"))
+        assert seen[220:260, 310:330].mean() > 0.5
+
+
+def test_a_renderer_can_be_used_again_and_gives_the_same_picture(renderer):
+    first = renderer.render(RAISED)
+    renderer.render({}, "hand")
+    assert np.array_equal(renderer.render(RAISED), first)
+    assert np.array_equal(render_pose(RAISED), first)
+
+
+@pytest.mark.parametrize(
+    ("positions", "camera", "code"),
+    [
+        ({"Elbow": 1.0}, "front", "unknown_joint"),
+        ({"AxialNeck": float("nan")}, "front", "not_finite"),
+        ({}, "side", "unknown_camera"),
+        ({}, replace(CAMERAS["hand"], follows="left_foot"), "unknown_frame"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused(renderer, positions, camera, code):
+    with pytest.raises(DescriptionError) as caught:
+        renderer.render(positions, camera)
+    assert caught.value.code == code
+
+
+@pytest.mark.parametrize(
+    "figures",
+    [
+        {"size": (0, 480)},
+        {"size": (641, 480)},
+        {"size": (100_000, 480)},
+        {"field_of_view": 0.0},
+        {"field_of_view": float("nan")},
+        {"position": (float("inf"), 0.0, 0.0)},
+        {"position": (0.0, 0.0, 3.0), "target": (0.0, 0.0, 0.0)},
+        {"position": (0.0, 0.0, 0.0), "target": (0.0, 0.0, 0.0)},
+    ],
+)
+def test_impossible_cameras_are_refused(figures):
+    with pytest.raises(DescriptionError) as caught:
+        replace(CAMERAS["front"], **figures)
+    assert caught.value.code == "bad_camera"
+
+
+def test_a_camera_inside_the_robot_draws_and_does_not_fail(renderer):
+    inside = Camera(position=(0.05, 0.0, 0.4), target=(1.0, 0.0, 0.4), field_of_view=1.0, size=(64, 48))
+    assert renderer.render({}, inside).shape == (48, 64, 3)
+
+
+def test_a_png_says_what_was_drawn_and_replaces_an_older_one(renderer, tmp_path):
+    image = renderer.render({}, CAMERAS["front"].sized(64, 48))
+    path = tmp_path / "señas.png"
+    path.write_bytes(b"old")
+    save_png(path, image)
+    assert np.array_equal(cv2.imread(str(path))[..., ::-1], image)
+    assert [file.name for file in tmp_path.iterdir()] == ["señas.png"]
+    with pytest.raises(DescriptionError):
+        save_png(path, image[:0])
+
+
+def test_a_frame_is_drawn_within_its_budget_on_one_core(renderer):
+    threads = cv2.getNumThreads()
+    cv2.setNumThreads(1)
+    try:
+        took = []
+        for _ in range(12):
+            start = time.process_time()
+            renderer.render(RAISED)
+            took.append(time.process_time() - start)
+    finally:
+        cv2.setNumThreads(threads)
+    assert min(took) < 0.040
