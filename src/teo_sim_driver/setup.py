@@ -15,7 +15,7 @@ setup(
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
-    description="Simulated joint driver of TEO: validates, interpolates and limits joint trajectories and publishes joint states.",
+    description="Simulated joint driver of TEO: executes joint trajectories as the robot would",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={

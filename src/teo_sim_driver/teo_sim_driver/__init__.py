@@ -1,1 +1,1 @@
-"""Simulated joint driver of TEO: validates, interpolates and limits joint trajectories and publishes joint states."""
+"""Simulated joint driver of TEO: executes joint trajectories as the robot would, or says why not."""

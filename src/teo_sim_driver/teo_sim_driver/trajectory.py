@@ -1,0 +1,142 @@
+"""A trajectory ready to be executed: points in the driver's joint order, and what lies between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sim_driver.bezier import DEGREE, LINEAR, FloatArray, bernstein, control_points, derivative
+
+
+class MotionState(NamedTuple):
+    """Where the joints are and how they move. Shape (joints,) each."""
+
+    positions: FloatArray
+    """[rad]"""
+    velocities: FloatArray
+    """[rad/s]"""
+    accelerations: FloatArray
+    """[rad/s^2]"""
+
+    @staticmethod
+    def at_rest(positions: FloatArray) -> MotionState:
+        """Stand still at these positions [rad]."""
+        still = np.zeros_like(positions)
+        still.flags.writeable = False
+        return MotionState(positions, still, still)
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Points in time and a polynomial between each two; before the first and after the last it stands still.
+
+    Attributes:
+        times: of the points, from the first, which is at 0 [s]. Shape (n,), strictly increasing.
+        positions: [rad]. Shape (n, joints).
+        velocities: [rad/s]; not read next to a linear segment. Shape (n, joints).
+        accelerations: [rad/s^2]; read only next to a quintic segment. Shape (n, joints).
+        degrees: of each segment: 1, 3 or 5. Shape (n - 1,).
+    """
+
+    times: FloatArray
+    positions: FloatArray
+    velocities: FloatArray
+    accelerations: FloatArray
+    degrees: NDArray[np.int8]
+
+    def __post_init__(self) -> None:
+        for array in (self.times, self.positions, self.velocities, self.accelerations, self.degrees):
+            array.flags.writeable = False
+
+    @property
+    def duration(self) -> float:
+        """Time of the last point [s]."""
+        return float(self.times[-1])
+
+    def sample(self, time: float) -> MotionState:
+        """Evaluate the trajectory; outside its duration, its end points at rest.
+
+        Args:
+            time: from the first point [s].
+        """
+        if time >= self.times[-1]:
+            return MotionState.at_rest(self.positions[-1])
+        if time < 0.0:
+            return MotionState.at_rest(self.positions[0])
+        i = int(np.searchsorted(self.times, time, side="right")) - 1
+        span = slice(i, i + 1)
+        control = self.position_control(span)[:, 0]
+        duration = float(self.times[i + 1] - self.times[i])
+        fraction = (time - float(self.times[i])) / duration
+        slopes = control[1:] - control[:-1]
+        bends = slopes[1:] - slopes[:-1]
+        return MotionState(
+            bernstein(DEGREE, fraction) @ control,
+            bernstein(DEGREE - 1, fraction) @ slopes * (DEGREE / duration),
+            bernstein(DEGREE - 2, fraction) @ bends * (DEGREE * (DEGREE - 1) / duration**2),
+        )
+
+    def durations(self, segments: slice) -> FloatArray:
+        """Durations of some segments [s]."""
+        points = slice(segments.start, segments.stop + 1)
+        return np.diff(self.times[points])
+
+    def position_control(self, segments: slice) -> FloatArray:
+        """Bezier control points of some segments [rad]. Shape (6, segments, joints)."""
+        points = slice(segments.start, segments.stop + 1)
+        return control_points(
+            self.durations(segments),
+            self.degrees[segments],
+            self.positions[points],
+            self.velocities[points],
+            self.accelerations[points],
+        )
+
+    def velocity_control(self, segments: slice) -> FloatArray:
+        """Bezier control points of the velocity of some segments [rad/s]. Shape (5, segments, joints)."""
+        return derivative(self.position_control(segments), self.durations(segments))
+
+    def segments_within(self, start: float, end: float) -> slice:
+        """Segments that overlap a span of time [s]; empty after the end of the trajectory."""
+        last = len(self.times) - 1
+        first = int(np.searchsorted(self.times, start, side="right")) - 1
+        stop = int(np.searchsorted(self.times, end, side="left"))
+        return slice(min(max(first, 0), last), min(stop, last))
+
+    def cut(self, start: float, end: float) -> Trajectory:
+        """Take the part between two times 0 <= start < end [s], standing still after the last point."""
+        inside = slice(
+            int(np.searchsorted(self.times, start, side="right")),
+            int(np.searchsorted(self.times, end, side="left")),
+        )
+        first, last = self.sample(start), self.sample(end)
+        # Splitting a polynomial leaves it the same polynomial, so the cut segments keep their degrees.
+        degrees = self.degrees[max(inside.start - 1, 0) : inside.stop]
+        if end > self.times[-1]:
+            degrees = np.append(degrees[: inside.stop - inside.start], np.int8(LINEAR))
+        return Trajectory(
+            np.concatenate([[0.0], self.times[inside] - start, [end - start]]),
+            np.concatenate([first.positions[None], self.positions[inside], last.positions[None]]),
+            np.concatenate([first.velocities[None], self.velocities[inside], last.velocities[None]]),
+            np.concatenate([first.accelerations[None], self.accelerations[inside], last.accelerations[None]]),
+            degrees,
+        )
+
+    def then(self, following: Trajectory) -> Trajectory:
+        """This trajectory and, from its last point on, another one that begins where this one ends."""
+        return Trajectory(
+            np.concatenate([self.times[:-1], following.times + self.times[-1]]),
+            np.concatenate([self.positions[:-1], following.positions]),
+            np.concatenate([self.velocities[:-1], following.velocities]),
+            np.concatenate([self.accelerations[:-1], following.accelerations]),
+            np.concatenate([self.degrees, following.degrees]),
+        )
+
+    @staticmethod
+    def hold(positions: FloatArray) -> Trajectory:
+        """A trajectory of one point: stand still there [rad]."""
+        still = np.zeros((1, len(positions)))
+        return Trajectory(np.zeros(1), np.array(positions)[None], still, still.copy(), np.zeros(0, np.int8))

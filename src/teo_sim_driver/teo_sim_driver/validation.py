@@ -1,0 +1,254 @@
+"""Whether the robot can execute a trajectory from where it is, exactly as it is given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import NamedTuple, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import JointLimits
+from teo_sim_driver.bezier import FloatArray, first_excess
+from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.message import TrajectoryLike
+from teo_sim_driver.reading import SECOND, Points, listed, read
+from teo_sim_driver.rules import POSITION_TOLERANCE, REST_VELOCITY, VELOCITY_TOLERANCE, Rules
+from teo_sim_driver.trajectory import MotionState, Trajectory
+
+# Segments checked at once: bounds the memory to some MB whatever the message's length.
+_CHUNK = 1024
+
+
+class Scheduled(NamedTuple):
+    """A trajectory that was found good, and when it starts."""
+
+    delay: float
+    """From now to the start [s], >= 0."""
+    trajectory: Trajectory
+    """From the robot's state at the start to the last point."""
+
+
+def validate(
+    message: TrajectoryLike,
+    *,
+    limits: JointLimits,
+    rules: Rules,
+    now: int,
+    state_in: Callable[[float], MotionState],
+    held: Collection[str] = (),
+) -> Scheduled:
+    """Check a message in every respect and make it ready to be executed.
+
+    The trajectory begins at the robot's own state at the start. Points that are due at the start or before
+    are not executed: they say where the sender believes the robot to be, and are compared with where it is.
+
+    Args:
+        message: as received.
+        limits: of the commanded joints, in the driver's order.
+        rules: limits on the message.
+        now: [ns], on the clock of the message's stamp.
+        state_in: the state of the commanded joints in so many seconds from now, if nothing new came.
+        held: names of joints that the robot has and the driver never moves.
+
+    Raises:
+        TrajectoryError: with one reason, the first found; nothing of the message may be executed.
+    """
+    points = read(message, joints=limits.names, held=held, rules=rules)
+    delay, passed = _schedule(points, now, rules)
+    start = state_in(delay)
+    points = _with_all_joints(points, start, limits)
+    _check_points(points, limits)
+    due = _times_from_start(points, passed)
+    if due[0] <= 0.0:
+        _check_start(points, due, start, limits, rules)
+    trajectory, first = _from_state(points, due, start)
+    with np.errstate(over="ignore", invalid="ignore"):  # absurd accelerations overflow, and are then refused
+        _check_between(trajectory, first, limits)
+    return Scheduled(delay, trajectory)
+
+
+def _schedule(points: Points, now: int, rules: Rules) -> tuple[float, int]:
+    """Delay until the start [s], and how long ago the start was [ns]; one of them is 0."""
+    if points.stamp is None:
+        return 0.0, 0
+    ahead = points.stamp - now
+    if ahead + int(points.times[-1]) < 0:
+        raise TrajectoryError(
+            Refusal.ENDS_IN_THE_PAST,
+            f"the last point was due {-(ahead + int(points.times[-1])) / SECOND:.3f} s ago: "
+            "use a stamp of 0 to start now, and check that the clocks agree",
+        )
+    if ahead > rules.max_start_delay * SECOND:
+        raise TrajectoryError(
+            Refusal.STARTS_TOO_LATE,
+            f"expected a start within {rules.max_start_delay:g} s, got one in {ahead / SECOND:.3f} s: "
+            "check that the clocks agree",
+        )
+    return max(ahead, 0) / SECOND, max(-ahead, 0)
+
+
+def _with_all_joints(points: Points, start: MotionState, limits: JointLimits) -> Points:
+    """Columns in the driver's order; joints that the message leaves out hold their position."""
+    count = len(limits.names)
+    left_out = np.setdiff1d(np.arange(count), points.columns)
+    moving = left_out[np.abs(start.velocities[left_out]) > REST_VELOCITY]
+    if len(moving):
+        raise TrajectoryError(
+            Refusal.MISSING_JOINTS,
+            f"{listed([limits.names[i] for i in moving])} would be in motion and cannot be left out",
+        )
+
+    def spread(values: FloatArray, background: FloatArray) -> FloatArray:
+        table = np.tile(background, (len(values), 1))
+        table[:, points.columns] = values
+        return table
+
+    still = np.zeros(count)
+    return Points(
+        points.stamp,
+        np.arange(count),
+        points.times,
+        spread(points.positions, start.positions),
+        spread(points.velocities, still),
+        spread(points.accelerations, still),
+        points.degrees,
+    )
+
+
+def _check_points(points: Points, limits: JointLimits) -> None:
+    low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
+    for i, j in _where((points.positions < low) | (points.positions > high)):
+        _refuse(
+            Refusal.POSITION_LIMIT,
+            f"point {i}: expected {limits.names[j]} within "
+            f"{limits.lower[j]:.4f} .. {limits.upper[j]:.4f} rad, got {points.positions[i, j]:.6g} rad",
+        )
+    top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
+    for i, j in _where(np.abs(points.velocities) > top):
+        _refuse(
+            Refusal.VELOCITY_LIMIT,
+            f"point {i}: expected {limits.names[j]} within +-{limits.velocity[j]:.4f} rad/s, "
+            f"got {points.velocities[i, j]:.6g} rad/s",
+        )
+    for _, j in _where(np.abs(points.velocities[-1:]) > REST_VELOCITY):
+        _refuse(
+            Refusal.MOVING_AT_END,
+            f"last point: expected {limits.names[j]} at rest, got {points.velocities[-1, j]:.6g} rad/s",
+        )
+
+
+def _times_from_start(points: Points, passed: int) -> FloatArray:
+    """When each point is due, from the moment that the execution starts [s]; <= 0 for what is due or past."""
+    return np.asarray((points.times - passed) / SECOND)
+
+
+def _check_start(
+    points: Points, due: FloatArray, start: MotionState, limits: JointLimits, rules: Rules
+) -> None:
+    """Compare the robot with where the message says that it is at the start, or has been since its stamp."""
+    past = int(np.searchsorted(due, 0.0, side="right"))
+    where = points.positions[:past]
+    if past < len(due):
+        around = slice(past - 1, past + 1)
+        between = Trajectory(
+            due[around] - due[past - 1],
+            points.positions[around],
+            points.velocities[around],
+            points.accelerations[around],
+            np.minimum(points.degrees[past - 1 : past], points.degrees[past : past + 1]),
+        )
+        where = np.vstack([where, between.sample(-float(due[past - 1])).positions])
+    low, high = where.min(axis=0), where.max(axis=0)
+    distance = np.maximum(low - start.positions, start.positions - high)
+    j = int(np.argmax(distance))
+    if distance[j] > rules.start_tolerance:
+        _refuse(
+            Refusal.START_MISMATCH,
+            f"expected {limits.names[j]} where the robot is, {start.positions[j]:.4f} rad, within "
+            f"{rules.start_tolerance:g} rad; the trajectory starts at {where[-1, j]:.4f} rad: "
+            "plan from the present joint state, or give the first point time to be reached",
+        )
+    if past == len(due):
+        for _, j in _where(np.abs(start.velocities[None]) > REST_VELOCITY):
+            _refuse(
+                Refusal.START_MISMATCH,
+                f"every point is due at once and {limits.names[j]} moves at {start.velocities[j]:.4f} rad/s: "
+                "give the robot time to stop",
+            )
+
+
+def _from_state(points: Points, due: FloatArray, start: MotionState) -> tuple[Trajectory, int]:
+    """The trajectory from the robot's state on, and the number of the message's first point in it."""
+    first = int(np.searchsorted(due, 0.0, side="right"))
+    if first == len(due):
+        return Trajectory.hold(start.positions), first
+    degrees = points.degrees[first:]
+    return (
+        Trajectory(
+            np.concatenate([[0.0], due[first:]]),
+            np.concatenate([start.positions[None], points.positions[first:]]),
+            np.concatenate([start.velocities[None], points.velocities[first:]]),
+            np.concatenate([start.accelerations[None], points.accelerations[first:]]),
+            # A segment uses what both its ends give; the robot's own state gives everything.
+            np.concatenate([degrees[:1], np.minimum(degrees[:-1], degrees[1:])]),
+        ),
+        first,
+    )
+
+
+def _check_between(trajectory: Trajectory, first: int, limits: JointLimits) -> None:
+    """Refuse what is over a limit between points; `first` is the number of the point that ends segment 0."""
+    top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
+    low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
+    count = len(trajectory.degrees)
+    for begin in range(0, count, _CHUNK):
+        span = slice(begin, min(begin + _CHUNK, count))
+        durations = trajectory.durations(span)
+        steps = np.diff(trajectory.positions[span.start : span.stop + 1], axis=0)
+        for i, j in _where(np.abs(steps) > top * durations[:, None]):
+            segment = begin + i
+            place = _place(segment, first)
+            _refuse(
+                Refusal.START_TOO_FAST if segment == 0 else Refusal.SPEED_BETWEEN_POINTS,
+                f"{place}, {limits.names[j]} has {durations[i]:.6g} s for {abs(steps[i, j]):.4f} rad: "
+                f"{abs(steps[i, j]) / durations[i]:.4g} rad/s; limit {limits.velocity[j]:.4f} rad/s",
+            )
+        for what, control, lower, upper in (
+            ("velocity", trajectory.velocity_control(span), -top, top),
+            ("position", trajectory.position_control(span), low, high),
+        ):
+            excess = first_excess(control, lower, upper)
+            if excess is None:
+                continue
+            segment, j = begin + excess.segment, excess.joint
+            code, bounds = _between_code(what, segment), (lower[j], upper[j])
+            moment = trajectory.times[segment] + excess.fraction * durations[excess.segment]
+            _refuse(
+                code,
+                f"{_place(segment, first)}, the curve through the given points takes {limits.names[j]} to a "
+                f"{what} of {excess.value:.6g} {'rad' if what == 'position' else 'rad/s'}, "
+                f"{moment:.3f} s after the start; it must stay within {bounds[0]:.4f} .. {bounds[1]:.4f}",
+            )
+
+
+def _between_code(what: str, segment: int) -> Refusal:
+    if what == "position":
+        return Refusal.START_LEAVES_LIMITS if segment == 0 else Refusal.POSITION_BETWEEN_POINTS
+    return Refusal.START_TOO_FAST if segment == 0 else Refusal.VELOCITY_BETWEEN_POINTS
+
+
+def _place(segment: int, first: int) -> str:
+    if segment == 0:
+        return f"between the robot's present state and point {first}"
+    return f"between points {first + segment - 1} and {first + segment}"
+
+
+def _where(bad: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """The first place where it is true, if any: (point, joint)."""
+    flat = int(np.argmax(bad))
+    return [(flat // bad.shape[1], flat % bad.shape[1])] if bad.flat[flat] else []
+
+
+def _refuse(code: Refusal, sentence: str) -> NoReturn:
+    raise TrajectoryError(code, sentence)
