@@ -23,6 +23,7 @@ class Camera:
         target: The point in the middle of the picture [m].
         field_of_view: Vertical opening angle [rad].
         size: Width and height of the picture [pixel]; both even, as video needs.
+        near: What is nearer to the camera than this is left out [m].
         follows: Frame of the robot whose origin `position` and `target` are relative to (axes always
             ``base_link``'s), or None.
     """
@@ -31,6 +32,7 @@ class Camera:
     target: Vector
     field_of_view: float
     size: tuple[int, int] = (640, 480)
+    near: float = 0.05
     follows: str | None = None
 
     def __post_init__(self) -> None:
@@ -46,6 +48,8 @@ class Camera:
             raise DescriptionError(
                 "bad_camera", f"expected a field of view between 0 and pi rad, got {self.field_of_view} rad"
             )
+        if not 0.01 <= self.near <= 10.0:
+            raise DescriptionError("bad_camera", f"expected near within 0.01 to 10 m, got {self.near} m")
         if any(side < 16 or side > 4096 or side % 2 for side in self.size):
             raise DescriptionError(
                 "bad_camera", f"expected even sizes from 16 to 4096 pixels, got {self.size}"
@@ -88,7 +92,8 @@ CAMERAS: Mapping[str, Camera] = MappingProxyType(
         "hand": Camera(
             position=(0.9, 0.0, 0.05),
             target=(0.0, 0.0, 0.0),
-            field_of_view=math.radians(24.0),
+            field_of_view=math.radians(20.0),
+            near=0.55,  # a hand behind the back is seen through the body
             follows="RightMiddleFinger_link",
         ),
         "full": Camera(position=(4.6, 0.0, 0.35), target=(0.0, 0.0, 0.04), field_of_view=math.radians(24.5)),

@@ -18,12 +18,15 @@ from teo_description.pose_arguments import read_pose
 from teo_description.rendering import MotionVideo, Renderer, film_strip, save_png
 
 _console = Console(stderr=True)
+# No markup in the help: it would swallow units in brackets.
+_app = typer.Typer(add_completion=False, rich_markup_mode=None)
 
 
+@_app.command()
 def _render(
     more: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[POSE]...", help="More of the pose, as for --pose.", show_default=False),
+        typer.Argument(metavar="POSE", help="More of the pose, as for --pose.", show_default=False),
     ] = None,
     pose: Annotated[
         list[str] | None,
@@ -120,4 +123,4 @@ def _film(motion: Motion, renderer: Renderer, mp4: Path, view: Camera, fps: floa
 
 def main() -> None:
     """Entry point of ``render``."""
-    typer.run(_render)
+    _app()

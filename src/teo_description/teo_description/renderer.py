@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import coal
 import cv2
 import numpy as np
 import pinocchio as pin
@@ -22,8 +21,8 @@ Image = NDArray[np.uint8]
 
 _SUPERSAMPLING = 2
 """Samples along each side of a pixel: fingers are 9 pixels wide in the front view."""
-_NEAR, _FAR = 0.05, 20.0
-"""[m] Nothing of the robot is nearer to or farther from any sensible camera."""
+_FAR = 20.0
+"""[m] Nothing of the robot is farther from any sensible camera."""
 
 _LIGHT = np.array(
     [0.75, 0.36, 0.56]
@@ -41,6 +40,8 @@ _OCCLUSION_BLUR = 25
 _OCCLUSION_DEPTH = 0.10
 """[m] Depth difference at which that shadow is full."""
 _OCCLUSION_DARKNESS = 0.45
+
+_NEIGHBOURS = np.ones((3, 3), np.uint8)
 
 _BACKGROUND_TOP, _BACKGROUND_BOTTOM = (0.90, 0.93, 0.96), (0.99, 0.99, 0.98)
 
@@ -75,7 +76,7 @@ class Renderer:
         self._settings = cv2.TriangleRasterizeSettings()
         self._settings.setCullingMode(cv2.RASTERIZE_CULLING_CW)
         self._settings.setShadingType(cv2.RASTERIZE_SHADING_SHADED)
-        self._backgrounds: dict[tuple[int, int], NDArray[np.float32]] = {}
+        self._canvas: _Canvas | None = None
 
     def render(self, positions: Mapping[str, float], camera: Camera | str = "front") -> Image:
         """Draw a pose.
@@ -94,22 +95,35 @@ class Renderer:
         q = self._robot.configuration(positions)
         origin = np.zeros(3) if camera.follows is None else self._robot.placement(q, camera.follows)[:3, 3]
         vertices, colours = self._shaded(q)
-        width, height = (side * _SUPERSAMPLING for side in camera.size)
-        colour = self._background(width, height).copy()
-        depth = np.full((height, width), _FAR, np.float32)
+        if self._canvas is None or self._canvas.size != camera.size:
+            self._canvas = _Canvas(camera.size)
+        canvas = self._canvas
+        canvas.clear()
+        view = camera.from_world(origin)
         cv2.triangleRasterize(
             vertices,
-            self._triangles,
+            self._beyond(camera.near, vertices, view),
             colours,
-            colour,
-            depth,
-            camera.from_world(origin),
+            canvas.colour,
+            canvas.depth,
+            view,
             camera.field_of_view,
-            _NEAR,
+            camera.near,
             _FAR,
             self._settings,
         )
-        return _finished(colour, depth, camera.size)
+        return canvas.finished()
+
+    def _beyond(
+        self, near: float, vertices: NDArray[np.float32], view: NDArray[np.float64]
+    ) -> NDArray[np.int32]:
+        """Triangles wholly beyond a distance [m]; the rasteriser would take a second over those at the camera."""
+        distance = -(vertices @ view[2, :3].astype(np.float32) + np.float32(view[2, 3]))
+        beyond = distance > near
+        if beyond.all():
+            return self._triangles
+        kept: NDArray[np.int32] = self._triangles[beyond[self._triangles].all(axis=1)]
+        return kept
 
     def _shaded(self, q: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Vertices in ``base_link`` and their lit colours. Shapes (n, 3)."""
@@ -126,26 +140,19 @@ class Renderer:
         light = _DIFFUSE * np.maximum(normals @ _LIGHT, 0.0) + (_AMBIENT + _SKY * normals[:, 2])
         return vertices.astype(np.float32), self._colours * light.astype(np.float32)[:, None]
 
-    def _background(self, width: int, height: int) -> NDArray[np.float32]:
-        if (width, height) not in self._backgrounds:
-            down = np.linspace(0.0, 1.0, height, dtype=np.float32)[:, None, None]
-            top, bottom = (np.array(end, np.float32) for end in (_BACKGROUND_TOP, _BACKGROUND_BOTTOM))
-            rows = (1.0 - down) * top + down * bottom
-            self._backgrounds[width, height] = np.ascontiguousarray(np.broadcast_to(rows, (height, width, 3)))
-        return self._backgrounds[width, height]
-
 
 def _part(item: Any) -> mesh.Mesh:
     shape, placement = item.geometry, item.placement
-    if isinstance(shape, coal.Box):
+    kind = type(shape).__name__  # by name: the module is called coal or hppfcl, by the age of Pinocchio
+    if kind == "Box":
         made = mesh.box(shape.halfSide)
-    elif isinstance(shape, coal.Cylinder):
+    elif kind == "Cylinder":
         made = mesh.cylinder(shape.radius, shape.halfLength)
-    elif isinstance(shape, coal.Sphere):
+    elif kind == "Sphere":
         made = mesh.sphere(shape.radius)
     else:
         raise DescriptionError(
-            "unknown_shape", f"expected boxes, cylinders and spheres in the URDF, got {type(shape).__name__}"
+            "unknown_shape", f"expected boxes, cylinders and spheres in the URDF, got {kind}"
         )
     return mesh.moved(made, placement.rotation, placement.translation)
 
@@ -161,15 +168,37 @@ def _slices(joints: list[int], counts: list[int]) -> list[tuple[int, slice]]:
     return list(found.items())
 
 
-def _finished(colour: NDArray[np.float32], depth: NDArray[np.float32], size: tuple[int, int]) -> Image:
-    """Outline the parts, shade what lies behind others, and bring the picture to its size."""
-    step = cv2.dilate(depth, np.ones((3, 3), np.uint8)) - depth
-    outline = step > _EDGE_STEP
-    colour[outline] *= _EDGE_DARKNESS
-    small = cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
-    small *= _occlusion(depth[::_SUPERSAMPLING, ::_SUPERSAMPLING])[..., None]
-    image: Image = cv2.convertScaleAbs(small, alpha=255.0)
-    return image
+class _Canvas:
+    """The arrays that pictures of one size are drawn in; fresh memory each time would cost a third more."""
+
+    def __init__(self, size: tuple[int, int]) -> None:
+        self.size = size
+        width, height = (side * _SUPERSAMPLING for side in size)
+        top, bottom = (np.array(end, np.float32) for end in (_BACKGROUND_TOP, _BACKGROUND_BOTTOM))
+        down = np.linspace(0.0, 1.0, height, dtype=np.float32)[:, None, None]
+        self._background = np.ascontiguousarray(
+            np.broadcast_to((1.0 - down) * top + down * bottom, (height, width, 3))
+        )
+        self.colour = np.empty((height, width, 3), np.float32)
+        self.depth = np.empty((height, width), np.float32)
+        self._nearby = np.empty_like(self.depth)
+        self._small = np.empty((size[1], size[0], 3), np.float32)
+
+    def clear(self) -> None:
+        """Nothing but background."""
+        np.copyto(self.colour, self._background)
+        self.depth.fill(_FAR)
+
+    def finished(self) -> Image:
+        """Outline the parts, shade what lies behind others, and bring the picture to its size."""
+        cv2.dilate(self.depth, _NEIGHBOURS, dst=self._nearby)
+        cv2.subtract(self._nearby, self.depth, dst=self._nearby)
+        # By index and not by mask: six times as fast for the few per cent of samples on an outline.
+        self.colour.reshape(-1, 3)[np.flatnonzero(self._nearby > _EDGE_STEP)] *= _EDGE_DARKNESS
+        cv2.resize(self.colour, self.size, dst=self._small, interpolation=cv2.INTER_AREA)
+        self._small *= _occlusion(self.depth[::_SUPERSAMPLING, ::_SUPERSAMPLING])[..., None]
+        image: Image = cv2.convertScaleAbs(self._small, alpha=255.0)
+        return image
 
 
 def _occlusion(depth: NDArray[np.float32]) -> NDArray[np.float32]:

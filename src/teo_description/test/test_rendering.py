@@ -146,6 +146,8 @@ def test_what_cannot_be_drawn_is_refused(renderer, positions, camera, code):
         {"size": (641, 480)},
         {"size": (100_000, 480)},
         {"field_of_view": 0.0},
+        {"near": 0.0},
+        {"near": float("nan")},
         {"field_of_view": float("nan")},
         {"position": (float("inf"), 0.0, 0.0)},
         {"position": (0.0, 0.0, 3.0), "target": (0.0, 0.0, 0.0)},
@@ -156,6 +158,18 @@ def test_impossible_cameras_are_refused(figures):
     with pytest.raises(DescriptionError) as caught:
         replace(CAMERAS["front"], **figures)
     assert caught.value.code == "bad_camera"
+
+
+def test_a_hand_behind_the_back_is_seen_through_the_body(renderer, robot):
+    positions = {"FrontalRightShoulder": 0.7, "AxialRightShoulder": 0.9, "FrontalRightElbow": 1.2}
+    camera = CAMERAS["hand"]
+    q = robot.configuration(positions)
+    knuckle = robot.placement(q, camera.follows)[:3, 3]
+    assert knuckle[0] < -0.2
+    seen = figure(renderer.render(positions, camera))
+    tip = robot.placement(q, "RightMiddleFingerTip")[:3, 3] - knuckle
+    x, y = pixel(camera, 0.9 * tip)
+    assert seen[y - 3 : y + 4, x - 3 : x + 4].any()
 
 
 def test_a_camera_inside_the_robot_draws_and_does_not_fail(renderer):
