@@ -117,7 +117,7 @@ class Renderer:
     def _beyond(
         self, near: float, vertices: NDArray[np.float32], view: NDArray[np.float64]
     ) -> NDArray[np.int32]:
-        """Triangles wholly beyond a distance [m]; the rasteriser would take a second over those at the camera."""
+        """Triangles wholly beyond a distance [m]; the rasteriser is very slow over the others."""
         distance = -(vertices @ view[2, :3].astype(np.float32) + np.float32(view[2, 3]))
         beyond = distance > near
         if beyond.all():
