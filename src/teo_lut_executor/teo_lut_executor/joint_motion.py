@@ -1,0 +1,169 @@
+"""Motion of joints as pieces of constant jerk: exact at any time, with exact extremes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Extremes(NamedTuple):
+    """The most that a motion reaches, either way."""
+
+    least: float
+    """Position [rad]."""
+    greatest: float
+    """Position [rad]."""
+    velocity: float
+    """Size [rad/s]."""
+    acceleration: float
+    """Size [rad/s^2]."""
+    jerk: float
+    """Size [rad/s^3]."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Pieces:
+    """Pieces of constant jerk, of any shape; each array gives a number for each piece.
+
+    Attributes:
+        lengths: How long each piece lasts [s].
+        positions: At its beginning [rad].
+        velocities: There [rad/s].
+        accelerations: There [rad/s^2].
+        jerks: During the piece [rad/s^3].
+    """
+
+    lengths: Array
+    positions: Array
+    velocities: Array
+    accelerations: Array
+    jerks: Array
+
+    def after(self, times: Array) -> tuple[Array, Array, Array]:
+        """Position, velocity and acceleration so long after the beginning of each piece."""
+        p, v, a, j, t = self.positions, self.velocities, self.accelerations, self.jerks, times
+        return p + t * (v + t * (a / 2.0 + t * j / 6.0)), v + t * (a + t * j / 2.0), a + t * j
+
+    def turns(self) -> Array:
+        """Times within each piece at which its velocity is zero, 0 where there is none [s]. Shape (2, ...)."""
+        v, a, j = self.velocities, self.accelerations, self.jerks
+        with np.errstate(divide="ignore", invalid="ignore"):
+            # The form of the quadratic's roots that does not lose digits, and is right for a jerk of zero too.
+            q = -(a + np.copysign(np.sqrt(a**2 - 2.0 * j * v), a))
+            turns = np.stack([q / j, 2.0 * v / q])
+        inside = np.isfinite(turns) & (turns > 0.0) & (turns < self.lengths)
+        return np.where(inside, turns, 0.0)
+
+    def range(self) -> tuple[Array, Array]:
+        """Least and greatest position along the last axis [rad]."""
+        lengths = np.stack([np.zeros_like(self.lengths), self.lengths, *self.turns()])
+        reached = self.after(lengths)[0]
+        return reached.min(axis=(0, -1)), reached.max(axis=(0, -1))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class JointMotion:
+    """The motion of one joint.
+
+    Attributes:
+        starts: When each piece begins [s], strictly increasing, the first at 0. Shape (n,).
+        pieces: The pieces. Shape (n,).
+    """
+
+    starts: Array
+    pieces: Pieces
+
+    @property
+    def duration(self) -> float:
+        """When the last piece ends [s]."""
+        return float(self.starts[-1] + self.pieces.lengths[-1])
+
+    def at(self, times: Array) -> tuple[Array, Array, Array]:
+        """Position, velocity and acceleration at given times; before and after the motion, of its ends.
+
+        Args:
+            times: [s]. Shape (k,).
+
+        Returns:
+            [rad], [rad/s], [rad/s^2]; shape (k,) each.
+        """
+        times = np.clip(times, 0.0, self.duration)
+        index = np.searchsorted(self.starts, times, side="right") - 1
+        return take(self.pieces, index).after(times - self.starts[index])
+
+    def extremes(self) -> Extremes:
+        """The most that the motion reaches, also between any samples."""
+        pieces = self.pieces
+        least, greatest = pieces.range()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            peak = -pieces.accelerations / pieces.jerks
+        inside = np.isfinite(peak) & (peak > 0.0) & (peak < pieces.lengths)
+        times = np.stack([np.zeros_like(peak), pieces.lengths, np.where(inside, peak, 0.0)])
+        _, velocity, acceleration = pieces.after(times)
+        return Extremes(
+            least=float(least),
+            greatest=float(greatest),
+            velocity=float(np.abs(velocity).max()),
+            acceleration=float(np.abs(acceleration).max()),
+            jerk=float(np.abs(pieces.jerks).max()),
+        )
+
+
+def take(pieces: Pieces, index: NDArray[np.intp] | int) -> Pieces:
+    """Some of the pieces, by index along the first axis."""
+    return Pieces(
+        lengths=pieces.lengths[index],
+        positions=pieces.positions[index],
+        velocities=pieces.velocities[index],
+        accelerations=pieces.accelerations[index],
+        jerks=pieces.jerks[index],
+    )
+
+
+class JointMotionBuilder:
+    """Collects the pieces of one joint, in order."""
+
+    def __init__(self) -> None:
+        """Begin without any."""
+        self._starts: list[Array] = []
+        self._pieces: list[Pieces] = []
+
+    def add(self, start: float, pieces: Pieces) -> None:
+        """Add pieces that follow one another from a time on [s]; shape (k,). Those without length are left out."""
+        begins = start + np.cumsum(pieces.lengths) - pieces.lengths
+        lasting = np.flatnonzero(pieces.lengths > 0.0)
+        self._starts.append(begins[lasting])
+        self._pieces.append(take(pieces, lasting))
+
+    def hold(self, start: float, position: float, length: float) -> None:
+        """Stand still from a time on [s], at a position [rad], for a time [s]."""
+        self.add(
+            start,
+            Pieces(
+                lengths=np.array([length]),
+                positions=np.array([position]),
+                velocities=np.zeros(1),
+                accelerations=np.zeros(1),
+                jerks=np.zeros(1),
+            ),
+        )
+
+    def build(self, duration: float) -> JointMotion:
+        """The motion, which ends at a time [s]."""
+        starts = np.concatenate(self._starts)
+        # Sums in another order differ in the last digits: where a piece would begin at or after the next one,
+        # it is left out, and each piece ends where the next begins.
+        keep = np.append(starts[:-1] < np.minimum.accumulate(starts[:0:-1])[::-1], True)
+        pieces = Pieces(
+            lengths=np.diff(starts[keep], append=duration),
+            positions=np.concatenate([item.positions for item in self._pieces])[keep],
+            velocities=np.concatenate([item.velocities for item in self._pieces])[keep],
+            accelerations=np.concatenate([item.accelerations for item in self._pieces])[keep],
+            jerks=np.concatenate([item.jerks for item in self._pieces])[keep],
+        )
+        return JointMotion(starts=starts[keep], pieces=pieces)

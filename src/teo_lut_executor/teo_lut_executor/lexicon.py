@@ -1,0 +1,118 @@
+"""From tokens to signs: look a token up, and spell what the table lacks."""
+
+from __future__ import annotations
+
+import dataclasses
+import unicodedata
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from teo_lut_executor.lut_error import LutError
+from teo_lut_executor.plan_error import PlanError
+from teo_lut_executor.sign import Sign, gloss_key
+from teo_lut_executor.tokens import Kind, Token, check_tokens
+
+_SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
+_TILDE = "\N{COMBINING TILDE}"
+
+# Signs that can spell have names this short: "A", "CH", "10". Longer entries are not read when spelling.
+_LONGEST_SPELLER = 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class SignedToken:
+    """A token and the sign that makes it; `sign` is None for a pause."""
+
+    token: Token
+    sign: Sign | None
+
+
+class Lexicon:
+    """Finds signs in a look-up table.
+
+    A lexical gloss that the table lacks is spelled with the table's own letters, longest match first, so
+    that CH, LL and RR are one sign where the table has them; digits in it become number signs and "_" a
+    pause. Accents are dropped first, except on Ñ, which is a letter of its own.
+    """
+
+    def __init__(self, signs: Mapping[str, Sign]) -> None:
+        """Use a table, which may change between two calls of `resolve`."""
+        self._signs = signs
+
+    def resolve(self, tokens: Sequence[Token]) -> tuple[SignedToken, ...]:
+        """Find a sign for every token.
+
+        Returns:
+            In order; a spelled gloss gives one entry for each sign that replaces it, with the token's word
+            index, confidence and duration scale.
+
+        Raises:
+            PlanError: A token cannot be signed ("unknown_sign", "invalid_sign" or see `check_tokens`).
+        """
+        check_tokens(tokens)
+        return tuple(signed for token in tokens for signed in self._resolve(token))
+
+    def _resolve(self, token: Token) -> list[SignedToken]:
+        if token.kind == Kind.PAUSE:
+            return [SignedToken(token=token, sign=None)]
+        gloss = gloss_key(token.gloss.strip()).upper()
+        sign = self._find(gloss, token.kind)
+        if sign is not None:
+            return [SignedToken(token=token, sign=sign)]
+        if token.kind == Kind.LETTER:
+            sign = self._find(without_accents(gloss), Kind.LETTER)
+            if sign is None:
+                raise PlanError("unknown_sign", f"expected a letter of the table, got {token.gloss!r}")
+            return [SignedToken(token=token, sign=sign)]
+        return self._spell(token, without_accents(gloss))
+
+    def _find(self, gloss: str, kind: Kind) -> Sign | None:
+        if gloss not in self._signs:
+            return None
+        try:
+            sign = self._signs[gloss]
+        except LutError as error:
+            raise PlanError("invalid_sign", f"the entry of {gloss!r} cannot be used: {error}") from error
+        return sign if sign.kind == _SIGN_KIND[kind] else None
+
+    def _spell(self, token: Token, text: str) -> list[SignedToken]:
+        signed: list[SignedToken] = []
+        position = 0
+        while position < len(text):
+            if text[position] == "_" and token.kind == Kind.LEXICAL:
+                pause = dataclasses.replace(token, gloss="", kind=Kind.PAUSE)
+                signed.append(SignedToken(token=pause, sign=None))
+                position += 1
+                continue
+            for length in range(_LONGEST_SPELLER, 0, -1):
+                piece = text[position : position + length]
+                kind = Kind.NUMBER if piece.isdecimal() else Kind.LETTER
+                if token.kind == Kind.NUMBER and kind != Kind.NUMBER:
+                    continue
+                sign = self._find(piece, kind) if len(piece) == length else None
+                if sign is not None:
+                    letter = dataclasses.replace(token, gloss=piece, kind=kind)
+                    signed.append(SignedToken(token=letter, sign=sign))
+                    position += length
+                    break
+            else:
+                raise PlanError("unknown_sign", self._missing(token, text[position]))
+        return signed
+
+    @staticmethod
+    def _missing(token: Token, character: str) -> str:
+        if token.kind == Kind.NUMBER:
+            return f"expected a number of the table, got {token.gloss!r}: there is no sign for {character!r}"
+        return (
+            f"expected a gloss of the table or one that its letters can spell, got {token.gloss!r}: "
+            f"there is neither a sign of that name nor a letter for {character!r}"
+        )
+
+
+def without_accents(text: str) -> str:
+    """Drop the accents of letters, as the manual alphabet does; Ñ stays."""
+    kept: list[str] = []
+    for character in unicodedata.normalize("NFD", text):
+        if not unicodedata.combining(character) or (character == _TILDE and kept and kept[-1] in "Nn"):
+            kept.append(character)
+    return unicodedata.normalize("NFC", "".join(kept))

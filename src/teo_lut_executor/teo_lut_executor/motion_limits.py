@@ -1,0 +1,77 @@
+"""What the planned motion must stay within."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_lut_executor.plan_error import PlanError
+
+# A joint is at 50 deg/s, its greatest velocity, after 0.27 s and 6.7 deg. TEO's drives default to 10 deg/s^2,
+# with which 10 deg take 2 s: no sign would be known again; TEO's own gestures were played at 25 deg/s^2 and
+# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 9 N m (2.4 at
+# the elbow, 0.6 at the wrist) beside the at most 27 N m with which it carries the arm.
+DEFAULT_ACCELERATION = math.radians(300.0)  # [rad/s^2]
+
+# The acceleration builds up in 0.1 s, five of the 0.02 s at which TEO's drives are sent set-points, so that
+# it reaches them as a ramp and not as a step.
+DEFAULT_JERK = math.radians(3000.0)  # [rad/s^3]
+
+# The plan keeps below the limits by these factors, because the driver interpolates between the points of the
+# trajectory: its quintic meets position, velocity and acceleration at the points and swings a little beyond
+# them where the jerk changes in between. Measured at 0.02 s and the default jerk: 0.1 % of the velocity and
+# 1.5 % of the acceleration.
+VELOCITY_MARGIN = 0.995
+ACCELERATION_MARGIN = 0.95
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MotionLimits:
+    """Limits of every commanded joint.
+
+    Attributes:
+        names: Joints, in the order of the arrays.
+        lower: Least position [rad]. Shape (n,), as all below.
+        upper: Greatest position [rad].
+        velocity: Greatest speed [rad/s].
+        acceleration: Greatest acceleration, either way [rad/s^2].
+        jerk: Greatest jerk, either way [rad/s^3].
+    """
+
+    names: tuple[str, ...]
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
+    jerk: NDArray[np.float64]
+
+    @classmethod
+    def of_robot(
+        cls, *, acceleration: float = DEFAULT_ACCELERATION, jerk: float = DEFAULT_JERK
+    ) -> MotionLimits:
+        """Positions and velocities of the robot description, with one acceleration and jerk for all joints.
+
+        Args:
+            acceleration: [rad/s^2], above 0.
+            jerk: [rad/s^3], above 0.
+
+        Raises:
+            PlanError: Not finite or not above 0 ("bad_limits").
+        """
+        for name, value in (("acceleration", acceleration), ("jerk", jerk)):
+            if not (math.isfinite(value) and value > 0.0):
+                message = f"{name}: expected a finite number above 0, got {value}"
+                raise PlanError("bad_limits", message)
+        limits = joint_limits(COMMANDED_JOINTS)
+        return cls(
+            names=tuple(limits.names),
+            lower=limits.lower,
+            upper=limits.upper,
+            velocity=limits.velocity,
+            acceleration=np.full(len(limits.names), acceleration),
+            jerk=np.full(len(limits.names), jerk),
+        )
