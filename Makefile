@@ -29,6 +29,6 @@ lint: setup ## style, types
 	@$(ENV) scripts/lint.sh
 
 bench: setup ## the figures of the README
-	@$(ENV) python bench/run.py
+	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PYTHONPATH" python bench/run.py
 
 export TEXT

@@ -16,12 +16,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
 import rclpy
 from graph import Graph
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from report import Figure, percentiles
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -63,8 +63,8 @@ class _Inbox:
     states: list[int] = field(default_factory=list)
 
 
-def measure(sentences: int = SENTENCES) -> dict[str, np.ndarray]:
-    """Latencies [s] of each sentence: "text to trajectory" and "DDS echo". Shape (sentences,) each."""
+def measure(sentences: int = SENTENCES) -> list[Figure]:
+    """Time from a text to its trajectory and, as the baseline, to its echo."""
     os.environ.setdefault("ROS_DOMAIN_ID", "19")
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     rclpy.init()
@@ -129,15 +129,4 @@ def measure(sentences: int = SENTENCES) -> dict[str, np.ndarray]:
             wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states, ticking=True)
     node.destroy_node()
     rclpy.shutdown()
-    return {name: np.array(values) for name, values in latencies.items()}
-
-
-def main() -> None:
-    """Print median and 99th percentile."""
-    for name, values in measure().items():
-        median, p99 = np.percentile(values, [50, 99]) * 1e3
-        print(f"{name}: median {median:.1f} ms, p99 {p99:.1f} ms over {len(values)} sentences")
-
-
-if __name__ == "__main__":
-    main()
+    return [percentiles(name, values) for name, values in latencies.items()]

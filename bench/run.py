@@ -1,0 +1,32 @@
+"""Measure everything, one bench after the other, and print one table."""
+
+from __future__ import annotations
+
+import platform
+
+import robot_model
+import text_to_trajectory
+from rich.console import Console
+from rich.table import Table
+
+BENCHES = (robot_model, text_to_trajectory)
+
+
+def main() -> None:
+    """Print the figures, each under the bench that made it."""
+    console = Console()
+    table = Table(
+        "bench", "what", "measured", title=f"{platform.machine()}, Python {platform.python_version()}"
+    )
+    for bench in BENCHES:
+        name = bench.__name__
+        with console.status(f"bench/{name}.py"):
+            figures = bench.measure()
+        for figure in figures:
+            table.add_row(name, figure.what, figure.value)
+        table.add_section()
+    console.print(table)
+
+
+if __name__ == "__main__":
+    main()
