@@ -15,7 +15,7 @@ setup(
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
-    description="A ros2 command for machines whose ROS 2 comes from PyPI; MCAP recording and playing. Steps aside for the genuine ros2cli.",
+    description="A ros2 command for machines whose ROS 2 comes from PyPI; steps aside for the genuine one.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={

@@ -1,0 +1,201 @@
+"""A quality-of-service profile as bags store it, and the choice of one that suits many.
+
+Source of names and numbers: rmw/types.h and rmw/qos_string_conversions.h of ROS 2 Jazzy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+INFINITE = 2**63 - 1
+"""RMW_DURATION_INFINITE [ns]."""
+
+_HISTORY = {"system_default": 0, "keep_last": 1, "keep_all": 2, "unknown": 3}
+_RELIABILITY = {"system_default": 0, "reliable": 1, "best_effort": 2, "unknown": 3, "best_available": 4}
+_DURABILITY = {"system_default": 0, "transient_local": 1, "volatile": 2, "unknown": 3, "best_available": 4}
+_LIVELINESS = {
+    "system_default": 0,
+    "automatic": 1,
+    "manual_by_node": 2,
+    "manual_by_topic": 3,
+    "unknown": 4,
+    "best_available": 5,
+}
+_POLICIES: Mapping[str, Mapping[str, int]] = {
+    "history": _HISTORY,
+    "reliability": _RELIABILITY,
+    "durability": _DURABILITY,
+    "liveliness": _LIVELINESS,
+}
+_DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
+# What implementations of the first ROS 2 releases gave for an infinite time [s, ns]: rosbag2 maps these as
+# well.
+_OLD_INFINITES = {(2**31 - 1, 2**32 - 1), (2**31 - 1, 2**31 - 1)}
+
+
+@dataclass(frozen=True)
+class QosRecord:
+    """One QoS profile, with the policy names of rmw. The defaults are those of a default publisher.
+
+    Args:
+        history: `keep_last`, `keep_all`, `system_default`, or `unknown` where discovery does not tell.
+        depth: Length of the queue of `keep_last` [messages].
+        reliability: `reliable`, `best_effort`, ...
+        durability: `volatile`, `transient_local`, ...
+        deadline: Longest time between messages that is promised [ns].
+        lifespan: Age at which a message expires [ns].
+        liveliness: `automatic`, `manual_by_topic`, ...
+        liveliness_lease_duration: Time within which liveliness is shown [ns].
+        avoid_ros_namespace_conventions: True if the topic name went to DDS unchanged.
+    """
+
+    history: str = "keep_last"
+    depth: int = 10
+    reliability: str = "reliable"
+    durability: str = "volatile"
+    deadline: int = INFINITE
+    lifespan: int = INFINITE
+    liveliness: str = "automatic"
+    liveliness_lease_duration: int = INFINITE
+    avoid_ros_namespace_conventions: bool = False
+
+    def to_tree(self) -> dict[str, Any]:
+        """Return the profile as rosbag2 writes it into metadata (version 9)."""
+        return {
+            "history": self.history,
+            "depth": self.depth,
+            "reliability": self.reliability,
+            "durability": self.durability,
+            "deadline": _time(self.deadline),
+            "lifespan": _time(self.lifespan),
+            "liveliness": self.liveliness,
+            "liveliness_lease_duration": _time(self.liveliness_lease_duration),
+            "avoid_ros_namespace_conventions": self.avoid_ros_namespace_conventions,
+        }
+
+    @classmethod
+    def from_tree(cls, tree: Mapping[str, Any]) -> QosRecord:
+        """Read a profile; missing policies get their defaults, numbers of older versions their names.
+
+        Raises:
+            ValueError: A policy or a time has a value that does not exist.
+        """
+        unknown = set(tree) - set(cls.__dataclass_fields__)
+        if unknown:
+            raise ValueError(f"unknown QoS policy {', '.join(sorted(map(str, unknown)))}")
+        values: dict[str, Any] = {}
+        for name, known in _POLICIES.items():
+            if name in tree:
+                values[name] = _policy(name, tree[name], known)
+        for name in _DURATIONS:
+            if name in tree:
+                values[name] = _nanoseconds(name, tree[name])
+        if "depth" in tree:
+            depth = tree["depth"]
+            if not isinstance(depth, int) or isinstance(depth, bool) or depth < 0:
+                raise ValueError(f"QoS depth must be an integer of at least 0, got {depth!r}")
+            values["depth"] = depth
+        if "avoid_ros_namespace_conventions" in tree:
+            values["avoid_ros_namespace_conventions"] = bool(tree["avoid_ros_namespace_conventions"])
+        return cls(**values)
+
+
+def _policy(name: str, value: Any, known: Mapping[str, int]) -> str:
+    if isinstance(value, str) and value.lower() in known:
+        return value.lower()
+    for word, number in known.items():
+        if value == number and not isinstance(value, bool):
+            return word
+    raise ValueError(f"QoS {name} must be one of {', '.join(known)}, got {value!r}")
+
+
+def _time(nanoseconds: int) -> dict[str, int]:
+    seconds, rest = divmod(nanoseconds, 1_000_000_000)
+    return {"sec": seconds, "nsec": rest}
+
+
+def _nanoseconds(name: str, tree: Any) -> int:
+    if not isinstance(tree, Mapping) or not all(isinstance(tree.get(key, 0), int) for key in ("sec", "nsec")):
+        raise ValueError(f"QoS {name} must have integers `sec` and `nsec`, got {tree!r}")
+    seconds, rest = tree.get("sec", 0), tree.get("nsec", 0)
+    if seconds < 0 or rest < 0:
+        raise ValueError(f"QoS {name} must not be negative, got {seconds} s {rest} ns")
+    total = seconds * 1_000_000_000 + rest
+    # Zero means unspecified to rmw, the same as infinite.
+    if (seconds, rest) in _OLD_INFINITES or total == 0 or total > INFINITE:
+        return INFINITE
+    return int(total)
+
+
+class Adapted(NamedTuple):
+    """A chosen profile, and a sentence for each thing that it cannot give."""
+
+    profile: QosRecord
+    warnings: tuple[str, ...]
+
+
+def request_for(topic: str, offers: Sequence[QosRecord]) -> Adapted:
+    """Choose the strictest request that every publisher of a topic can serve.
+
+    Reliable only if all are reliable; transient local, which brings latched messages, only if all are.
+    """
+    reliable = [offer.reliability == "reliable" for offer in offers]
+    latched = [offer.durability == "transient_local" for offer in offers]
+    warnings: list[str] = []
+    if any(reliable) and not all(reliable):
+        warnings.append(
+            f'Some, but not all, publishers on topic "{topic}" are reliable. Falling back to best effort, '
+            "which connects to all of them; some messages from the reliable ones may be lost."
+        )
+    if any(latched) and not all(latched):
+        warnings.append(
+            f'Some, but not all, publishers on topic "{topic}" are transient local. Falling back to '
+            f"volatile, "
+            "which connects to all of them; messages latched before now are not received."
+        )
+    profile = QosRecord(
+        reliability="best_effort" if offers and not all(reliable) else "reliable",
+        durability="transient_local" if offers and all(latched) else "volatile",
+    )
+    return Adapted(profile, tuple(warnings))
+
+
+def serves(offer: QosRecord, request: QosRecord) -> bool:
+    """Tell whether a publisher's reliability and durability satisfy a subscription's."""
+    reliable = request.reliability != "reliable" or offer.reliability == "reliable"
+    durable = request.durability != "transient_local" or offer.durability == "transient_local"
+    return reliable and durable
+
+
+def offer_for(topic: str, recorded: Sequence[QosRecord]) -> Adapted:
+    """Choose the profile to publish a recorded topic with: the recorded one if all its publishers agreed."""
+    if not recorded:
+        return Adapted(QosRecord(), ())
+    # History and lifespan do not decide who connects to whom.
+    effective = {replace(profile, history="keep_last", depth=0, lifespan=INFINITE) for profile in recorded}
+    if len(effective) > 1:
+        return Adapted(
+            QosRecord(),
+            (
+                f"Not all original publishers on topic {topic} offered the same QoS profiles; "
+                "publishing with the default profile.",
+            ),
+        )
+    profile = recorded[0]
+    if profile.history not in ("keep_last", "keep_all") or (
+        profile.history == "keep_last" and not profile.depth
+    ):
+        profile = replace(profile, history="keep_last", depth=QosRecord.depth)
+    return Adapted(_settled(profile), ())
+
+
+def _settled(profile: QosRecord) -> QosRecord:
+    """Replace policies that discovery did not tell, which nobody can be asked for, by the defaults."""
+    values = {
+        name: getattr(QosRecord, name)
+        for name in ("reliability", "durability", "liveliness")
+        if getattr(profile, name) == "unknown"
+    }
+    return replace(profile, **values)

@@ -1,0 +1,94 @@
+"""Choosing a command and a verb by name, with the help texts that list them."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import signal
+import sys
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from teo_ros2cli.errors import Ros2CliError
+
+
+class Entry(NamedTuple):
+    """Something to choose.
+
+    Args:
+        module: The module that does it. It has either `run_words(words) -> int`, and then reads the words
+            itself, or `add_arguments(parser)` and `run(options) -> int`.
+        summary: One line on what it does.
+        verb: For a module with several small verbs: the functions are `add_<verb>_arguments` and
+            `run_<verb>`.
+    """
+
+    module: str
+    summary: str
+    verb: str = ""
+
+
+def choose(
+    program: str, description: str, kind: str, entries: Mapping[str, Entry], words: Sequence[str]
+) -> int:
+    """Run the entry that the first word names with the other words, and return the exit status.
+
+    Args:
+        program: The command line up to here, for the usage.
+        description: What the program is for.
+        kind: What the entries are called: `command` or `verb`.
+        entries: By name.
+        words: The rest of the command line.
+    """
+    metavar = f"Call `{program} <{kind}> -h` for more detailed usage."
+    parser = argparse.ArgumentParser(
+        prog=program,
+        description=description,
+        epilog=metavar,
+        usage=f"{program} [-h] {metavar} ...",
+        formatter_class=_ListingFormatter,
+    )
+    parser.entries = entries  # type: ignore[attr-defined]
+    listing = parser.add_argument_group(f"{kind.capitalize()}s")
+    width = max(map(len, entries)) + 2
+    listing.description = "\n".join(f"{name.ljust(width)}{entry.summary}" for name, entry in entries.items())
+    if not words or words[0] in ("-h", "--help"):
+        parser.print_help()
+        return 0
+    name = words[0]
+    if name not in entries:
+        choices = ", ".join(map(repr, entries))
+        parser.print_usage(sys.stderr)
+        print(
+            f"{program}: error: argument {metavar}: invalid choice: {name!r} (choose from {choices})",
+            file=sys.stderr,
+        )
+        return 2
+    return _call(f"{program} {name}", entries[name], list(words[1:]))
+
+
+class _ListingFormatter(argparse.HelpFormatter):
+    """Keeps the line breaks of the listing."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        if "\n" in text:
+            return "".join(f"{indent}{line}\n" for line in text.splitlines()).rstrip("\n")
+        return super()._fill_text(text, width, indent)
+
+
+def _call(program: str, entry: Entry, words: list[str]) -> int:
+    module = importlib.import_module(entry.module)
+    try:
+        if not entry.verb and hasattr(module, "run_words"):
+            return int(module.run_words(words))
+        parser = argparse.ArgumentParser(prog=program, description=entry.summary)
+        getattr(module, f"add_{entry.verb}_arguments" if entry.verb else "add_arguments")(parser)
+        return int(getattr(module, f"run_{entry.verb}" if entry.verb else "run")(parser.parse_args(words)))
+    except Ros2CliError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except Exception as error:
+        # Loading rclpy costs a tenth of a second: its exception is told by its name.
+        if type(error).__name__ == "ExternalShutdownException":
+            return 128 + int(signal.SIGTERM)
+        raise

@@ -1,0 +1,117 @@
+"""`ros2 node`: which nodes there are, and what they offer."""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+from teo_ros2cli.bags.selection import is_hidden
+from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.options import add_graph_arguments
+from teo_ros2cli.errors import Ros2CliError
+
+VERBS = {
+    "info": Entry(__name__, "Output information about a node", "info"),
+    "list": Entry(__name__, "Output a list of available nodes", "list"),
+}
+
+
+def run_words(words: Sequence[str]) -> int:
+    """Run the verb that the words name."""
+    return choose("ros2 node", "Various node related sub-commands", "verb", VERBS, words)
+
+
+def add_list_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `list`."""
+    add_graph_arguments(parser)
+    parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
+    parser.add_argument(
+        "-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered"
+    )
+
+
+def run_list(options: argparse.Namespace) -> int:
+    """Print the full names of the nodes of the graph, this command's own left out."""
+    from teo_ros2cli.graph.session import cli_node, settle
+
+    with cli_node(use_sim_time=options.use_sim_time) as node:
+        settle(node, options.spin_time)
+        names = sorted(_full_names(node))
+    if not options.all:
+        names = [name for name in names if not is_hidden(name)]
+    if options.count_nodes:
+        print(len(names))
+        return 0
+    for name in names:
+        print(name)
+    if any(count > 1 for count in Counter(names).values()):
+        print(
+            "WARNING: Be aware that there are nodes in the graph that share an exact name, which can have "
+            "unintended "
+            "side effects."
+        )
+    return 0
+
+
+def add_info_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `info`."""
+    add_graph_arguments(parser)
+    parser.add_argument("node_name", help="Node name to request information")
+    parser.add_argument(
+        "--include-hidden", action="store_true", help="Display hidden topics, services, and actions as well"
+    )
+
+
+def run_info(options: argparse.Namespace) -> int:
+    """Print what a node publishes, subscribes to, serves and calls.
+
+    Raises:
+        Ros2CliError: `node_unknown`.
+    """
+    from rclpy.action import (
+        get_action_client_names_and_types_by_node,
+        get_action_server_names_and_types_by_node,
+    )
+
+    from teo_ros2cli.graph.session import cli_node, settle
+
+    full = options.node_name if options.node_name.startswith("/") else f"/{options.node_name}"
+    namespace, name = (full.rpartition("/")[0] or "/"), full.rpartition("/")[2]
+    with cli_node(use_sim_time=options.use_sim_time) as node:
+        settle(node, options.spin_time)
+        count = _full_names(node).count(full)
+        if not count:
+            raise Ros2CliError("node_unknown", f"Unable to find node '{options.node_name}'")
+        if count > 1:
+            print(
+                f'There are {count} nodes in the graph with the exact name "{full}". You are seeing '
+                f"information "
+                "about only one of them."
+            )
+        print(full)
+        for title, find in (
+            ("Subscribers", node.get_subscriber_names_and_types_by_node),
+            ("Publishers", node.get_publisher_names_and_types_by_node),
+            ("Service Servers", node.get_service_names_and_types_by_node),
+            ("Service Clients", node.get_client_names_and_types_by_node),
+            ("Action Servers", lambda *at: get_action_server_names_and_types_by_node(node, *at)),
+            ("Action Clients", lambda *at: get_action_client_names_and_types_by_node(node, *at)),
+        ):
+            print(f"  {title}:")
+            for entry, types in sorted(find(name, namespace)):
+                if options.include_hidden or not is_hidden(entry):
+                    print(f"    {entry}: {', '.join(types)}")
+            if title != "Action Clients":
+                print()
+    return 0
+
+
+def _full_names(node: Any) -> list[str]:
+    own = (node.get_name(), node.get_namespace())
+    return [
+        f"{namespace.rstrip('/')}/{name}"
+        for name, namespace in node.get_node_names_and_namespaces()
+        if (name, namespace) != own
+    ]

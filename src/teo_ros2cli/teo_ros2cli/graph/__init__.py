@@ -1,0 +1,1 @@
+"""The parts that take part in a running ROS graph, through rclpy."""

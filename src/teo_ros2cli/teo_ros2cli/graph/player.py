@@ -1,0 +1,294 @@
+"""Playing a bag into a running graph."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Collection, Iterator, Mapping
+from queue import Full, Queue
+from typing import Any, NamedTuple
+
+from teo_ros2cli.bags.bag import Bag
+from teo_ros2cli.bags.mcap_file import StoredMessage
+from teo_ros2cli.bags.metadata import TopicRecord
+from teo_ros2cli.bags.qos_record import QosRecord, offer_for
+from teo_ros2cli.bags.schedule import Schedule
+from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.qos import from_record
+from teo_ros2cli.messages.classes import message_class
+
+_STEP = 0.05
+"""Longest time in which a signal or a key is not looked at [s]."""
+
+
+class PlayerSettings(NamedTuple):
+    """How a bag is played.
+
+    Args:
+        selects: Tells whether a topic is played, by its name in the bag.
+        remap: New full topic name by old one.
+        rate: Seconds of the bag in one second.
+        start_offset: Where to begin, from the start of the bag [s].
+        duration: How much of the bag to play [s], None for all.
+        until: Time at which to end [ns since the epoch], None for the end of the bag.
+        delay: Time to wait before playing, in each loop [s].
+        loop: Begin again at the end.
+        clock: Rate of publishing `/clock` [1/s], 0 for not at all.
+        start_paused: Begin with a pause.
+        overrides: Profile to publish with, by topic name in the bag.
+        read_ahead: Messages that are read before they are due.
+        wait_acknowledged: Time to wait for acknowledgements at the end [s], negative for not at all, 0 for
+            ever.
+    """
+
+    selects: Callable[[str], bool]
+    remap: Mapping[str, str] = {}
+    rate: float = 1.0
+    start_offset: float = 0.0
+    duration: float | None = None
+    until: int | None = None
+    delay: float = 0.0
+    loop: bool = False
+    clock: float = 0.0
+    start_paused: bool = False
+    overrides: Mapping[str, QosRecord] = {}
+    read_ahead: int = 1000
+    wait_acknowledged: float = -1.0
+
+
+class Player:
+    """Publishes the messages of a bag as they were recorded, at the times of their reception.
+
+    Args:
+        node: The node to publish with.
+        bag: The bag.
+        settings: How to play it.
+        stopped: Asked between messages; True ends the playing.
+        command: Called in waiting times with the player, to let keys act on it.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        bag: Bag,
+        settings: PlayerSettings,
+        *,
+        stopped: Callable[[], bool],
+        command: Callable[[Player], None] = lambda _player: None,
+    ) -> None:
+        self._node = node
+        self._bag = bag
+        self._settings = settings
+        self._stopped = stopped
+        self._command = command
+        self._log = node.get_logger()
+        self._schedule = Schedule(0, 0.0, rate=settings.rate, paused=settings.start_paused)
+        self._single_steps = 0
+        self._next_tick = 0.0
+        self._publishers: dict[str, Any] = {}
+        for topic, _ in bag.metadata.topics:
+            if settings.selects(topic.name):
+                self._advertise(topic)
+        self._clock = _ClockPublisher(node) if settings.clock > 0 else None
+        self.played = 0
+
+    @property
+    def topics(self) -> Collection[str]:
+        """Names in the bag of the topics that are played."""
+        return self._publishers.keys()
+
+    # What keys do
+
+    def toggle_paused(self) -> None:
+        """Pause, or go on."""
+        now = time.monotonic()
+        if self._schedule.paused:
+            self._log.info("Resuming play.")
+            self._schedule.resume(now)
+        else:
+            self._log.info("Pausing play.")
+            self._schedule.pause(now)
+
+    def change_rate(self, factor: float) -> None:
+        """Play faster or slower."""
+        self._schedule.set_rate(self._schedule.rate * factor, time.monotonic())
+        self._log.info(f"Set rate to {self._schedule.rate:g}")
+
+    def play_next(self) -> None:
+        """In a pause, publish one message."""
+        if self._schedule.paused:
+            self._single_steps += 1
+
+    # Playing
+
+    def play(self) -> None:
+        """Play the bag, again and again if the settings say so, until its end or until stopped."""
+        while not self._stopped():
+            self._play_once()
+            if not self._settings.loop or not self._publishers or not self._bag.metadata.messages:
+                break
+        self._wait_for_acknowledgements()
+
+    def _play_once(self) -> None:
+        settings = self._settings
+        beginning = self._bag.metadata.start + round(settings.start_offset * 1e9)
+        end = min(
+            settings.until if settings.until is not None else 2**63,
+            beginning + round(settings.duration * 1e9) if settings.duration is not None else 2**63,
+        )
+        reader = _ReadAhead(
+            self._bag.messages(topics=self.topics, start=beginning, on_problem=self._log.warning),
+            settings.read_ahead,
+        )
+        try:
+            reader.wait_filled(self._stopped)
+            self._pause_for(settings.delay)
+            paused = self._schedule.paused
+            rate = self._schedule.rate
+            self._schedule = Schedule(beginning, time.monotonic(), rate=rate, paused=paused)
+            self._next_tick = 0.0
+            for message in reader:
+                if message.log_time > end:
+                    break
+                if not self._wait_until_due(message.log_time):
+                    return
+                self._publishers[message.topic].publish(message.data)
+                self.played += 1
+            if settings.duration is not None and end < 2**63:
+                self._wait_until_due(min(end, beginning + self._bag.metadata.duration))
+        finally:
+            reader.close()
+
+    def _wait_until_due(self, moment: int) -> bool:
+        """Sleep until a time of the bag is due [ns]; False if playing is to stop."""
+        while not self._stopped():
+            self._command(self)
+            now = time.monotonic()
+            self._tick(now)
+            if self._schedule.paused:
+                if self._single_steps:
+                    self._single_steps -= 1
+                    return True
+                time.sleep(_STEP / 5)
+                continue
+            left = self._schedule.due(moment) - now
+            if left <= 0:
+                return True
+            wake = _STEP if self._clock is None else min(_STEP, max(self._next_tick - now, 0.0))
+            time.sleep(min(left, wake))
+        return False
+
+    def _pause_for(self, seconds: float) -> None:
+        end = time.monotonic() + seconds
+        while not self._stopped() and (left := end - time.monotonic()) > 0:
+            time.sleep(min(left, _STEP))
+
+    def _tick(self, now: float) -> None:
+        if self._clock is not None and now >= self._next_tick:
+            self._next_tick = max(self._next_tick + 1 / self._settings.clock, now)
+            self._clock.publish(self._schedule.time_at(now))
+
+    def _advertise(self, topic: TopicRecord) -> None:
+        name = self._settings.remap.get(topic.name, topic.name)
+        if topic.serialization_format != "cdr":
+            self._log.warning(
+                f"Ignoring a topic '{topic.name}', reason: its messages are '{topic.serialization_format}', "
+                f"not cdr."
+            )
+            return
+        override = self._settings.overrides.get(topic.name)
+        if override is not None:
+            profile = override
+        else:
+            adapted = offer_for(topic.name, topic.offered_qos)
+            for warning in adapted.warnings:
+                self._log.warning(warning)
+            profile = adapted.profile
+        try:
+            cls = message_class(topic.type)
+            self._publishers[topic.name] = self._node.create_publisher(cls, name, from_record(profile))
+        except Ros2CliError as error:
+            self._log.warning(f"Ignoring a topic '{topic.name}', reason: {error}.")
+        except Exception as error:  # rclpy has no common base: an invalid name, a profile that DDS refuses
+            self._log.warning(f"Ignoring a topic '{topic.name}', reason: {type(error).__name__}: {error}.")
+
+    def _wait_for_acknowledgements(self) -> None:
+        from rclpy.duration import Duration
+
+        longest = self._settings.wait_acknowledged
+        if longest < 0:
+            return
+        deadline = time.monotonic() + longest
+        for name, publisher in self._publishers.items():
+            while not self._stopped():
+                if publisher.wait_for_all_acked(Duration(seconds=_STEP)):
+                    break
+                if longest > 0 and time.monotonic() > deadline:
+                    self._log.warning(
+                        f"Not all subscriptions acknowledged the messages of '{name}' in {longest:g} s"
+                    )
+                    return
+
+
+class _ClockPublisher:
+    def __init__(self, node: Any) -> None:
+        from rosgraph_msgs.msg import Clock
+
+        self._publisher = node.create_publisher(Clock, "/clock", 10)
+        self._message = Clock()
+
+    def publish(self, nanoseconds: int) -> None:
+        stamp = self._message.clock
+        stamp.sec, stamp.nanosec = divmod(nanoseconds, 1_000_000_000)
+        self._publisher.publish(self._message)
+
+
+class _ReadAhead:
+    """Reads messages in a thread of its own, so that unpacking a chunk does not hold publishing up."""
+
+    def __init__(self, messages: Iterator[StoredMessage], size: int) -> None:
+        self._messages = messages
+        self._queue: Queue[StoredMessage | BaseException | None] = Queue(maxsize=max(size, 1))
+        self._closed = False
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._read, name="bag reader", daemon=True)
+        self._thread.start()
+
+    def wait_filled(self, stopped: Callable[[], bool]) -> None:
+        """Wait until the first messages are there, all of them if they are few."""
+        while not self._ended.is_set() and not self._queue.full() and not stopped():
+            time.sleep(_STEP / 10)
+
+    def __iter__(self) -> Iterator[StoredMessage]:
+        while True:
+            item = self._queue.get()
+            if item is None:
+                return
+            if isinstance(item, BaseException):
+                raise item
+            yield item
+
+    def close(self) -> None:
+        """End the thread."""
+        self._closed = True
+        self._thread.join()
+
+    def _read(self) -> None:
+        last: BaseException | None = None
+        try:
+            for message in self._messages:
+                if not self._put(message):
+                    return
+        except BaseException as error:  # raised again where the messages are taken
+            last = error
+        self._ended.set()
+        self._put(last)
+
+    def _put(self, item: StoredMessage | BaseException | None) -> bool:
+        while not self._closed:
+            try:
+                self._queue.put(item, timeout=_STEP)
+            except Full:
+                continue
+            return True
+        return False

@@ -1,0 +1,107 @@
+"""A node for the time of one command, and waiting until it knows the graph."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from teo_ros2cli.graph.participants import local_participants
+
+NODE_NAME_PREFIX = "_ros2cli"
+UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+# Every participant of ROS 2 publishes on this topic which nodes it holds; its name goes to DDS unmangled.
+_DISCOVERY_TOPIC = "ros_discovery_info"
+_PARTICIPANT_PREFIX = 12
+"""Bytes of an endpoint's identifier that name its participant."""
+
+# Time for participants of other machines to answer [s]: the genuine command's default without its daemon.
+_REMOTE_ANSWER = 0.5
+# The same when nothing is to come from outside this machine [s].
+_LOCAL_ANSWER = 0.1
+# Fast DDS announces a participant every 3 s: one that was not heard of by then does not take part.
+_LONGEST = 3.5
+# Once all participants are known, their endpoints and node names follow within this time [s].
+_QUIET = 0.15
+_POLL = 0.02
+"""Interval of looking at the graph [s]."""
+
+
+@contextmanager
+def cli_node(
+    name: str | None = None, *, use_sim_time: bool = False, rosout: bool = True, own_signals: bool = False
+) -> Iterator[Any]:
+    """Yield a node (rclpy.node.Node) with a context of its own; both end with the block.
+
+    Args:
+        name: Name of the node; a hidden one that holds the process's number unless given.
+        use_sim_time: Take the time from `/clock`.
+        rosout: Let the node publish its log on `/rosout`.
+        own_signals: Leave SIGINT and SIGTERM to the caller instead of ending the context with them.
+    """
+    import rclpy
+    from rclpy.context import Context
+    from rclpy.parameter import Parameter
+    from rclpy.signals import SignalHandlerOptions
+
+    context = Context()
+    # No arguments: the command line is the command's own, not a node's.
+    handlers = SignalHandlerOptions.NO if own_signals else SignalHandlerOptions.ALL
+    rclpy.init(args=[], context=context, signal_handler_options=handlers)
+    try:
+        node = rclpy.create_node(
+            name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
+            context=context,
+            enable_rosout=rosout,
+            start_parameter_services=False,
+            parameter_overrides=[Parameter("use_sim_time", value=True)] if use_sim_time else None,
+        )
+        try:
+            yield node
+        finally:
+            node.destroy_node()
+    finally:
+        rclpy.try_shutdown(context=context)
+
+
+def settle(node: Any, spin_time: float | None = None) -> None:
+    """Wait until the node knows the graph.
+
+    That is: an answering time has passed, every participant of this machine is known, so are the names of
+    their nodes, and nothing has changed for a moment; at most `_LONGEST` or the spin time.
+
+    Args:
+        node: The node.
+        spin_time: Answering time [s]; by default half a second, less if only this machine takes part.
+    """
+    started = time.monotonic()
+    shortest = spin_time if spin_time is not None else _answering_time()
+    longest = max(shortest, _LONGEST)
+    changed, last = started, None
+    while (now := time.monotonic()) - started < longest:
+        picture = _picture(node)
+        if picture != last:
+            changed, last = now, picture
+        known, complete, _ = picture
+        ready = complete and known >= local_participants(node.context.get_domain_id())
+        if ready and now - started >= shortest and now - changed >= min(_QUIET, shortest):
+            return
+        time.sleep(_POLL)
+
+
+def _answering_time() -> float:
+    outside = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() not in ("LOCALHOST", "OFF")
+    peers = os.environ.get("ROS_STATIC_PEERS", "").strip()
+    return _REMOTE_ANSWER if outside or peers else _LOCAL_ANSWER
+
+
+def _picture(node: Any) -> tuple[int, bool, tuple[Any, ...]]:
+    """Return the number of known participants, whether all their nodes have names, and all that is known."""
+    announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
+    known = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
+    # Every node publishes parameter events: by these one sees whether a node's name has come.
+    names = [info.node_name for info in node.get_publishers_info_by_topic("/parameter_events")]
+    topics = tuple((name, *types) for name, types in node.get_topic_names_and_types())
+    return len(known), UNKNOWN_NODE not in names, (tuple(sorted(names)), topics)
