@@ -1,4 +1,4 @@
-from glob import glob
+from pathlib import Path
 
 from setuptools import find_packages, setup
 
@@ -12,20 +12,21 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        ("share/teo_sign_translator/models", sorted(glob("models/*"))),
-        ("share/teo_sign_translator/data", sorted(glob("data/*"))),
+        ("share/teo_sign_translator/models", sorted(map(str, Path("models").glob("[!.]*")))),
+        ("share/teo_sign_translator/data", sorted(map(str, Path("data").glob("[!.]*")))),
     ],
     install_requires=["setuptools"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
-    description="Spanish text to Spanish Sign Language (LSE) tokens: normalisation, sequence-to-sequence models, translator node.",
+    description="Spanish text to Spanish Sign Language (LSE) tokens: models and translator node.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
             "translator_node = teo_sign_translator.translator_node:main",
             "translate = teo_sign_translator.translate_cli:main",
+            "train = teo_sign_translator.train:main",
             "reproduce_paper = teo_sign_translator.reproduce_paper:main",
         ],
     },

@@ -1,1 +1,1 @@
-"""Spanish text to Spanish Sign Language (LSE) tokens: normalisation, sequence-to-sequence models, translator node."""
+"""Spanish text to Spanish Sign Language (LSE) tokens."""

@@ -1,0 +1,48 @@
+"""Words as letters of the LSE manual alphabet."""
+
+from __future__ import annotations
+
+import unicodedata
+
+#: The 30 signs of the LSE manual alphabet; CH, LL and RR are one sign each.
+ALPHABET = frozenset("ABCDEFGHIJKLMNÑOPQRSTUVWXYZ") | {"CH", "LL", "RR"}
+
+# Letters of other Latin alphabets that are no base letter with a mark, as Spanish texts transcribe them.
+_TRANSCRIPTION = {
+    "ẞ": "SS", "Æ": "AE", "Œ": "OE", "Ø": "O", "Ł": "L", "Đ": "D", "Ð": "D", "Þ": "TH", "ª": "A", "º": "O",
+}  # fmt: skip
+
+
+def plain_letters(word: str) -> str:
+    """A word in capitals A to Z and Ñ, without accents; letters that have no such form stay as they are."""
+    result: list[str] = []
+    for character in unicodedata.normalize("NFC", word):
+        upper = _TRANSCRIPTION.get(character) or character.upper()
+        for letter in upper:
+            if letter == "Ñ":
+                result.append(letter)
+                continue
+            base = "".join(c for c in unicodedata.normalize("NFD", letter) if unicodedata.category(c) != "Mn")
+            result.append(_TRANSCRIPTION.get(base, base))
+    return "".join(result)
+
+
+def letters(word: str) -> tuple[str, ...]:
+    """The signs that spell a word, e.g. `"Guillermo"` gives G U I LL E R M O.
+
+    Characters that no sign exists for are left out; `unsignable` names them beforehand.
+    """
+    plain = plain_letters(word)
+    result: list[str] = []
+    index = 0
+    while index < len(plain):
+        size = 2 if plain[index : index + 2] in ALPHABET else 1
+        if plain[index : index + size] in ALPHABET:
+            result.append(plain[index : index + size])
+        index += size
+    return tuple(result)
+
+
+def unsignable(word: str) -> tuple[str, ...]:
+    """Characters of a word that the LSE alphabet cannot spell, in order, without repetition."""
+    return tuple(dict.fromkeys(c for c in word if any(p not in ALPHABET for p in plain_letters(c))))

@@ -1,0 +1,103 @@
+"""What is said of a sentence that the model does not know: each word for itself, in Spanish order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import takewhile
+
+from teo_sign_translator.drafts import Draft, carried, spelled
+from teo_sign_translator.glosses import GlossList
+from teo_sign_translator.reading import Word, WordKind
+from teo_sign_translator.translation import Kind, Origin
+
+#: A listed word that is a clause of its own ("Hola", "Gracias"): nothing is left to order, only the sense may
+#: be wrong.
+ALONE_CONFIDENCE = 0.9
+#: A listed word among others: its sign is right, its place and form in the sentence are not looked at.
+LISTED_CONFIDENCE = 0.5
+#: A name, or digits: spelled and counted as they are, at a place that is not looked at.
+NAME_CONFIDENCE = 0.5
+#: Another word without a sign: spelling Spanish is the last resort.
+SPELLED_CONFIDENCE = 0.3
+
+# Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
+_DECIMAL_GLOSS = "COMA"
+
+
+def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
+    """Sign each word: listed words and phrases by their gloss, numbers by digits, all others spelled.
+
+    Function words have no sign and go with the next word. A capital in the middle marks a name, which is
+    spelled even if the word is listed, unless everything is in capitals.
+    """
+    shouted = all(word.parts[0].isupper() for word in words)
+    content = [word for word in words if not _is_function(word, glosses)]
+    result: list[Draft] = []
+    index = 0
+    while index < len(words):
+        word = words[index]
+        if word.kind is WordKind.NUMBER:
+            result.extend(number(word, NAME_CONFIDENCE if len(content) > 1 else ALONE_CONFIDENCE))
+            index += 1
+            continue
+        name = index > 0 and word.capitalised and not shouted and not _is_function(word, glosses)
+        found = None if name else glosses.find_longest(_run(words, index, glosses.longest))
+        if found is None:
+            likely_name = word.capitalised and not shouted
+            result.append(spelled(word.parts[0], NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE))
+            index += 1
+            continue
+        entry, size = found
+        typed = tuple(part for w in words[index : index + size] for part in w.parts)
+        if entry.function:
+            result.append(carried(typed))
+        else:
+            alone = size == len(words)
+            result.append(
+                Draft(
+                    signs=(entry.gloss,),
+                    kind=Kind.LEXICAL,
+                    confidence=ALONE_CONFIDENCE if alone else LISTED_CONFIDENCE,
+                    words=typed,
+                    origin=Origin.WORD_LIST,
+                )
+            )
+        index += size
+    return result
+
+
+def number(word: Word, confidence: float) -> list[Draft]:
+    """A number as the signs of its digits; a decimal comma is a word between them."""
+    result: list[Draft] = []
+    for index, digits in enumerate(word.value.split(",")):
+        if index:
+            result.append(
+                Draft(
+                    signs=(_DECIMAL_GLOSS,),
+                    kind=Kind.LEXICAL,
+                    confidence=confidence,
+                    words=word.parts,
+                    origin=Origin.NUMBER,
+                )
+            )
+        result.append(
+            Draft(
+                signs=tuple(digits),
+                kind=Kind.NUMBER,
+                confidence=confidence,
+                words=word.parts,
+                origin=Origin.NUMBER,
+            )
+        )
+    return result
+
+
+def _is_function(word: Word, glosses: GlossList) -> bool:
+    entry = glosses.find(word.lower) if word.kind is not WordKind.NUMBER else None
+    return entry is not None and entry.function
+
+
+def _run(words: Sequence[Word], start: int, longest: int) -> list[str]:
+    """Words in lower case from a place on, up to the next number, at most `longest`."""
+    run = takewhile(lambda word: word.kind is not WordKind.NUMBER, words[start : start + longest])
+    return [word.lower for word in run]

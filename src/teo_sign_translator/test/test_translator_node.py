@@ -1,0 +1,178 @@
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
+from std_msgs.msg import String
+from teo_sign_msgs.msg import SignSentence, SignToken
+from teo_sign_msgs.srv import Translate
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.translator_node import TranslatorNode
+
+PATIENCE = 20.0  # [s] that anything may take on a busy machine
+
+
+class Bench:
+    """A translator and somebody who types and listens."""
+
+    def __init__(self, domain_id: int) -> None:
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=domain_id)
+        self.node = TranslatorNode(context=self.context)
+        self.person = Node("person", context=self.context)
+        self.received: list[SignSentence] = []
+        self.texts = self.person.create_publisher(String, "text", QoSProfile(depth=100))
+        self.person.create_subscription(
+            SignSentence, "sign_tokens", self.received.append, QoSProfile(depth=200)
+        )
+        self.client = self.person.create_client(Translate, "translate")
+        self.executor = SingleThreadedExecutor(context=self.context)
+        for node in (self.node, self.person):
+            self.executor.add_node(node)
+        self.wait(lambda: self.texts.get_subscription_count() == 1, "the text topic")
+        self.wait(lambda: self.person.count_publishers("sign_tokens") == 1, "the sign_tokens topic")
+
+    def wait(self, done: Callable[[], bool], what: str) -> None:
+        end = time.monotonic() + PATIENCE
+        while not done():
+            assert time.monotonic() < end, f"waited in vain for {what}"
+            self.executor.spin_once(timeout_sec=0.1)
+
+    def type(self, *texts: str) -> None:
+        for text in texts:
+            self.texts.publish(String(data=text))
+
+    def wait_for(self, count: int) -> list[SignSentence]:
+        self.wait(lambda: len(self.received) >= count, f"{count} sentences, got {len(self.received)}")
+        return self.received
+
+    def ask(self, text: str) -> Translate.Response:
+        self.wait(self.client.service_is_ready, "the translate service")
+        future = self.client.call_async(Translate.Request(text=text))
+        self.wait(future.done, "an answer")
+        return future.result()
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.person.destroy_node()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+
+@pytest.fixture
+def bench(domain_id: int) -> Iterator[Bench]:
+    bench = Bench(domain_id)
+    yield bench
+    bench.close()
+
+
+def test_a_text_becomes_sentences_of_tokens(bench: Bench) -> None:
+    before = bench.node.get_clock().now().nanoseconds
+    bench.type("Hola, me llamo Ana. ¿Qué tal?")
+    first, second = bench.wait_for(2)
+    assert [token.gloss for token in first.tokens] == ["HOLA", "", "MI", "NOMBRE", "A", "N", "A"]
+    assert [token.kind for token in first.tokens] == [
+        SignToken.KIND_LEXICAL,
+        SignToken.KIND_PAUSE,
+        SignToken.KIND_LEXICAL,
+        SignToken.KIND_LEXICAL,
+        SignToken.KIND_LETTER,
+        SignToken.KIND_LETTER,
+        SignToken.KIND_LETTER,
+    ]
+    assert list(first.tokens[4].source_words) == ["Ana"]
+    assert [token.gloss for token in second.tokens] == ["TÚ", "BIEN"]
+    assert (first.type, second.type) == (SignSentence.TYPE_STATEMENT, SignSentence.TYPE_WH_QUESTION)
+    assert (first.text, second.text) == ("Hola, me llamo Ana.", "¿Qué tal?")
+    assert first.utterance_id == second.utterance_id != ""
+    assert [(s.sentence_index, s.sentence_count) for s in (first, second)] == [(0, 2), (1, 2)]
+    stamp = first.header.stamp.sec * 10**9 + first.header.stamp.nanosec
+    assert before <= stamp <= bench.node.get_clock().now().nanoseconds
+    assert first.header.frame_id == ""
+
+
+def test_a_bad_text_does_not_stop_the_next(bench: Bench) -> None:
+    bench.type("", "Привет", "😀", "\x00", "a" * 30_000, "Hola. " * 200, "¿Qué tal?")
+    (sentence,) = bench.wait_for(1)
+    assert [token.gloss for token in sentence.tokens] == ["TÚ", "BIEN"]
+
+
+def test_texts_are_answered_in_order(bench: Bench) -> None:
+    bench.type(*(f"Yo tengo {age} años" for age in range(10)))
+    ages = ["".join(t.gloss for t in s.tokens if t.kind == SignToken.KIND_NUMBER) for s in bench.wait_for(10)]
+    assert ages == [str(age) for age in range(10)]
+    assert len({sentence.utterance_id for sentence in bench.received}) == 10
+
+
+def test_a_fault_with_one_text_does_not_stop_the_next(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    translate = bench.node._translator.translate
+
+    def faulty(text: str) -> object:
+        if text == "fault":
+            raise ZeroDivisionError
+        return translate(text)
+
+    monkeypatch.setattr(bench.node._translator, "translate", faulty)
+    assert bench.ask("fault").code == "internal_error"
+    bench.type("fault", "Hola")
+    (sentence,) = bench.wait_for(1)
+    assert [token.gloss for token in sentence.tokens] == ["HOLA"]
+
+
+def test_the_service_translates_without_publishing(bench: Bench) -> None:
+    response = bench.ask("Me llamo Ana")
+    assert response.success
+    assert response.code == response.message == ""
+    assert [token.gloss for token in response.sentences[0].tokens] == ["MI", "NOMBRE", "A", "N", "A"]
+    bench.type("Hola")
+    assert [sentence.text for sentence in bench.wait_for(1)] == ["Hola"]
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [("", "empty_text"), ("мир", "unsignable_text"), ("Hola. " * 101, "too_many_sentences")],
+)
+def test_the_service_says_why_it_refuses(bench: Bench, text: str, code: str) -> None:
+    response = bench.ask(text)
+    assert not response.success
+    assert response.code == code
+    assert response.message
+    assert list(response.sentences) == []
+
+
+def test_parameters_are_described_ranged_and_validated(bench: Bench) -> None:
+    for name in ("model", "min_confidence", "max_sentences"):
+        assert bench.node.describe_parameter(name).description
+    (refused,) = bench.node.set_parameters([Parameter("model", value="gpt")])
+    assert not refused.successful
+    assert "lstm256" in refused.reason
+    for name, value in (("min_confidence", 1.5), ("max_sentences", 0), ("max_sentences", 101), ("model", 3)):
+        (refused,) = bench.node.set_parameters([Parameter(name, value=value)])
+        assert not refused.successful, name
+
+
+def test_parameters_take_effect(bench: Bench) -> None:
+    assert bench.ask("¿Qué tal?").sentences[0].tokens[1].gloss == "BIEN"
+    (result,) = bench.node.set_parameters([Parameter("max_sentences", value=1)])
+    assert result.successful
+    assert bench.ask("Hola. Adiós.").code == "too_many_sentences"
+    (result,) = bench.node.set_parameters([Parameter("model", value="lstm256")])
+    assert result.successful
+    assert bench.ask("¿Qué tal?").success
+
+
+def test_a_node_with_an_unknown_model_does_not_start(domain_id: int) -> None:
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    with pytest.raises(TranslationError) as error:
+        TranslatorNode(context=context, parameter_overrides=[Parameter("model", value="gpt")])
+    assert error.value.code == "unknown_model"
+    rclpy.shutdown(context=context)
