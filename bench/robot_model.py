@@ -27,23 +27,18 @@ def measure() -> list[Figure]:
     figures = [
         percentiles(
             f"draw one frame, camera {camera}, 640x480",
-            [timed(lambda p=pose, c=camera: renderer.render(p, c)) for pose in poses[:60]],
+            [timed(renderer.render, pose, camera) for pose in poses[:60]],
         )
         for camera in CAMERAS
     ]
     configurations = [robot.configuration(pose) for pose in poses]
     robot.clearance(configurations[0])  # builds the collision model
-    figures.append(
-        percentiles(
-            "self-collision distance of one pose",
-            [timed(lambda q=q: robot.clearance(q)) for q in configurations],
-        )
-    )
-    return figures
+    distances = [timed(robot.clearance, configuration) for configuration in configurations]
+    return [*figures, percentiles("self-collision distance of one pose", distances)]
 
 
-def timed(work: Callable[[], object]) -> float:
+def timed(work: Callable[..., object], *arguments: object) -> float:
     """Seconds that a call takes."""
     start = time.perf_counter()
-    work()
+    work(*arguments)
     return time.perf_counter() - start
