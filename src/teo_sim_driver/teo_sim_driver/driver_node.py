@@ -57,6 +57,7 @@ class DriverNode(Node):
         self.add_post_set_parameters_callback(self._on_parameters_set)
 
         self._meter, self._refusal_log = RateMeter(), RefusalLog()
+        self._regularity = self._meter.report()
         self._reported: FollowerReport | None = None
         self._limited_steps = 0
         self._steps = 0
@@ -73,7 +74,7 @@ class DriverNode(Node):
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
         self.create_service(Trigger, "stop", self._on_stop)
         self.create_timer(1.0 / self._rate, self._on_step)
-        self.create_timer(_DIAGNOSTICS_PERIOD, self._publish_diagnostics)
+        self.create_timer(_DIAGNOSTICS_PERIOD, self._on_diagnostics)
 
     def _on_trajectory(self, message: JointTrajectory) -> None:
         try:
@@ -95,7 +96,7 @@ class DriverNode(Node):
         line = self._refusal_log.line(refusal, time.monotonic())
         if line is not None:
             self.get_logger().warning(line)
-            self._publish_diagnostics()
+            self._publish_diagnostics(self._reported)
 
     def _on_stop(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         remaining = self._follower.stop(self.get_clock().now().nanoseconds)
@@ -128,10 +129,14 @@ class DriverNode(Node):
         setpoints = dextra.setpoints(_HAND_JOINTS, hands)
         self._hand_setpoints.publish(Float64MultiArray(layout=_HAND_LAYOUT, data=_doubles(setpoints)))
 
-    def _publish_diagnostics(self) -> None:
+    def _on_diagnostics(self) -> None:
+        self._regularity = self._meter.report()
+        self._reported, before = self._follower.report(), self._reported
+        self._publish_diagnostics(before)
+
+    def _publish_diagnostics(self, before: FollowerReport | None) -> None:
         report = self._follower.report()
-        health = assess(report, self._meter.report(), nominal_rate=self._rate, before=self._reported)
-        self._reported = report
+        health = assess(report, self._regularity, nominal_rate=self._rate, before=before)
         if report.limited_steps > self._limited_steps:
             self._limited_steps = report.limited_steps
             self.get_logger().error(f"{health.message}: {report.limited_steps} steps since the start")

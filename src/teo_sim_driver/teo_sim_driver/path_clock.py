@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from teo_sim_driver.reading import SECOND
+from teo_sim_driver.plain_message import SECOND
 
 LONGEST_GAP = 0.5
 """Longest gap between two steps that the motion follows [s]: longer than checking the longest message

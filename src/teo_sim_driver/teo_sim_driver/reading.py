@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.message import PointLike, TimeLike, TrajectoryLike
+from teo_sim_driver.plain_message import SECOND
 from teo_sim_driver.rules import Rules
-
-SECOND = 1_000_000_000
-"""[ns]"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,14 +67,13 @@ def read(message: TrajectoryLike, *, joints: Sequence[str], held: Collection[str
     times = _times(points, rules)
     with_velocities = np.array([len(point.velocities) > 0 for point in points])
     with_accelerations = np.array([len(point.accelerations) > 0 for point in points])
-    zeros = [0.0] * len(names)
     read_points = Points(
         stamp=stamp or None,
         columns=columns,
         times=times,
-        positions=_table([point.positions for point in points]),
-        velocities=_table([point.velocities or zeros for point in points]),
-        accelerations=_table([point.accelerations or zeros for point in points]),
+        positions=np.array([point.positions for point in points], dtype=np.float64),
+        velocities=_table([point.velocities for point in points], with_velocities, len(names)),
+        accelerations=_table([point.accelerations for point in points], with_accelerations, len(names)),
         degrees=(1 + 2 * with_velocities + 2 * with_accelerations).astype(np.int8),
     )
     _check_finite(read_points, names)
@@ -110,12 +107,13 @@ def _columns(
         near = difflib.get_close_matches(unknown[0][:40], joints, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"expected some of {', '.join(joints)}"
         raise TrajectoryError(Refusal.UNKNOWN_JOINT, f"no joint is called {listed(unknown)}: {hint}")
-    if len(set(names)) < len(names):
+    given = set(names)
+    if len(given) < len(names):
         twice = [name for name, count in Counter(names).items() if count > 1]
         raise TrajectoryError(
             Refusal.DUPLICATE_JOINT, f"expected each joint once, got more of {listed(twice)}"
         )
-    missing = [name for name in joints if name not in set(names)]
+    missing = [name for name in joints if name not in given]
     if missing and not rules.allow_partial_joints_goal:
         raise TrajectoryError(
             Refusal.MISSING_JOINTS,
@@ -188,8 +186,12 @@ def _times(points: Sequence[PointLike], rules: Rules) -> NDArray[np.int64]:
     return times
 
 
-def _table(rows: list[Sequence[float]]) -> FloatArray:
-    return np.array(rows, dtype=np.float64)
+def _table(rows: list[Sequence[float]], given: NDArray[np.bool_], columns: int) -> FloatArray:
+    """Rows of numbers, zeros where a row is not given."""
+    table = np.zeros((len(rows), columns))
+    if given.any():
+        table[given] = [row for row in rows if len(row)]
+    return table
 
 
 def _check_finite(points: Points, names: list[str]) -> None:

@@ -74,7 +74,8 @@ class Trajectory:
         slopes = control[1:] - control[:-1]
         bends = slopes[1:] - slopes[:-1]
         return MotionState(
-            bernstein(DEGREE, fraction) @ control,
+            # From the first point on, so that a joint that stands still does so to the last digit.
+            control[0] + bernstein(DEGREE, fraction)[1:] @ (control[1:] - control[0]),
             bernstein(DEGREE - 1, fraction) @ slopes * (DEGREE / duration),
             bernstein(DEGREE - 2, fraction) @ bends * (DEGREE * (DEGREE - 1) / duration**2),
         )
@@ -113,6 +114,9 @@ class Trajectory:
             int(np.searchsorted(self.times, end, side="left")),
         )
         first, last = self.sample(start), self.sample(end)
+        if end == self.times[-1]:
+            # The curve arrives with its own derivatives; at rest it is from then on.
+            last = MotionState(self.positions[-1], self.velocities[-1], self.accelerations[-1])
         # Splitting a polynomial leaves it the same polynomial, so the cut segments keep their degrees.
         degrees = self.degrees[max(inside.start - 1, 0) : inside.stop]
         if end > self.times[-1]:

@@ -1,0 +1,66 @@
+import math
+
+import numpy as np
+import pytest
+
+from teo_description import COMMANDED_JOINTS, HOME, LEFT_HAND, RIGHT_HAND, joint_limits
+from teo_sim_driver.dextra import LEFT_AXES, RIGHT_AXES, setpoints
+from teo_sim_driver.errors import DriverError
+
+HANDS = LEFT_HAND + RIGHT_HAND
+
+
+@pytest.mark.parametrize(
+    ("joint", "degrees", "setpoint"),
+    [
+        ("LeftIndexFinger", 7.0, 0.0),
+        ("LeftIndexFinger", 85.0, 20.0),
+        ("RightPinkyFinger", 46.0, 10.0),
+        ("RightThumbFinger", 7.0, 0.0),
+        ("RightThumbFinger", 85.0, 10.0),
+        ("LeftHandAbductor", 0.0, 0.0),
+        ("LeftHandAbductor", 57.3, 57.3),
+        ("RightHandAbductor", 90.0, 90.0),
+    ],
+)
+def test_an_angle_is_a_tendon_travel_or_a_servo_angle(joint, degrees, setpoint):
+    axis = next(axis for axis in LEFT_AXES + RIGHT_AXES if axis.joint == joint)
+    assert axis.setpoint(math.radians(degrees)) == pytest.approx(setpoint, abs=1e-9)
+    assert math.degrees(axis.angle(setpoint)) == pytest.approx(degrees)
+
+
+def test_the_letter_t_of_teos_own_demonstration_comes_back():
+    letter_t = [57.3, 5.4, 14.9, 4.7, 1.5, 0.0]  # deg, then mm
+    angles = [axis.angle(value) for axis, value in zip(RIGHT_AXES, letter_t, strict=True)]
+    everything = np.array([HOME[name] for name in LEFT_HAND] + angles)
+    np.testing.assert_allclose(setpoints(HANDS, everything), [0.0] * 6 + letter_t, atol=1e-9)
+
+
+def test_the_joint_limits_are_the_ends_of_the_devices_ranges():
+    limits = joint_limits(HANDS)
+    np.testing.assert_allclose(setpoints(HANDS, limits.lower), 0.0, atol=1e-9)
+    np.testing.assert_allclose(setpoints(HANDS, limits.upper), [90.0, 10.0, *[20.0] * 4] * 2, atol=1e-9)
+
+
+def test_at_home_every_tendon_is_slack():
+    home = np.array([HOME[name] for name in COMMANDED_JOINTS])
+    np.testing.assert_allclose(setpoints(COMMANDED_JOINTS, home), 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("degrees", [6.9, 85.1, math.nan, math.inf])
+def test_an_angle_outside_the_range_is_refused(degrees):
+    with pytest.raises(DriverError) as refusal:
+        RIGHT_AXES[2].setpoint(math.radians(degrees))
+    assert refusal.value.code == "outside_hand_range"
+    assert "RightIndexFinger" in refusal.value.sentence
+
+
+@pytest.mark.parametrize("millimetres", [-0.1, 20.1, math.nan])
+def test_a_setpoint_outside_the_range_is_refused(millimetres):
+    with pytest.raises(DriverError, match="outside_hand_range"):
+        RIGHT_AXES[2].angle(millimetres)
+
+
+def test_a_missing_hand_axis_is_named():
+    with pytest.raises(DriverError, match="missing: RightPinkyFinger"):
+        setpoints(HANDS[:-1], np.full(11, 0.5))

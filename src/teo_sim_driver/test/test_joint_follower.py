@@ -1,0 +1,228 @@
+import numpy as np
+import pytest
+
+from teo_sim_driver.errors import DriverError, TrajectoryError
+from teo_sim_driver.joint_follower import Activity
+from teo_sim_driver.plain_message import SECOND, plain_trajectory
+
+START = 1_700_000_000 * SECOND
+PERIOD = 10_000_000
+ELBOW = "FrontalRightElbow"
+
+
+def run(follower, begin, seconds, period=PERIOD):
+    """Step to `seconds` after begin [ns]; returns the last time, positions and velocities of every step."""
+    states = [follower.step(begin + i * period) for i in range(1, round(seconds * SECOND / period) + 1)]
+    end = begin + len(states) * period
+    return end, np.array([s.positions for s in states]), np.array([s.velocities for s in states])
+
+
+def test_it_stands_still_where_it_starts(new_follower, home):
+    follower = new_follower()
+    _, positions, velocities = run(follower, START, 1.0)
+    np.testing.assert_array_equal(positions, np.tile(home, (100, 1)))
+    assert not velocities.any()
+    assert follower.report().activity is Activity.HOLDING
+
+
+def test_a_start_outside_the_limits_is_refused(new_follower, home):
+    with pytest.raises(DriverError, match="start_outside_limits"):
+        new_follower(start=home + 2.0)
+
+
+def test_it_follows_and_holds_the_last_point(new_follower, swing, limits, home):
+    follower = new_follower()
+    follower.accept(swing(), START)
+    _, positions, velocities = run(follower, START, 5.0)
+    elbow = limits.names.index(ELBOW)
+    times = np.arange(1, 401) * 0.01
+    u = times / 4.0
+    truth = -0.5 * (4.0 * u * (1.0 - u)) ** 3
+    np.testing.assert_allclose(positions[:400, elbow], truth, atol=1e-6)
+    speeds = -0.5 * 3.0 * (4.0 * u * (1.0 - u)) ** 2 * (1.0 - 2.0 * u)
+    np.testing.assert_allclose(velocities[:, elbow][:400], speeds, atol=1e-4)
+    np.testing.assert_array_equal(positions[400:], np.tile(swing().points[-1].positions, (100, 1)))
+    assert not velocities[400:].any()
+    others = np.delete(positions, elbow, axis=1)
+    np.testing.assert_array_equal(others, np.tile(np.delete(home, elbow), (500, 1)))
+    report = follower.report()
+    assert (report.activity, report.accepted, report.limited_steps) == (Activity.HOLDING, 1, 0)
+
+
+def test_a_refused_trajectory_changes_nothing(new_follower, swing):
+    follower, undisturbed = new_follower(), new_follower()
+    for each in (follower, undisturbed):
+        each.accept(swing(), START)
+    now, first, _ = run(follower, START, 1.0)
+    bad = swing()
+    bad.points[0].positions = [float("nan")] * 28
+    with pytest.raises(TrajectoryError):
+        follower.accept(bad, now)
+    _, second, _ = run(follower, now, 4.0)
+    _, all_along, _ = run(undisturbed, START, 5.0)
+    np.testing.assert_allclose(np.vstack([first, second]), all_along, atol=1e-12)
+    report = follower.report()
+    assert report.refused == {"not_finite": 1}
+    assert report.last_refusal.code == "not_finite"
+
+
+def test_a_new_trajectory_takes_over_at_once_and_without_a_step(new_follower, swing, limits, home):
+    follower = new_follower()
+    follower.accept(swing(), START)
+    now, before, _ = run(follower, START, 1.0)  # as fast as it gets
+    back = plain_trajectory(limits.names, [3.0], home[None], np.zeros((1, 28)), np.zeros((1, 28)))
+    follower.accept(back, now)
+    _, after, _ = run(follower, now, 4.0)
+    motion = np.vstack([before, after])
+    assert np.abs(np.diff(motion, axis=0)).max() < limits.velocity[0] * 0.01
+    assert np.abs(np.diff(motion, n=2, axis=0)).max() < 2e-4  # no jump in velocity: below 2 rad/s^2
+    np.testing.assert_array_equal(after[-1], home)
+    assert follower.report().accepted == 2
+
+
+def test_a_scheduled_trajectory_waits_for_its_time(new_follower, swing, home):
+    follower = new_follower()
+    follower.accept(swing(stamp=START + SECOND), START)
+    assert follower.report().activity is Activity.FOLLOWING
+    now, positions, _ = run(follower, START, 1.0)
+    np.testing.assert_allclose(positions, np.tile(home, (100, 1)), rtol=0.0, atol=1e-12)
+    immediate = new_follower()
+    immediate.accept(swing(), START)
+    np.testing.assert_allclose(run(follower, now, 4.5)[1], run(immediate, START, 4.5)[1], atol=1e-9)
+
+
+def test_until_a_scheduled_trajectory_starts_the_present_one_goes_on(new_follower, swing, limits, home):
+    follower, alone = new_follower(), new_follower()
+    follower.accept(swing(), START)
+    alone.accept(swing(), START)
+    now, _, _ = run(follower, START, 0.5)
+    run(alone, START, 0.5)
+    target = home.copy()
+    target[limits.names.index("AxialNeck")] = 0.4
+    later = plain_trajectory(
+        limits.names, [2.0], target[None], np.zeros((1, 28)), np.zeros((1, 28)), stamp=now + SECOND
+    )
+    follower.accept(later, now)
+    now_too, ours, _ = run(follower, now, 1.0)
+    np.testing.assert_allclose(ours, run(alone, now, 1.0)[1], atol=1e-9)
+    _, positions, _ = run(follower, now_too, 2.5)
+    assert np.abs(np.diff(np.vstack([ours, positions]), axis=0)).max() < limits.velocity[0] * 0.01
+    np.testing.assert_array_equal(positions[-1], target)
+
+
+def test_a_trajectory_scheduled_after_the_present_one_ends_waits_at_its_end(
+    new_follower, swing, limits, home
+):
+    follower = new_follower()
+    follower.accept(swing(duration=2.0, angle=-0.2), START)
+    follower.accept(swing(duration=2.0, angle=-0.2, stamp=START + 3 * SECOND), START)
+    _, positions, _ = run(follower, START, 5.5)
+    elbow = positions[:, limits.names.index(ELBOW)]
+    np.testing.assert_allclose(elbow[200:300], home[limits.names.index(ELBOW)], atol=1e-9)
+    np.testing.assert_allclose(elbow[300:500], elbow[:200], atol=1e-9)
+
+
+@pytest.mark.parametrize("moment", [0.05, 0.5, 1.0, 1.7, 3.9])
+def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, limits, moment):
+    follower = new_follower()
+    follower.accept(swing(angle=-1.0), START)  # 0.86 rad/s at most
+    now, _, v_before = run(follower, START, moment)
+    remaining = follower.stop(now)
+    assert 0.0 <= remaining <= 1.5 * 0.8727 / 5.2 + 1e-3
+    assert follower.report().activity is Activity.STOPPING or remaining == 0.0
+    _, positions, velocities = run(follower, now, 1.0)
+    steps = int(np.ceil(remaining / 0.01 - 1e-9))
+    assert not velocities[steps:].any()
+    assert (positions[steps:] == positions[-1]).all()
+    assert follower.report().activity is Activity.HOLDING
+    elbow = limits.names.index(ELBOW)
+    u = np.linspace(moment / 4.0, 1.0, 4001)
+    path = -((4.0 * u * (1.0 - u)) ** 3)
+    assert np.abs(path[:, None] - positions[None, :, elbow]).min(axis=0).max() < 1e-3
+    # What stopping adds, and what the path itself asks: 1.5 rad/s^2 at u = 1/2.
+    acceleration = np.diff(np.vstack([v_before[-1:], velocities]), axis=0) / 0.01
+    assert np.abs(acceleration).max() <= 5.2 + 1.5 + 0.05
+
+
+def test_stop_when_at_rest_says_so(new_follower):
+    follower = new_follower()
+    assert follower.stop(START) == 0.0
+    assert follower.report().activity is Activity.HOLDING
+
+
+def test_stop_forgets_a_scheduled_trajectory(new_follower, swing, home):
+    follower = new_follower()
+    follower.accept(swing(stamp=START + SECOND), START)
+    follower.stop(START)
+    np.testing.assert_array_equal(run(follower, START, 3.0)[1][-1], home)
+
+
+def test_while_stopping_a_trajectory_is_refused_and_afterwards_served(new_follower, swing, limits):
+    follower = new_follower()
+    follower.accept(swing(angle=-1.0), START)
+    now, _, _ = run(follower, START, 1.0)
+    follower.stop(now)
+    with pytest.raises(TrajectoryError) as refusal:
+        follower.accept(swing(), now)
+    assert refusal.value.code == "stopping"
+    assert follower.stop(now) > 0.0  # a second stop changes nothing
+    now, positions, _ = run(follower, now, 1.0)
+    here = positions[-1]
+    follower.accept(plain_trajectory(limits.names, [1.0], here[None], np.zeros((1, 28))), now)
+
+
+def test_a_clock_that_goes_back_neither_stops_nor_rushes_the_motion(new_follower, swing):
+    follower, steady = new_follower(), new_follower()
+    follower.accept(swing(), START)
+    steady.accept(swing(), START)
+    _, first, _ = run(follower, START, 1.0)
+    _, second, _ = run(follower, START - 3600 * SECOND, 4.0)
+    np.testing.assert_allclose(np.vstack([first, second]), run(steady, START, 5.0)[1], atol=1e-9)
+    assert follower.report().clock_jumps == 1
+
+
+def test_a_clock_that_leaps_ahead_does_not_make_the_robot_leap(new_follower, swing):
+    follower, steady = new_follower(), new_follower()
+    follower.accept(swing(), START)
+    steady.accept(swing(), START)
+    now, first, _ = run(follower, START, 1.0)
+    _, second, _ = run(follower, now + 3600 * SECOND, 4.0)
+    np.testing.assert_allclose(np.vstack([first, second]), run(steady, START, 5.0)[1], atol=1e-9)
+    assert follower.report().clock_jumps == 1
+
+
+def test_a_late_step_keeps_to_the_time_of_the_path(new_follower, swing):
+    follower, steady = new_follower(), new_follower()
+    follower.accept(swing(), START)
+    steady.accept(swing(), START)
+    follower.step(START + SECOND // 3)
+    late = follower.step(START + 7 * SECOND // 10)
+    _, positions, _ = run(steady, START, 0.7)
+    np.testing.assert_allclose(late.positions, positions[-1], atol=1e-9)
+    assert follower.report().clock_jumps == 0
+
+
+def test_the_same_time_twice_is_the_same_state(new_follower, swing):
+    follower = new_follower()
+    follower.accept(swing(), START)
+    now, positions, _ = run(follower, START, 1.0)
+    np.testing.assert_allclose(follower.step(now).positions, positions[-1], atol=1e-12)
+    assert follower.report().limited_steps == 0
+
+
+def test_a_fault_above_the_guard_is_limited_counted_and_reported(new_follower, swing, limits):
+    follower = new_follower()
+    trajectory = follower.accept(swing(), START)
+    faulty = trajectory.positions.copy()
+    elbow = limits.names.index(ELBOW)
+    faulty[10:, elbow] = -5.0  # after it was checked: a leap, out of the limits
+    faulty[20:, 0] = np.nan
+    object.__setattr__(trajectory, "positions", faulty)
+    _, positions, velocities = run(follower, START, 5.0)
+    assert np.isfinite(positions).all()
+    assert np.isfinite(velocities).all()
+    assert (np.abs(np.diff(positions, axis=0)) <= limits.velocity * 1.001 * 0.01 + 2e-9).all()
+    assert (positions[:, elbow] >= limits.lower[elbow] - 1.5e-5).all()
+    report = follower.report()
+    assert report.limited_steps > 100
+    assert ELBOW in report.limited_joints

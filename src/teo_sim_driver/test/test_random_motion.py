@@ -1,0 +1,291 @@
+"""Thousands of random trajectories, good and spoilt: no limit is ever broken, and nothing ever crashes."""
+
+import copy
+from collections import Counter
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.joint_follower import Activity
+from teo_sim_driver.plain_message import SECOND, PlainTime, plain_trajectory
+
+START = 1_700_000_000 * SECOND
+FRACTIONS = np.linspace(0.0, 1.0, 401)
+TOO_FAST = {"start_too_fast", "velocity_limit", "speed_between_points", "velocity_between_points"}
+GIVEN = {1: [0], 3: [0, 1], 5: [0, 1, 2]}  # derivatives given at a point, by the degree of the curve
+
+
+def curves(degree, durations, knots):
+    """Positions and velocities along every segment, by solving for power-basis coefficients.
+
+    Independent of the driver's own way. Knots: (3, n, joints). Shapes (n - 1, 401, joints).
+    """
+    orders = GIVEN[degree]
+    powers = np.arange(degree + 1)
+    positions, velocities = [], []
+    for i, duration in enumerate(durations):
+        rows, values = [], []
+        for moment, knot in ((0.0, i), (duration, i + 1)):
+            for order in orders:
+                factor = np.array(
+                    [np.prod(np.arange(p - order + 1, p + 1)) if p >= order else 0.0 for p in powers]
+                )
+                rows.append(factor * moment ** np.maximum(powers - order, 0))
+                values.append(knots[order][knot])
+        coefficients = np.linalg.solve(np.array(rows), np.array(values))
+        time = FRACTIONS[:, None] * duration
+        positions.append(time**powers @ coefficients)
+        velocities.append((powers[1:] * time ** (powers[1:] - 1)) @ coefficients[1:])
+    return np.array(positions), np.array(velocities)
+
+
+def random_message(rng, limits, start, tightness, degree=None, points=None, **stamp):
+    """From `start`, as fast as the limits allow times `tightness`, with positions inside the limits."""
+    degree = degree or int(rng.choice([1, 3, 5]))
+    points = points or int(rng.integers(1, 4))
+    knots = np.zeros((3, points + 1, len(start)))
+    knots[0, 0] = start
+    for i in range(points):
+        reach = rng.uniform(0.0, 0.25, len(start)) * (rng.random(len(start)) < 0.7)
+        knots[0, i + 1] = np.clip(
+            knots[0, i] + reach * rng.choice([-1, 1], len(start)), limits.lower, limits.upper
+        )
+    durations = rng.uniform(0.1, 0.5, points)
+    knots[1, 1:-1] = rng.normal(scale=0.5, size=(points - 1, len(start)))
+    knots[2, 1:] = rng.normal(scale=2.0, size=(points, len(start)))
+    for _ in range(8):
+        positions, velocities = curves(degree, durations, knots)
+        outside = ((positions < limits.lower) | (positions > limits.upper)).any(axis=(0, 1))
+        if not outside.any():
+            break
+        knots[1:, :, outside] *= 0.3
+    else:
+        knots[1:, :, outside] = 0.0
+        positions, velocities = curves(degree, durations, knots)
+    slower = max((np.abs(velocities) / limits.velocity).max() / tightness, 1e-3)
+    knots[1] /= slower
+    knots[2] /= slower**2
+    message = plain_trajectory(
+        limits.names,
+        np.cumsum(durations * slower),
+        knots[0, 1:],
+        knots[1, 1:] if degree > 1 else None,
+        knots[2, 1:] if degree > 3 else None,
+        **stamp,
+    )
+    return message, knots[0, -1]
+
+
+class Watch:
+    """Steps a follower at irregular times and asserts that no limit is broken."""
+
+    def __init__(self, follower, limits):
+        self.follower, self.limits, self.now = follower, limits, START
+        self.state = follower.step(START)
+
+    def step(self, gap):
+        before, self.now = self.state, self.now + gap
+        self.state = self.follower.step(self.now)
+        positions, velocities = self.state.positions, self.state.velocities
+        limits = self.limits
+        assert (positions >= limits.lower - 1.5e-5).all()
+        assert (positions <= limits.upper + 1.5e-5).all()
+        top = limits.velocity * 1.001
+        assert (np.abs(velocities) <= top + 1e-9).all()
+        duration = gap / SECOND if 0 <= gap <= SECOND // 2 else 0.01
+        assert (np.abs(positions - before.positions) <= top * duration + 1e-8).all()
+
+    def run(self, rng, seconds):
+        end = self.now + seconds * SECOND
+        while self.now < end:
+            self.step(int(rng.integers(2_000_000, 80_000_000)))
+
+
+@settings(max_examples=2000, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
+def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
+    new_follower, limits, home, seed, tightness
+):
+    rng = np.random.default_rng(seed)
+    watch = Watch(new_follower(), limits)
+    message, goal = random_message(rng, limits, home, tightness)
+    trajectory = watch.follower.accept(message, watch.now)
+    watch.run(rng, trajectory.duration + 0.05)
+    np.testing.assert_array_equal(watch.state.positions, goal)
+    assert not watch.state.velocities.any()
+    assert watch.follower.report().limited_steps == 0
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 2**32), tightness=st.floats(1.002, 3.0))
+def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
+    new_follower, limits, home, seed, tightness
+):
+    rng = np.random.default_rng(seed)
+    message, _ = random_message(rng, limits, home, tightness)
+    with pytest.raises(TrajectoryError) as refusal:
+        new_follower().accept(message, START)
+    assert refusal.value.code in TOO_FAST
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 2**32))
+def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
+    rng = np.random.default_rng(seed)
+    watch = Watch(new_follower(stop_deceleration=rng.uniform(0.2, 20.0)), limits)
+    message, _ = random_message(rng, limits, home, 1.0)
+    trajectory = watch.follower.accept(message, watch.now)
+    watch.run(rng, rng.uniform(0.0, trajectory.duration))
+    watch.run(rng, watch.follower.stop(watch.now) + 0.05)
+    assert watch.follower.report().activity is Activity.HOLDING
+    assert not watch.state.velocities.any()
+    assert watch.follower.report().limited_steps == 0
+
+
+@settings(max_examples=80, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 2**32))
+def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, seed):
+    rng = np.random.default_rng(seed)
+    watch = Watch(new_follower(), limits)
+    accepted = 0
+    for _ in range(12):
+        match rng.integers(0, 6):
+            case 0:
+                watch.follower.stop(watch.now)
+            case 1:  # the clock is set
+                watch.step(int(rng.integers(-(10**12), 10**12)))
+            case _:
+                stamp = 0 if rng.random() < 0.6 else watch.now + int(rng.integers(-(10**9), 10**9))
+                message, _ = random_message(
+                    rng, limits, watch.state.positions, rng.uniform(0.3, 1.1), stamp=stamp
+                )
+                try:
+                    watch.follower.accept(message, watch.now)
+                    accepted += 1
+                except TrajectoryError as refusal:
+                    assert refusal.code in set(Refusal) - {Refusal.INTERNAL}
+        watch.run(rng, rng.uniform(0.0, 0.8))
+    assert watch.follower.report().limited_steps == 0
+    assert watch.follower.report().accepted == accepted
+
+
+def _some(rng, sequence):
+    return int(rng.integers(0, len(sequence))) if len(sequence) else None
+
+
+ODD_NUMBERS = [float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 1e-308, -0.0, 7.0, -7.0, 0.9, 1e5]
+ODD_SECONDS = [-(2**31), -1, 0, 1, 2**31 - 1]
+ODD_NANOSECONDS = [0, 1, 999_999_999, 10**9, 2**32 - 1]
+ODD_NAMES = [
+    "",
+    "AxialNeck",
+    "FrontalLeftKnee",
+    "LeftThumbFingerDistal",
+    "ñ\x00\ud800",
+    "x" * 100_000,
+    "axialneck",
+]
+ROWS = ("positions", "velocities", "accelerations", "effort")
+
+
+def spoil_number(rng, message):
+    if message.points:
+        point = message.points[_some(rng, message.points)]
+        field = ROWS[rng.integers(0, 4)]
+        row = list(getattr(point, field))
+        if row:
+            row[_some(rng, row)] = ODD_NUMBERS[_some(rng, ODD_NUMBERS)]
+            setattr(point, field, row)
+
+
+def spoil_row(rng, message):
+    if message.points:
+        point = message.points[_some(rng, message.points)]
+        field = ROWS[rng.integers(0, 4)]
+        row = list(getattr(point, field))
+        setattr(point, field, [[], row[:-1], [*row, 0.0], row * 50, [0.0] * 28][rng.integers(0, 5)])
+
+
+def spoil_field(rng, message):
+    field = ROWS[rng.integers(0, 4)]
+    for point in message.points:
+        setattr(point, field, [])
+
+
+def spoil_time(rng, message):
+    if message.points:
+        point = message.points[_some(rng, message.points)]
+        point.time_from_start = PlainTime(
+            ODD_SECONDS[_some(rng, ODD_SECONDS)], ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
+        )
+
+
+def spoil_stamp(rng, message):
+    message.header.stamp = PlainTime(
+        ODD_SECONDS[_some(rng, ODD_SECONDS)], ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
+    )
+
+
+def spoil_name(rng, message):
+    if message.joint_names:
+        message.joint_names[_some(rng, message.joint_names)] = ODD_NAMES[_some(rng, ODD_NAMES)]
+
+
+def spoil_names(rng, message):
+    names = message.joint_names
+    message.joint_names = [[], names[:-1], [*names, *names], names[::-1], ["AxialNeck"]][rng.integers(0, 5)]
+
+
+def spoil_points(rng, message):
+    points = message.points
+    message.points = [[], points[::-1], points[:1], points[1:], points + points, points[:-1]][
+        rng.integers(0, 6)
+    ]
+
+
+def move_points(rng, message):
+    for point in message.points:
+        point.positions = [p + rng.normal(scale=0.3) for p in point.positions]
+
+
+SPOIL = [
+    spoil_number,
+    spoil_row,
+    spoil_field,
+    spoil_time,
+    spoil_stamp,
+    spoil_name,
+    spoil_names,
+    spoil_points,
+    move_points,
+]
+
+
+def test_thousands_of_spoilt_messages_never_crash_and_always_get_a_reason(new_follower, limits, swing):
+    good = swing(duration=0.6, angle=-0.05)
+    codes: Counter[str] = Counter()
+
+    @settings(max_examples=2500, deadline=None, derandomize=True)
+    @given(seed=st.integers(0, 2**32), spoil=st.lists(st.sampled_from(SPOIL), min_size=1, max_size=4))
+    def check(seed, spoil):
+        rng = np.random.default_rng(seed)
+        message = copy.deepcopy(good)
+        for each in spoil:
+            each(rng, message)
+        watch = Watch(new_follower(), limits)
+        try:
+            watch.follower.accept(message, watch.now)
+            codes["accepted"] += 1
+        except TrajectoryError as refusal:
+            codes[refusal.code] += 1
+            assert refusal.sentence
+        watch.run(rng, 0.1)
+        assert watch.follower.report().limited_steps == 0
+
+    check()
+    assert set(codes) <= {str(code) for code in Refusal} | {"accepted"}
+    assert str(Refusal.INTERNAL) not in codes
+    assert len(codes) > 15  # the messages are spoilt in many ways

@@ -1,0 +1,313 @@
+"""Each reason for which a trajectory is refused, by a good message with one thing wrong."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from teo_description import LEG_JOINTS
+from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.plain_message import PlainTime, plain_trajectory
+from teo_sim_driver.rules import Rules
+from teo_sim_driver.trajectory import MotionState
+from teo_sim_driver.validation import validate
+
+NOW = 1_000_000_000_000  # [ns]
+ELBOW = "FrontalRightElbow"
+
+
+@pytest.fixture
+def check(limits, home):
+    def check(message, *, state=None, rules=None):
+        where = state or MotionState.at_rest(home)
+        return validate(
+            message,
+            limits=limits,
+            rules=rules or Rules(),
+            now=NOW,
+            state_in=lambda _: where,
+            held=LEG_JOINTS,
+        )
+
+    return check
+
+
+@pytest.fixture
+def refused(check):
+    def refused(message, **arguments):
+        with pytest.raises(TrajectoryError) as caught:
+            check(message, **arguments)
+        return caught.value
+
+    return refused
+
+
+def put(message, point, field, column, value):
+    values = list(getattr(message.points[point], field))
+    values[column] = value
+    setattr(message.points[point], field, values)
+
+
+def change(field, value, point=3):
+    def mutate(message):
+        setattr(message.points[point], field, value)
+
+    return mutate
+
+
+def put_value(field, value, point=3, column=5):
+    return lambda message: put(message, point, field, column, value)
+
+
+def names(change_names):
+    def mutate(message):
+        message.joint_names = change_names(list(message.joint_names))
+
+    return mutate
+
+
+def drop_last_joint(message):
+    message.joint_names = message.joint_names[:-1]
+    for point in message.points:
+        point.positions, point.velocities, point.accelerations = (
+            point.positions[:-1],
+            point.velocities[:-1],
+            point.accelerations[:-1],
+        )
+
+
+def stamp(nanoseconds):
+    def mutate(message):
+        message.header.stamp = PlainTime.of(nanoseconds)
+
+    return mutate
+
+
+def only_accelerations(message):
+    message.points[2].velocities = []
+
+
+WRONG = {
+    "no names": (names(lambda _: []), "no_joints"),
+    "a name of no joint": (names(lambda n: ["Elbow", *n[1:]]), "unknown_joint"),
+    "a phalanx, which follows its tendon": (
+        names(lambda n: ["RightIndexFingerMiddle", *n[1:]]),
+        "unknown_joint",
+    ),
+    "an empty name": (names(lambda n: ["", *n[1:]]), "unknown_joint"),
+    "a leg": (names(lambda n: ["FrontalLeftKnee", *n[1:]]), "held_joint"),
+    "a name twice": (names(lambda n: [n[1], *n[1:]]), "duplicate_joint"),
+    "a name too many": (names(lambda n: [*n, n[0]]), "duplicate_joint"),
+    "a joint left out": (drop_last_joint, "missing_joints"),
+    "no points": (lambda m: setattr(m, "points", []), "no_points"),
+    "too many points": (lambda m: setattr(m, "points", m.points * 1000), "too_many_points"),
+    "no positions": (change("positions", []), "wrong_length"),
+    "too few positions": (change("positions", [0.0] * 27), "wrong_length"),
+    "too many velocities": (change("velocities", [0.0] * 29), "wrong_length"),
+    "too few accelerations": (change("accelerations", [0.0]), "wrong_length"),
+    "accelerations alone": (only_accelerations, "accelerations_without_velocities"),
+    "effort": (change("effort", [0.0] * 28), "effort_given"),
+    "nanoseconds over a second": (change("time_from_start", PlainTime(0, 1_000_000_000)), "bad_time"),
+    "a stamp with nanoseconds over a second": (
+        lambda m: setattr(m.header, "stamp", PlainTime(5, 4_000_000_000)),
+        "bad_time",
+    ),
+    "a negative time": (change("time_from_start", PlainTime(-1, 0), point=0), "negative_time"),
+    "a time twice": (change("time_from_start", PlainTime(0, 300_000_000)), "times_not_increasing"),
+    "a time that goes back": (change("time_from_start", PlainTime(0, 1)), "times_not_increasing"),
+    "an absurd duration": (change("time_from_start", PlainTime(2**31 - 1, 0), point=-1), "too_long"),
+    "an end that has passed": (stamp(NOW - 4_000_000_001), "ends_in_the_past"),
+    "a negative stamp": (stamp(-5_000_000_000), "ends_in_the_past"),
+    "a start in an hour": (stamp(NOW + 3600 * 10**9), "starts_too_late"),
+    "a position that is no number": (put_value("positions", float("nan")), "not_finite"),
+    "an infinite position": (put_value("positions", float("-inf")), "not_finite"),
+    "a velocity that is no number": (put_value("velocities", float("nan")), "not_finite"),
+    "an infinite acceleration": (put_value("accelerations", float("inf")), "not_finite"),
+    "a position outside the limits": (put_value("positions", -3.0), "position_limit"),
+    "a huge position": (put_value("positions", 1e308), "position_limit"),
+    "a velocity over the limit": (put_value("velocities", 0.9), "velocity_limit"),
+    "a velocity at the end": (put_value("velocities", 0.01, point=-1), "moving_at_end"),
+    "a jump between points": (put_value("positions", 0.5), "speed_between_points"),
+    "a huge acceleration": (put_value("accelerations", 1e308), "velocity_between_points"),
+    "a jump at the start": (put_value("positions", -0.3, point=0), "start_too_fast"),
+    "a first point due at once and elsewhere": (
+        lambda m: (
+            put(m, 0, "positions", 13, -0.05),
+            setattr(m.points[0], "time_from_start", PlainTime(0, 0)),
+        ),
+        "start_mismatch",
+    ),
+}
+
+
+@pytest.mark.parametrize(("mutate", "code"), WRONG.values(), ids=WRONG.keys())
+def test_a_good_message_with_one_thing_wrong_is_refused_for_that_reason(mutate, code, swing, check, refused):
+    check(swing())
+    message = swing()
+    mutate(message)
+    refusal = refused(message)
+    assert refusal.code == code
+    assert len(refusal.sentence) > 20
+
+
+def test_the_table_of_wrong_messages_and_these_tests_know_every_code():
+    elsewhere = {
+        "velocity_between_points",
+        "position_between_points",
+        "start_leaves_limits",
+        "stopping",  # test_joint_follower
+        "internal",  # test_driver_node
+    }
+    assert {code for _, code in WRONG.values()} | elsewhere == {str(code) for code in Refusal}
+
+
+def test_names_may_come_in_any_order(limits, swing, check):
+    message = swing()
+    order = np.random.default_rng(0).permutation(28)
+    message.joint_names = [limits.names[i] for i in order]
+    for point in message.points:
+        point.positions = [point.positions[i] for i in order]
+        point.velocities = [point.velocities[i] for i in order]
+        point.accelerations = [point.accelerations[i] for i in order]
+    shuffled, straight = check(message).trajectory, check(swing()).trajectory
+    np.testing.assert_array_equal(shuffled.positions, straight.positions)
+    np.testing.assert_array_equal(shuffled.accelerations, straight.accelerations)
+
+
+def test_a_close_name_is_proposed(swing, refused):
+    message = swing()
+    message.joint_names = ["FrontalRightElbov" if name == ELBOW else name for name in message.joint_names]
+    assert "did you mean 'FrontalRightElbow'?" in refused(message).sentence
+
+
+def test_a_name_of_a_megabyte_is_not_repeated_in_full(swing, refused):
+    message = swing()
+    message.joint_names = ["x" * 1_000_000, *message.joint_names[1:]]
+    assert len(refused(message).sentence) < 2000
+
+
+def test_a_cubic_that_swings_out_of_the_limits_between_good_points_is_refused(limits, home, refused):
+    elbow = limits.names.index("FrontalNeck")  # -10 .. 10 deg
+    positions = np.tile(home, (3, 1))
+    positions[:, elbow] = [limits.upper[elbow] - 0.01, limits.upper[elbow] - 0.01, 0.0]
+    velocities = np.zeros((3, 28))
+    velocities[0, elbow], velocities[1, elbow] = 0.5, -0.5
+    refusal = refused(plain_trajectory(limits.names, [1.0, 1.5, 3.0], positions, velocities))
+    assert refusal.code == "position_between_points"
+    assert "between points 0 and 1" in refusal.sentence
+    assert "FrontalNeck" in refusal.sentence
+
+
+def test_a_quintic_that_is_too_fast_between_slow_points_is_refused(limits, home, refused):
+    elbow = limits.names.index(ELBOW)
+    positions = np.tile(home, (2, 1))
+    positions[1, elbow] = -0.8  # in 1 s: 0.8 rad/s on average, and 1.5 rad/s in the middle
+    zeros = np.zeros((2, 28))
+    message = plain_trajectory(limits.names, [1.0, 2.0], positions, zeros, zeros)
+    refusal = refused(message)
+    assert refusal.code == "velocity_between_points"
+    assert "between points 0 and 1" in refusal.sentence
+
+
+def test_the_way_to_the_first_point_must_stay_within_the_limits(limits, home, refused):
+    neck = limits.names.index("FrontalNeck")
+    where = home.copy()
+    where[neck] = limits.upper[neck]
+    moving = np.zeros(28)
+    moving[neck] = 0.5
+    state = MotionState(where, moving, np.zeros(28))
+    message = plain_trajectory(limits.names, [1.0], home[None], np.zeros((1, 28)))
+    assert refused(message, state=state).code == "start_leaves_limits"
+
+
+def test_straight_lines_at_exactly_the_greatest_speed_are_accepted(limits, home, check):
+    positions = np.tile(home, (2, 1))
+    elbow = limits.names.index(ELBOW)
+    positions[:, elbow] = [-limits.velocity[elbow], 0.0]
+    check(plain_trajectory(limits.names, [1.0, 2.0], positions))
+
+
+def test_a_point_exactly_on_a_limit_is_accepted(limits, home, check):
+    positions = home[None].copy()
+    elbow = limits.names.index(ELBOW)
+    positions[0, elbow] = limits.lower[elbow]
+    check(plain_trajectory(limits.names, [5.0], positions, np.zeros((1, 28)), np.zeros((1, 28))))
+
+
+def test_a_first_point_due_at_once_is_taken_as_where_the_robot_is(limits, home, check):
+    positions = np.tile(home, (2, 1))
+    positions[0] += 0.005  # within the tolerance, and at the fingers' lower limit inside
+    positions[1] = home
+    scheduled = check(plain_trajectory(limits.names, [0.0, 1.0], positions))
+    np.testing.assert_array_equal(scheduled.trajectory.positions[0], home)
+    assert scheduled.trajectory.duration == 1.0
+
+
+def test_a_single_point_due_at_once_where_the_robot_rests_is_a_hold(limits, home, check):
+    assert check(plain_trajectory(limits.names, [0.0], home[None])).trajectory.duration == 0.0
+
+
+def test_a_single_point_due_at_once_cannot_stop_a_moving_robot(limits, home, refused):
+    moving = MotionState(home, np.full(28, 0.1), np.zeros(28))
+    refusal = refused(plain_trajectory(limits.names, [0.0], home[None]), state=moving)
+    assert refusal.code == "start_mismatch"
+
+
+def test_what_is_past_is_dropped_and_the_rest_keeps_its_time(swing, check):
+    scheduled = check(swing(stamp=NOW - 250_000_000))
+    assert scheduled.delay == 0.0
+    np.testing.assert_allclose(scheduled.trajectory.times, [0.0, *np.arange(0.05, 3.76, 0.1)])
+
+
+def test_a_late_message_for_a_robot_that_is_elsewhere_is_refused(limits, home, swing, refused):
+    elsewhere = home.copy()
+    elsewhere[limits.names.index(ELBOW)] = -1.0
+    refusal = refused(swing(stamp=NOW - 250_000_000), state=MotionState.at_rest(elsewhere))
+    assert refusal.code == "start_mismatch"
+
+
+def test_a_start_in_the_future_is_scheduled(swing, check):
+    scheduled = check(swing(stamp=NOW + 1_500_000_000))
+    assert scheduled.delay == 1.5
+    assert scheduled.trajectory.duration == pytest.approx(4.0)
+
+
+def test_joints_left_out_hold_where_the_parameter_allows_it(limits, home, check):
+    rules = Rules(allow_partial_joints_goal=True)
+    message = plain_trajectory([ELBOW], [1.0], [[-0.3]], [[0.0]])
+    trajectory = check(message, rules=rules).trajectory
+    expected = home.copy()
+    expected[limits.names.index(ELBOW)] = -0.3
+    np.testing.assert_array_equal(trajectory.positions[-1], expected)
+
+
+def test_a_joint_in_motion_cannot_be_left_out(limits, home, refused):
+    velocities = np.zeros(28)
+    velocities[limits.names.index("AxialNeck")] = 0.2
+    refusal = refused(
+        plain_trajectory([ELBOW], [1.0], [[-0.3]], [[0.0]]),
+        rules=Rules(allow_partial_joints_goal=True),
+        state=MotionState(home, velocities, np.zeros(28)),
+    )
+    assert refusal.code == "missing_joints"
+    assert "AxialNeck" in refusal.sentence
+
+
+@pytest.mark.parametrize(
+    ("rules", "code"),
+    [
+        (Rules(max_duration=3.9), "too_long"),
+        (Rules(max_points=39), "too_many_points"),
+    ],
+)
+def test_the_limits_on_a_message_are_the_rules(rules, code, swing, check, refused):
+    assert refused(swing(), rules=rules).code == code
+    check(swing(), rules=replace(rules, max_duration=4.0, max_points=40))
+
+
+def test_fields_may_differ_from_point_to_point(swing, check):
+    message = swing()
+    message.points[1].accelerations = []
+    message.points[3].velocities, message.points[3].accelerations = [], []
+    degrees = check(message).trajectory.degrees
+    assert degrees[:6].tolist() == [5, 3, 3, 1, 1, 5]
