@@ -90,8 +90,8 @@ class Composition:
     Attributes:
         targets: Positions [rad], NaN where a joint is free. Shape (n, 28); the first row is the start.
         nominal: Time from each station to the next, as recorded or by the style [s]. Shape (n - 1,).
-        strokes: Number of the stroke to which each step from a station to the next belongs: steps of one stroke
-            are stretched by the same factor. Shape (n - 1,).
+        strokes: Number of the stroke to which each step from a station to the next belongs: steps near each
+            other in one stroke are stretched together. Shape (n - 1,).
         spans: Where each token is signed, in order.
         idle: Where limbs are not used.
     """

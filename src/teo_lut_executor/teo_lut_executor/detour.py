@@ -48,7 +48,7 @@ DETOURS: tuple[dict[str, float], ...] = (
     {name: 0.5 * sign for name, sign in _SIDEWAYS.items()},
     {name: 0.4 * sign for name, sign in (_SIDEWAYS | _FORWARD).items()},
 )
-"""Changes of posture to try, the smallest first: both arms wider, both further in front, then more of either."""
+"""Changes of posture to try, the smallest first: both arms wider, both further in front, more of either."""
 
 
 def with_detour(

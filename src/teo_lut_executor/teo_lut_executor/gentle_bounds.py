@@ -21,13 +21,13 @@ def gentle_bounds(begin: State, end: State, duration: float, bounds: Bounds, *, 
 
     Args:
         begin: State at the beginning.
-        end: State at the end, of no acceleration.
+        end: State at the end.
         duration: Time that the move has [s].
         bounds: Limits, which the result keeps.
         ease: Times the quintic's greatest acceleration and jerk [1].
     """
     way = end.position - begin.position
-    # p(s) = p0 + v0 T s + c3 s^3 + c4 s^4 + c5 s^5 with s = t / T; the initial acceleration is left to Ruckig.
+    # p(s) = p0 + v0 T s + c3 s^3 + c4 s^4 + c5 s^5 with s = t / T; Ruckig sees to the accelerations.
     reach, swing = way - begin.velocity * duration, (end.velocity - begin.velocity) * duration
     c3, c4, c5 = 10.0 * reach - 4.0 * swing, -15.0 * reach + 7.0 * swing, 6.0 * reach - 3.0 * swing
     s = _SAMPLES

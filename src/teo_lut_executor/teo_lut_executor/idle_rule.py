@@ -1,9 +1,9 @@
 """What a limb does while no sign uses it.
 
-* Head, trunk and hands go to rest at once, in the time that takes, and stay there until the way to their next
-  posture begins. A hand shape that is idle for too short a time to reach rest goes to its next shape instead.
-* An arm goes to rest only if it can stay there for a while (`SigningStyle.arm_rest`); otherwise it waits where
-  its last sign left it.
+* Head, trunk and hands go to rest at once, in the time that takes, and stay there until the way to their
+  next posture begins. A hand that is idle for too short a time to reach rest goes to its next shape instead.
+* An arm goes to rest only if it can stay there for a while (`SigningStyle.arm_rest`); otherwise it waits
+  where its last sign left it.
 * After its last sign every limb goes to rest.
 
 A limb on its way does not hold up the signs meanwhile: it passes their stations freely.
@@ -38,11 +38,10 @@ def settle_idle_limbs(
         columns = list(LIMBS[span.limb])
         before = targets[span.first, columns]
         way = float(np.max(fastest_moves(REST[columns] - before, columns, limits)))
-        arrived = (
-            span.first + 1 + int(np.searchsorted(times[span.first + 1 : span.last], times[span.first] + way))
-        )
+        between = slice(span.first + 1, span.last)
+        arrived = between.start + int(np.searchsorted(times[between], times[span.first] + way))
         if span.limb in ARMS and span.last != final and not _worth_it(span, arrived, times, arm_rest):
-            targets[span.first + 1 : span.last, columns] = before
+            targets[between, columns] = before
         else:
             targets[arrived : span.last, columns] = REST[columns]
     return targets

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +15,9 @@ Array = NDArray[np.float64]
 # While times are looked for, a move that fitted is not tried again before its ends changed by so much, as a
 # share of the limits of velocity and acceleration, or its duration, as a share of it.
 _CHANGE = 1e-3
+
+# A knot this near to a limit is on it [rad]: entries of the look-up table keep six decimals.
+_ON_LIMIT = 1e-6
 
 
 class JointChain:
@@ -39,7 +41,9 @@ class JointChain:
         self.bounds = bounds
         self._start = start
         self._mover = Mover(len(columns))
-        self._brake = np.ones_like(positions)  # factor on the velocity at each station
+        # Factor on the velocity at each station. A joint on its limit can only stand there.
+        inside = (positions > bounds.lower + _ON_LIMIT) & (positions < bounds.upper - _ON_LIMIT)
+        self._brake = inside.astype(np.float64)
         moving = (np.diff(positions, axis=0) != 0.0).any(axis=1)
         moving[0] |= bool(start.velocity.any() or start.acceleration.any())
         self.moving = np.flatnonzero(moving)

@@ -50,10 +50,10 @@ class Pieces:
         return p + t * (v + t * (a / 2.0 + t * j / 6.0)), v + t * (a + t * j / 2.0), a + t * j
 
     def turns(self) -> Array:
-        """Times within each piece at which its velocity is zero, 0 where there is none [s]. Shape (2, ...)."""
+        """Times within each piece at which its velocity is zero, else 0 [s]. Shape (2, ...)."""
         v, a, j = self.velocities, self.accelerations, self.jerks
         with np.errstate(divide="ignore", invalid="ignore"):
-            # The form of the quadratic's roots that does not lose digits, and is right for a jerk of zero too.
+            # The quadratic's roots in the form that loses no digits, and is right without jerk too.
             q = -(a + np.copysign(np.sqrt(a**2 - 2.0 * j * v), a))
             turns = np.stack([q / j, 2.0 * v / q])
         inside = np.isfinite(turns) & (turns > 0.0) & (turns < self.lengths)
@@ -134,7 +134,7 @@ class JointMotionBuilder:
         self._pieces: list[Pieces] = []
 
     def add(self, start: float, pieces: Pieces) -> None:
-        """Add pieces that follow one another from a time on [s]; shape (k,). Those without length are left out."""
+        """Add pieces of shape (k,) that follow one another from a time on [s], but for those of no length."""
         begins = start + np.cumsum(pieces.lengths) - pieces.lengths
         lasting = np.flatnonzero(pieces.lengths > 0.0)
         self._starts.append(begins[lasting])

@@ -29,7 +29,7 @@ def knot_states(times: Array, positions: Array, brake: Array) -> tuple[Array, Ar
         brake: Factor on the velocity of each knot, 0 to 1. Shape (n, m).
 
     Returns:
-        Velocities [rad/s] and accelerations [rad/s^2]; zero at the first and the last knot. Shape (n, m) each.
+        Velocities [rad/s] and accelerations [rad/s^2]; zero at the first and last knot. Shape (n, m) each.
     """
     steps = np.diff(times)[:, None]
     chords = np.diff(positions, axis=0) / steps
@@ -62,8 +62,8 @@ def _spline(steps: Array, chords: Array, fixed: NDArray[np.bool_], values: Array
     """Knot velocities of a cubic spline with continuous acceleration, some of them given.
 
     Solves, for each free knot i, v[i-1]/h[i-1] + 2 (1/h[i-1] + 1/h[i]) v[i] + v[i+1]/h[i] =
-    3 (c[i-1]/h[i-1] + c[i]/h[i]) with steps h and chords c, by elimination (L. H. Thomas) for all joints at once.
-    The first and the last knot must be fixed.
+    3 (c[i-1]/h[i-1] + c[i]/h[i]) with steps h and chords c, by elimination (L. H. Thomas) for all joints at
+    once. The first and the last knot must be fixed.
     """
     count = len(values)
     inverse = 1.0 / steps

@@ -10,23 +10,23 @@ from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_lut_executor.plan_error import PlanError
+from teo_lut_executor.state_to_state import Bounds
 
 # A joint is at 50 deg/s, its greatest velocity, after 0.27 s and 6.7 deg. TEO's drives default to 10 deg/s^2,
 # with which 10 deg take 2 s: no sign would be known again; TEO's own gestures were played at 25 deg/s^2 and
-# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 9 N m (2.4 at
-# the elbow, 0.6 at the wrist) beside the at most 27 N m with which it carries the arm.
+# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 9 N m (2.4
+# at the elbow, 0.6 at the wrist) beside the at most 27 N m with which it carries the arm.
 DEFAULT_ACCELERATION = math.radians(300.0)  # [rad/s^2]
 
 # The acceleration builds up in 0.1 s, five of the 0.02 s at which TEO's drives are sent set-points, so that
 # it reaches them as a ramp and not as a step.
 DEFAULT_JERK = math.radians(3000.0)  # [rad/s^3]
 
-# The plan keeps below the limits by these factors, because the driver interpolates between the points of the
-# trajectory: its quintic meets position, velocity and acceleration at the points and swings a little beyond
-# them where the jerk changes in between. Measured at 0.02 s and the default jerk: 0.1 % of the velocity and
-# 1.5 % of the acceleration.
-VELOCITY_MARGIN = 0.995
-ACCELERATION_MARGIN = 0.95
+# The driver interpolates between the points of a trajectory with the quintic that meets position, velocity
+# and acceleration at both. Where the plan's jerk changes in between, the two differ, by at most these numbers
+# times jerk, and period squared or period: the integral of the size of the Peano kernel of the error.
+_VELOCITY_SWING = 0.02206  # [1]
+_ACCELERATION_SWING = 5.0 / 24.0  # [1]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,4 +74,30 @@ class MotionLimits:
             velocity=limits.velocity,
             acceleration=np.full(len(limits.names), acceleration),
             jerk=np.full(len(limits.names), jerk),
+        )
+
+    def for_points(self, period: float) -> Bounds:
+        """Bounds of a plan such that also what is interpolated between its points keeps the limits.
+
+        Velocity and acceleration are lower by what the interpolation may add. Its jerk is not bounded so: it
+        reaches up to 2.2 times the plan's.
+
+        Args:
+            period: The most between two points [s].
+
+        Raises:
+            PlanError: The limits leave less than half of themselves ("bad_limits").
+        """
+        velocity = self.velocity - _VELOCITY_SWING * self.jerk * period**2
+        acceleration = self.acceleration - _ACCELERATION_SWING * self.jerk * period
+        if (velocity < self.velocity / 2.0).any() or (acceleration < self.acceleration / 2.0).any():
+            raise PlanError(
+                "bad_limits",
+                "expected a jerk that changes the acceleration by less than its limit within "
+                f"{period:g} s, got {self.jerk.max():g} rad/s^3 with an acceleration of "
+                f"{self.acceleration.min():g} rad/s^2: "
+                "lower the jerk or shorten the period",
+            )
+        return Bounds(
+            lower=self.lower, upper=self.upper, velocity=velocity, acceleration=acceleration, jerk=self.jerk
         )

@@ -125,8 +125,8 @@ class Plan:
 def sample_times(stations: Array, period: float) -> Array:
     """Times at which to sample a motion: at every station, and evenly in between.
 
-    With the stations among the samples every knot of every sign is one of them, and what a driver interpolates
-    stands still where the plan does.
+    With the stations among the samples every knot of every sign is one of them, and what a driver
+    interpolates stands still where the plan does.
 
     Args:
         stations: Times of the stations [s], increasing. Shape (n,).

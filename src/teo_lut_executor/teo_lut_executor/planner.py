@@ -14,13 +14,13 @@ from teo_lut_executor.detour import DETOURS, Route, with_detour
 from teo_lut_executor.idle_rule import settle_idle_limbs
 from teo_lut_executor.joint_motion import JointMotion
 from teo_lut_executor.lexicon import Lexicon
-from teo_lut_executor.motion_limits import ACCELERATION_MARGIN, VELOCITY_MARGIN, MotionLimits
+from teo_lut_executor.motion_limits import MotionLimits
 from teo_lut_executor.plan import Plan, Samples, TokenTiming, sample_at, sample_times
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.self_collision import SelfCollision
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.signing_style import SigningStyle
-from teo_lut_executor.state_to_state import ROUNDING, Bounds, State
+from teo_lut_executor.state_to_state import ROUNDING, State
 from teo_lut_executor.station_timing import StationTiming
 from teo_lut_executor.tokens import Token
 
@@ -33,8 +33,8 @@ DEFAULT_PERIOD = 0.02  # [s]
 # 28 joints fill a message of 10 MB.
 DEFAULT_MAX_DURATION = 300.0
 
-# Parts of the robot keep this far apart [m]: signs touch, and the shapes of the collision model are larger than
-# the parts, so it is overlap that is refused.
+# Parts of the robot keep this far apart [m]: signs touch, and the shapes of the collision model are larger
+# than the parts, so it is overlap that is refused.
 DEFAULT_CLEARANCE = 0.0
 
 # A start this far outside the limits is taken to be on the limit [rad]: encoders of 0.0015 rad and a control
@@ -71,13 +71,15 @@ class Planner:
             max_duration: A longer motion is refused [s].
 
         Raises:
-            PlanError: The period or the duration is not above 0 ("bad_period").
+            PlanError: The period or the duration is not above 0 ("bad_period"), or the limits leave no room
+                for interpolation between points that far apart ("bad_limits").
         """
         for name, value in (("period", period), ("max_duration", max_duration)):
             if not value > 0.0:
                 raise PlanError("bad_period", f"{name}: expected a time above 0 s, got {value}")
         self.limits = MotionLimits.of_robot() if limits is None else limits
         self.style = SigningStyle() if style is None else style
+        self._bounds = self.limits.for_points(period)
         self._lexicon = Lexicon(signs)
         self._collision_model = None if robot is None else SelfCollision(robot)
         self._least_clearance = least_clearance
@@ -136,26 +138,17 @@ class Planner:
                 f"{self.limits.upper[worst]:.4f} rad, got {start.position[worst]:.4f} rad; "
                 "move the robot back by other means",
             )
-        bounds = self._bounds()
+        bounds = self._bounds
         return State(
             position=position,
             velocity=np.clip(start.velocity, -bounds.velocity, bounds.velocity),
             acceleration=np.clip(start.acceleration, -bounds.acceleration, bounds.acceleration),
         )
 
-    def _bounds(self) -> Bounds:
-        return Bounds(
-            lower=self.limits.lower,
-            upper=self.limits.upper,
-            velocity=self.limits.velocity * VELOCITY_MARGIN,
-            acceleration=self.limits.acceleration * ACCELERATION_MARGIN,
-            jerk=self.limits.jerk,
-        )
-
     def _route(self, composition: Composition, start: State) -> Plan:
         """Time a composition, and lead its transitions around the robot's body where they would touch it."""
         first_look = StationTiming(
-            composition.targets, composition.nominal, composition.strokes, start, self._bounds()
+            composition.targets, composition.nominal, composition.strokes, start, self._bounds
         )
         targets = settle_idle_limbs(
             composition, times=first_look.times, limits=self.limits, arm_rest=self.style.arm_rest
@@ -188,7 +181,7 @@ class Planner:
         raise self._collision(plan, route, step)
 
     def _solve(self, route: Route, start: State) -> tuple[Plan, Array]:
-        timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds())
+        timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
         timing.solve()
         times = timing.times
         if times[-1] > self._max_duration:

@@ -23,8 +23,8 @@ _REACH = {
     "Finger": 0.12,
 }
 
-# Two looks are at least this far apart, as a bound of how far parts can have moved meanwhile [m]. The bound adds
-# up all joints as if each moved the farthest point in one direction; the real motion is about a third of it.
+# Two looks are at least this far apart, as a bound of how far parts can have moved meanwhile [m]. The bound
+# adds up all joints as if each moved the farthest point in one direction; the real motion is about a third.
 _STEP = 0.06
 
 

@@ -21,7 +21,7 @@ from teo_lut_executor.plan_error import PlanError
 Array = NDArray[np.float64]
 
 # A motion may be beyond a position limit by this much, from the rounding of its sums [rad].
-ROUNDING = 1e-7
+ROUNDING = 1e-8
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -12,7 +12,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_lut_executor.gentle_bounds import gentle_bounds
 from teo_lut_executor.joint_chain import JointChain, joint_chains
 from teo_lut_executor.joint_motion import JointMotion, JointMotionBuilder, take
 from teo_lut_executor.plan_error import PlanError
@@ -35,7 +34,7 @@ _FITS = 1e-9
 _PATIENT_STRETCH = 1.15
 
 # How fast the stretch of a step fades in the steps beside it [s]: a fraction of a stroke of a hand.
-# Without it a sign would change pace from knot to knot; an even stretch would slow a whole sign for one instant.
+# Without it a sign would change pace from knot to knot; an even stretch would slow it all for one instant.
 _NEAR = 0.1
 
 # A little more than a move asks for [1]: its ends change with the times, and would else ask again and again.
@@ -142,7 +141,7 @@ class StationTiming:
         return True
 
     def _try(self, chain: JointChain, index: int, *, patient: bool) -> bool:
-        """Try a move; where it does not fit, ask for time or pass its knots more slowly. Whether it changed."""
+        """Try a move; where it does not fit, ask for time or pass its knots more slowly; whether it did."""
         slower = 0.5 if patient else 0.0
         move = chain.move(index)
         if move is None:
