@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 _DEFAULT_CLOCK = 40.0
 """Rate of `/clock` if none is given [1/s]."""
 _RATE_STEP = 1.1
+_ACKNOWLEDGEMENT = 2.0
+"""Time that reliable subscriptions get to receive the last messages before the publishers leave [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -108,7 +111,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=non_negative_float,
         metavar="TIMEOUT",
         help="Wait at the end until all published messages are acknowledged, for so many milliseconds; 0 for "
-        "ever.",
+        "ever. Default: 2000.",
     )
     parser.add_argument(
         "--disable-keyboard-controls", action="store_true", help="Disables keyboard controls for playback"
@@ -162,7 +165,7 @@ def _play(options: argparse.Namespace, stop: StopSignals) -> int:
         start_paused=options.start_paused,
         overrides=overrides,
         read_ahead=options.read_ahead_queue_size,
-        wait_acknowledged=-1.0 if options.wait_for_all_acked is None else options.wait_for_all_acked * 1e-3,
+        wait_acknowledged=_acknowledgement_time(options.wait_for_all_acked),
     )
     with (
         cli_node(options.node_name, own_signals=True) as node,
@@ -175,9 +178,17 @@ def _play(options: argparse.Namespace, stop: StopSignals) -> int:
             _explain_keys(log.info)
         if not player.topics:
             log.warning("There is no topic to play.")
+        log.info(f"Playback until timestamp: {-1 if settings.until is None else settings.until}")
         player.play()
         log.info(f"Played {player.played} messages.")
     return 0
+
+
+def _acknowledgement_time(milliseconds: float | None) -> float:
+    """Return how long to wait for acknowledgements at the end [s]."""
+    if milliseconds is None:
+        return _ACKNOWLEDGEMENT
+    return milliseconds * 1e-3 if milliseconds > 0 else math.inf
 
 
 def _key_action(pressed: Callable[[], str] | None) -> Callable[[Player], None]:

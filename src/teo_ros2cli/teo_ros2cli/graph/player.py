@@ -37,8 +37,7 @@ class PlayerSettings(NamedTuple):
         start_paused: Begin with a pause.
         overrides: Profile to publish with, by topic name in the bag.
         read_ahead: Messages that are read before they are due.
-        wait_acknowledged: Time to wait for acknowledgements at the end [s], negative for not at all, 0 for
-            ever.
+        wait_acknowledged: Longest time to wait for acknowledgements at the end [s].
     """
 
     selects: Callable[[str], bool]
@@ -53,7 +52,7 @@ class PlayerSettings(NamedTuple):
     start_paused: bool = False
     overrides: Mapping[str, QosRecord] = {}
     read_ahead: int = 1000
-    wait_acknowledged: float = -1.0
+    wait_acknowledged: float = 0.0
 
 
 class Player:
@@ -216,14 +215,12 @@ class Player:
         from rclpy.duration import Duration
 
         longest = self._settings.wait_acknowledged
-        if longest < 0:
-            return
         deadline = time.monotonic() + longest
         for name, publisher in self._publishers.items():
             while not self._stopped():
                 if publisher.wait_for_all_acked(Duration(seconds=_STEP)):
                     break
-                if longest > 0 and time.monotonic() > deadline:
+                if time.monotonic() > deadline:
                     self._log.warning(
                         f"Not all subscriptions acknowledged the messages of '{name}' in {longest:g} s"
                     )

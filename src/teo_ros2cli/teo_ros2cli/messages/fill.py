@@ -24,7 +24,7 @@ from rosidl_parser.definition import (
 
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import interface_class, interface_name_of
-from teo_ros2cli.messages.yaml_text import Scalar
+from teo_ros2cli.messages.yaml_text import Scalar, plain
 
 Stamp = Any
 """A builtin_interfaces/msg/Time."""
@@ -160,46 +160,46 @@ def _string(value: Any, kind: AbstractString | AbstractWString, path: str) -> st
 
 def _basic(value: Any, kind: BasicType, path: str) -> Any:
     name = kind.typename
-    plain = value.value if isinstance(value, Scalar) else value
+    meant = value.value if isinstance(value, Scalar) else value
     if name == "boolean":
-        return _boolean(plain, value, path)
+        return _boolean(meant, value, path)
     if name == "octet":
-        return _octet(plain, value, path)
+        return _octet(meant, value, path)
     if name in _INTEGER_RANGES:
-        return _integer(plain, value, name, path)
-    return _real(plain, value, name, path)
+        return _integer(meant, value, name, path)
+    return _real(meant, value, name, path)
 
 
-def _boolean(plain: Any, value: Any, path: str) -> bool:
-    if isinstance(plain, bool):
-        return plain
-    if isinstance(plain, int) and plain in (0, 1):
-        return bool(plain)
-    if isinstance(plain, str) and plain.lower() in ("true", "false"):
-        return plain.lower() == "true"
+def _boolean(meant: Any, value: Any, path: str) -> bool:
+    if isinstance(meant, bool):
+        return meant
+    if isinstance(meant, int) and meant in (0, 1):
+        return bool(meant)
+    if isinstance(meant, str) and meant.lower() in ("true", "false"):
+        return meant.lower() == "true"
     raise _fault(path, "true or false", value)
 
 
-def _octet(plain: Any, value: Any, path: str) -> bytes:
-    if isinstance(plain, bytes) and len(plain) == 1:
-        return plain
-    if isinstance(plain, int) and not isinstance(plain, bool) and 0 <= plain <= 255:
-        return bytes([plain])
-    if isinstance(plain, str) and len(plain) == 1 and ord(plain) < 256:
-        return bytes([ord(plain)])  # as a message is printed
+def _octet(meant: Any, value: Any, path: str) -> bytes:
+    if isinstance(meant, bytes) and len(meant) == 1:
+        return meant
+    if isinstance(meant, int) and not isinstance(meant, bool) and 0 <= meant <= 255:
+        return bytes([meant])
+    if isinstance(meant, str) and len(meant) == 1 and ord(meant) < 256:
+        return bytes([ord(meant)])  # as a message is printed
     raise _fault(path, "one byte, a number from 0 to 255", value)
 
 
-def _integer(plain: Any, value: Any, name: str, path: str) -> int:
+def _integer(meant: Any, value: Any, name: str, path: str) -> int:
     low, high = _INTEGER_RANGES[name]
     number: int | None = None
-    if isinstance(plain, int) and not isinstance(plain, bool):
-        number = plain
-    elif isinstance(plain, float) and plain.is_integer():
-        number = int(plain)
-    elif isinstance(plain, str):
+    if isinstance(meant, int) and not isinstance(meant, bool):
+        number = meant
+    elif isinstance(meant, float) and meant.is_integer():
+        number = int(meant)
+    elif isinstance(meant, str):
         try:
-            number = int(plain, 0)
+            number = int(meant, 0)
         except ValueError:
             number = None
     if number is None or not low <= number <= high:
@@ -207,17 +207,17 @@ def _integer(plain: Any, value: Any, name: str, path: str) -> int:
     return number
 
 
-def _real(plain: Any, value: Any, name: str, path: str) -> float:
+def _real(meant: Any, value: Any, name: str, path: str) -> float:
     number: float | None = None
-    if isinstance(plain, int | float) and not isinstance(plain, bool):
+    if isinstance(meant, int | float) and not isinstance(meant, bool):
         try:
-            number = float(plain)
+            number = float(meant)
         except OverflowError:
             number = None
-    elif isinstance(plain, str):
+    elif isinstance(meant, str):
         # YAML 1.1 reads 1e-3, which has no point, as a string.
         try:
-            number = float(plain)
+            number = float(meant)
         except ValueError:
             number = None
     if number is None:
@@ -239,8 +239,7 @@ def _word(kind: Any) -> str:
 
 
 def _fault(path: str, expected: str, value: Any) -> Ros2CliError:
-    shown = value.text if isinstance(value, Scalar) else value
-    text = repr(shown)
+    text = repr(value.text if isinstance(value, Scalar) else plain(value))
     text = text if len(text) <= 60 else f"{text[:57]}..."
     size = f" of {len(value)} values" if isinstance(value, list | tuple) else ""
     return Ros2CliError("invalid_field", f"field '{path}' takes {expected}, got {text}{size}")

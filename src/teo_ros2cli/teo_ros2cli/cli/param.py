@@ -1,0 +1,278 @@
+"""`ros2 param`: the parameters of nodes."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from teo_ros2cli.bags.selection import is_hidden
+from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.options import add_graph_arguments, full_name
+from teo_ros2cli.errors import Ros2CliError
+
+VERBS = {
+    "describe": Entry(__name__, "Show descriptive information about declared parameters", "describe"),
+    "dump": Entry(__name__, "Show all of the parameters of a node in a YAML file format", "dump"),
+    "get": Entry(__name__, "Get parameter", "get"),
+    "list": Entry(__name__, "Output a list of available parameters", "list"),
+    "set": Entry(__name__, "Set parameter", "set"),
+}
+_TIMEOUT = 5.0
+"""Time that a node gets to answer [s]."""
+
+# By the number of the type in rcl_interfaces/msg/ParameterType: how the value is announced, and the field it
+# is in.
+_TYPES = {
+    1: ("Boolean value is:", "bool_value", "boolean"),
+    2: ("Integer value is:", "integer_value", "integer"),
+    3: ("Double value is:", "double_value", "double"),
+    4: ("String value is:", "string_value", "string"),
+    5: ("Byte values are:", "byte_array_value", "byte array"),
+    6: ("Boolean values are:", "bool_array_value", "boolean array"),
+    7: ("Integer values are:", "integer_array_value", "integer array"),
+    8: ("Double values are:", "double_array_value", "double array"),
+    9: ("String values are:", "string_array_value", "string array"),
+}
+
+
+def run_words(words: Sequence[str]) -> int:
+    """Run the verb that the words name."""
+    return choose("ros2 param", "Various param related sub-commands", "verb", VERBS, words)
+
+
+def _add_common(parser: argparse.ArgumentParser, *, node_required: bool = True) -> None:
+    add_graph_arguments(parser)
+    if node_required:
+        parser.add_argument("node_name", help="Name of the ROS node")
+    else:
+        parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all)")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+
+
+def add_list_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `list`."""
+    _add_common(parser, node_required=False)
+    parser.add_argument(
+        "--param-type", action="store_true", help="Print parameter types with parameter names"
+    )
+
+
+def run_list(options: argparse.Namespace) -> int:
+    """Print the parameters of one node or of all."""
+    with _Parameters(options) as parameters:
+        nodes = [full_name(options.node_name)] if options.node_name else parameters.nodes()
+        for node in nodes:
+            try:
+                names = parameters.names(node)
+                types = parameters.types(node, names) if options.param_type else []
+            except Ros2CliError as error:
+                if options.node_name:
+                    raise
+                print(f"{node}: {error}", file=sys.stderr)
+                continue
+            if not options.node_name:
+                print(f"{node}:")
+            for i, name in enumerate(names):
+                print(f"  {name} (type: {types[i]})" if types else f"  {name}")
+    return 0
+
+
+def add_get_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `get`."""
+    _add_common(parser)
+    parser.add_argument("parameter_name", help="Name of the parameter")
+    parser.add_argument("--hide-type", action="store_true", help="Hide the type information")
+
+
+def run_get(options: argparse.Namespace) -> int:
+    """Print a parameter's value.
+
+    Raises:
+        Ros2CliError: `node_unknown`, `parameter_unset`.
+    """
+    with _Parameters(options) as parameters:
+        value = parameters.get(full_name(options.node_name), [options.parameter_name])[0]
+    if value.type not in _TYPES:
+        raise Ros2CliError("parameter_unset", "Parameter not set.")
+    label = _TYPES[value.type][0]
+    print(plain_value(value) if options.hide_type else f"{label} {plain_value(value)}")
+    return 0
+
+
+def add_set_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `set`."""
+    _add_common(parser)
+    parser.add_argument("parameter_name", help="Name of the parameter")
+    parser.add_argument("value", help="Value of the parameter")
+
+
+def run_set(options: argparse.Namespace) -> int:
+    """Set a parameter.
+
+    Raises:
+        Ros2CliError: `node_unknown`, `set_refused`.
+    """
+    from rclpy.parameter import get_parameter_value
+
+    try:
+        value = get_parameter_value(options.value)
+    except Exception as error:  # of YAML, or a value that no parameter can have
+        raise Ros2CliError(
+            "invalid_value", f"'{options.value}' is no value for a parameter: {error}"
+        ) from error
+    with _Parameters(options) as parameters:
+        result = parameters.set(full_name(options.node_name), options.parameter_name, value)
+    reason = f": {result.reason}" if result.reason else ""
+    if not result.successful:
+        raise Ros2CliError("set_refused", f"Setting parameter failed{reason}")
+    print(f"Set parameter successful{reason}")
+    return 0
+
+
+def add_describe_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `describe`."""
+    _add_common(parser)
+    parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
+
+
+def run_describe(options: argparse.Namespace) -> int:
+    """Print the descriptors of parameters."""
+    with _Parameters(options) as parameters:
+        descriptors = parameters.describe(full_name(options.node_name), options.parameter_names)
+    for descriptor in descriptors:
+        print(descriptor_text(descriptor))
+    return 0
+
+
+def add_dump_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `dump`."""
+    _add_common(parser)
+
+
+def run_dump(options: argparse.Namespace) -> int:
+    """Print a node's parameters as a parameter file."""
+    from teo_ros2cli.messages.yaml_text import dump
+
+    node = full_name(options.node_name)
+    with _Parameters(options) as parameters:
+        names = parameters.names(node)
+        values = parameters.get(node, names)
+    tree: dict[str, Any] = {}
+    for name, value in zip(names, values, strict=True):
+        *groups, last = name.split(".")
+        branch = tree
+        for group in groups:
+            branch = branch.setdefault(group, {})
+        if value.type in _TYPES:
+            branch[last] = plain_value(value)
+    print(dump({node: {"ros__parameters": tree}}), end="")
+    return 0
+
+
+def plain_value(value: Any) -> Any:
+    """Return the value of an rcl_interfaces/msg/ParameterValue as plain Python."""
+    plain = getattr(value, _TYPES[value.type][1])
+    if value.type == 5:
+        return [byte[0] for byte in plain]
+    return list(plain) if value.type > 4 else plain
+
+
+def descriptor_text(descriptor: Any) -> str:
+    """Return an rcl_interfaces/msg/ParameterDescriptor as text for people."""
+    kind = _TYPES[descriptor.type][2] if descriptor.type in _TYPES else "not set"
+    lines = [f"Parameter name: {descriptor.name}", f"  Type: {kind}"]
+    if descriptor.description:
+        lines.append(f"  Description: {descriptor.description}")
+    constraints = []
+    if descriptor.read_only:
+        constraints.append("Read only: true")
+    for limits in (*descriptor.integer_range, *descriptor.floating_point_range):
+        constraints += [f"Min value: {limits.from_value}", f"Max value: {limits.to_value}"]
+        if limits.step:
+            constraints.append(f"Step: {limits.step}")
+    if descriptor.additional_constraints:
+        constraints.append(f"Additional constraints: {descriptor.additional_constraints}")
+    lines.append("  Constraints:")
+    lines += [f"    {constraint}" for constraint in constraints]
+    return "\n".join(lines)
+
+
+class _Parameters:
+    """Talks to the parameter services of nodes."""
+
+    def __init__(self, options: argparse.Namespace) -> None:
+        from teo_ros2cli.graph.session import cli_node
+
+        self._options = options
+        self._session = cli_node(use_sim_time=options.use_sim_time)
+
+    def __enter__(self) -> _Parameters:
+        from teo_ros2cli.graph.session import settle
+
+        self._node = self._session.__enter__()
+        settle(self._node, self._options.spin_time)
+        return self
+
+    def __exit__(self, *details: Any) -> None:
+        self._session.__exit__(*details)
+
+    def nodes(self) -> list[str]:
+        own = self._node.get_name()
+        names = {
+            f"{namespace.rstrip('/')}/{name}"
+            for name, namespace in self._node.get_node_names_and_namespaces()
+            if name != own
+        }
+        return sorted(name for name in names if self._options.include_hidden_nodes or not is_hidden(name))
+
+    def names(self, node: str) -> list[str]:
+        from rcl_interfaces.srv import ListParameters
+
+        return sorted(
+            self._call(ListParameters, node, "list_parameters", ListParameters.Request()).result.names
+        )
+
+    def types(self, node: str, names: list[str]) -> list[str]:
+        from rcl_interfaces.srv import GetParameterTypes
+
+        request = GetParameterTypes.Request(names=names)
+        numbers = self._call(GetParameterTypes, node, "get_parameter_types", request).types
+        return [_TYPES[number][2] if number in _TYPES else "not set" for number in numbers]
+
+    def get(self, node: str, names: list[str]) -> list[Any]:
+        from rcl_interfaces.srv import GetParameters
+
+        request = GetParameters.Request(names=names)
+        values = list(self._call(GetParameters, node, "get_parameters", request).values)
+        if len(values) != len(names):
+            raise Ros2CliError("parameter_unset", "Parameter not set.")
+        return values
+
+    def describe(self, node: str, names: list[str]) -> list[Any]:
+        from rcl_interfaces.srv import DescribeParameters
+
+        request = DescribeParameters.Request(names=names)
+        descriptors = list(self._call(DescribeParameters, node, "describe_parameters", request).descriptors)
+        if len(descriptors) != len(names):
+            raise Ros2CliError("parameter_unset", f"One of the parameters {', '.join(names)} is not declared")
+        return descriptors
+
+    def set(self, node: str, name: str, value: Any) -> Any:
+        from rcl_interfaces.msg import Parameter
+        from rcl_interfaces.srv import SetParameters
+
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
+        return self._call(SetParameters, node, "set_parameters", request).results[0]
+
+    def _call(self, service_class: Any, node: str, service: str, request: Any) -> Any:
+        from teo_ros2cli.graph.calls import call
+
+        known = [
+            f"{namespace.rstrip('/')}/{name}"
+            for name, namespace in self._node.get_node_names_and_namespaces()
+        ]
+        if node not in known:
+            raise Ros2CliError("node_unknown", "Node not found")
+        return call(self._node, service_class, f"{node}/{service}", request, timeout=_TIMEOUT)

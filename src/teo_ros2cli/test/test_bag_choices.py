@@ -1,0 +1,227 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
+from teo_ros2cli.bags.block_yaml import block_yaml
+from teo_ros2cli.bags.metadata import TopicRecord, offered_qos_text, parse_offered_qos
+from teo_ros2cli.bags.overrides import read_overrides
+from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, request_for, serves
+from teo_ros2cli.bags.schedule import Schedule
+from teo_ros2cli.bags.selection import TopicSelection, is_hidden
+from teo_ros2cli.bags.writer import BagWriter
+from teo_ros2cli.definitions.schema_text import schema_of
+from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.rates import RateMeter
+
+RELIABLE = QosRecord()
+BEST_EFFORT = QosRecord(reliability="best_effort")
+LATCHED = QosRecord(durability="transient_local")
+
+
+# Quality of service
+
+
+@pytest.mark.parametrize(
+    ("offers", "reliability", "durability", "warnings"),
+    [
+        ([], "reliable", "volatile", 0),
+        ([RELIABLE], "reliable", "volatile", 0),
+        ([LATCHED, LATCHED], "reliable", "transient_local", 0),
+        ([RELIABLE, LATCHED], "reliable", "volatile", 1),
+        ([RELIABLE, BEST_EFFORT], "best_effort", "volatile", 1),
+        ([BEST_EFFORT, LATCHED], "best_effort", "volatile", 2),
+    ],
+)
+def test_the_request_is_the_strictest_that_all_publishers_serve(
+    offers: list[QosRecord], reliability: str, durability: str, warnings: int
+) -> None:
+    adapted = request_for("/t", offers)
+    assert (adapted.profile.reliability, adapted.profile.durability) == (reliability, durability)
+    assert len(adapted.warnings) == warnings
+    assert all(serves(offer, adapted.profile) for offer in offers)
+
+
+def test_a_recorded_profile_is_offered_again_if_all_publishers_agreed() -> None:
+    seen = QosRecord(history="unknown", depth=0, durability="transient_local", deadline=10**9)
+    offer = offer_for("/t", [seen, seen])
+    assert (offer.profile.durability, offer.profile.deadline) == ("transient_local", 10**9)
+    assert (offer.profile.history, offer.profile.depth) == ("keep_last", 10)
+    mixed = offer_for("/t", [LATCHED, RELIABLE])
+    assert mixed.profile == QosRecord()
+    assert len(mixed.warnings) == 1
+    assert offer_for("/t", []).profile == QosRecord()
+
+
+def test_profiles_survive_their_text_and_old_numbers_are_understood() -> None:
+    profiles = (
+        LATCHED,
+        QosRecord(history="keep_all", deadline=1_500_000_000, avoid_ros_namespace_conventions=True),
+    )
+    assert parse_offered_qos(offered_qos_text(profiles)) == profiles
+    assert parse_offered_qos("") == parse_offered_qos(None) == parse_offered_qos(offered_qos_text(())) == ()
+    old = "- history: 3\n  depth: 0\n  reliability: 1\n  durability: 1\n  deadline:\n    sec: 2147483647\n"
+    old += "    nsec: 4294967295\n  lifespan: {sec: 0, nsec: 0}\n  liveliness: 1\n"
+    assert parse_offered_qos(old) == (QosRecord(history="unknown", depth=0, durability="transient_local"),)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["{a: 1}", "[1]", "- history: never", "- {depth: -1}", "- {deadline: {sec: -1}}", "- [", "- {x: 1}"],
+)
+def test_profiles_that_make_no_sense_are_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=r"\w"):
+        parse_offered_qos(text)
+
+
+def test_overrides_are_read_from_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "overrides.yaml"
+    path.write_text(
+        "chatter:\n  reliability: best_effort\n  depth: 5\n/other:\n  deadline: {sec: 1, nsec: 5}\n"
+    )
+    assert read_overrides(path) == {
+        "/chatter": QosRecord(reliability="best_effort", depth=5),
+        "/other": QosRecord(deadline=1_000_000_005),
+    }
+    assert read_overrides(None) == {}
+    for text in ("[]", "a: {reliability: sometimes}", "a: {speed: 1}", ":", "a: 3"):
+        path.write_text(text)
+        with pytest.raises(Ros2CliError) as caught:
+            read_overrides(path)
+        assert caught.value.code == "invalid_overrides"
+
+
+def test_a_zero_time_means_no_limit() -> None:
+    assert QosRecord.from_tree({"lifespan": {"sec": 0, "nsec": 0}}).lifespan == INFINITE
+
+
+# Metadata text
+
+
+_SCALARS = st.one_of(st.none(), st.booleans(), st.integers(), st.text(max_size=20))
+_TREES = st.recursive(
+    _SCALARS,
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@given(st.dictionaries(st.text(max_size=8), _TREES, max_size=4))
+def test_block_yaml_means_what_was_meant(tree: dict[str, object]) -> None:
+    def empty_is_null(value: object) -> object:
+        if isinstance(value, dict):
+            return {key: empty_is_null(inner) for key, inner in value.items()} or None
+        return [empty_is_null(inner) for inner in value] if isinstance(value, list) else value
+
+    assert yaml.safe_load(block_yaml(tree)) == (empty_is_null(tree) if tree else None)
+
+
+# Which topics
+
+
+def test_all_topics_are_all_but_the_hidden_and_the_excluded() -> None:
+    selection = TopicSelection(
+        everything=True,
+        excluded_names=frozenset({"/noise"}),
+        excluded_pattern=re.compile("camera"),
+        excluded_types=frozenset({"sensor_msgs/msg/Image"}),
+    )
+    assert selection.accepts("/text", "std_msgs/msg/String")
+    assert not selection.accepts("/noise", "std_msgs/msg/String")
+    assert not selection.accepts("/left/camera/info", "std_msgs/msg/String")
+    assert not selection.accepts("/picture", "sensor_msgs/msg/Image")
+    assert not selection.accepts("/a/_action/status", "x/msg/Y")
+    assert TopicSelection(everything=True, include_hidden=True).accepts("/a/_action/status", "x/msg/Y")
+
+
+def test_names_types_and_patterns_add_up() -> None:
+    selection = TopicSelection(
+        names=frozenset({"/a", "/_hidden"}), types=frozenset({"x/msg/Y"}), pattern=re.compile("^/arm/")
+    )
+    chosen = {
+        name: selection.accepts(name, kind)
+        for name, kind in (
+            ("/a", "t"),
+            ("/_hidden", "t"),
+            ("/b", "x/msg/Y"),
+            ("/arm/1", "t"),
+            ("/c/arm/1", "t"),
+        )
+    }
+    assert chosen == {"/a": True, "/_hidden": True, "/b": True, "/arm/1": True, "/c/arm/1": False}
+    assert not selection.only_names
+    assert TopicSelection(names=frozenset({"/a"})).only_names
+    assert is_hidden("/a/_b") and not is_hidden("/a_/b_c")
+
+
+# Times
+
+
+def test_messages_are_due_at_their_distance_divided_by_the_rate() -> None:
+    schedule = Schedule(10**18, 100.0, rate=2.0)
+    assert schedule.due(10**18) == 100.0
+    assert schedule.due(10**18 + 3_000_000_000) == pytest.approx(101.5)
+    assert schedule.time_at(101.0) == 10**18 + 2_000_000_000
+
+
+def test_a_pause_and_a_change_of_rate_move_what_is_due() -> None:
+    schedule = Schedule(0, 0.0)
+    schedule.pause(1.0)
+    assert schedule.paused
+    assert schedule.time_at(50.0) == 10**9
+    schedule.resume(51.0)
+    assert schedule.due(2 * 10**9) == pytest.approx(52.0)
+    schedule.set_rate(10.0, 52.0)
+    assert schedule.due(12 * 10**9) == pytest.approx(53.0)
+
+
+def test_rates_are_those_of_the_window() -> None:
+    meter = RateMeter(3)
+    assert meter.rate() is None
+    for time in (0, 10**9, 10**9 + 10**8, 10**9 + 2 * 10**8, 10**9 + 4 * 10**8):
+        meter.arrive(time)
+    rate = meter.rate()
+    assert rate is not None
+    assert (rate.intervals, round(rate.hertz, 6)) == (3, 7.5)
+    assert (rate.shortest, rate.longest) == (pytest.approx(0.1), pytest.approx(0.2))
+    meter.arrive(5)
+    assert meter.rate() is None
+
+
+# Writing in the background
+
+
+def test_what_does_not_fit_the_cache_is_refused_and_the_rest_written(tmp_path: Path) -> None:
+    bag = BagWriter(tmp_path / "bag")
+    slow = BackgroundWriter(bag, cache_size=1000)
+    slow.add_topic(TopicRecord("/t", "std_msgs/msg/String"), schema_of("std_msgs/msg/String"))
+    taken = sum(slow.write(Arrival("/t", i, i, b"x" * 900)) for i in range(2000))
+    metadata = slow.close()
+    assert metadata.messages == taken >= 1
+    # One message that is larger than the cache must not be lost for ever.
+    second = BackgroundWriter(BagWriter(tmp_path / "second"), cache_size=10)
+    second.add_topic(TopicRecord("/t", "std_msgs/msg/String"), schema_of("std_msgs/msg/String"))
+    assert second.write(Arrival("/t", 1, 1, b"x" * 100))
+    assert second.close().messages == 1
+
+
+def test_a_failure_to_write_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    bag = BagWriter(tmp_path / "bag")
+
+    def fail(*_arguments: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(bag, "write", fail)
+    writer = BackgroundWriter(bag, cache_size=0)
+    writer.write(Arrival("/t", 1, 1, b""))
+    with pytest.raises(Ros2CliError, match="No space left") as caught:
+        writer.close()
+    assert caught.value.code == "bag_unwritable"
+    with pytest.raises(Ros2CliError):
+        writer.check()

@@ -1,0 +1,74 @@
+from __future__ import annotations
+
+import pytest
+from mcap_ros2._dynamic import generate_dynamic
+from rosbags.typesys import get_types_from_msg
+
+from teo_ros2cli.definitions.listing import definition_lines
+from teo_ros2cli.definitions.references import referenced_types
+from teo_ros2cli.definitions.schema_text import SEPARATOR, schema_of
+from teo_ros2cli.definitions.type_hash import installed_type_hash
+from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.packages import InterfaceName, interfaces
+
+
+def test_a_schema_holds_each_dependency_once() -> None:
+    schema = schema_of("trajectory_msgs/msg/JointTrajectory")
+    assert (schema.name, schema.encoding) == ("trajectory_msgs/msg/JointTrajectory", "ros2msg")
+    headings = [line for line in schema.text.splitlines() if line.startswith("MSG: ")]
+    assert headings == [
+        "MSG: std_msgs/Header",
+        "MSG: builtin_interfaces/Time",
+        "MSG: trajectory_msgs/JointTrajectoryPoint",
+        "MSG: builtin_interfaces/Duration",
+    ]
+    assert schema.text.count(SEPARATOR) == 4
+
+
+def test_every_installed_message_has_a_schema_that_others_can_read_and_a_hash() -> None:
+    names = [f"{package}/msg/{name}" for package, types in interfaces("msg").items() for name in types]
+    assert len(names) > 100
+    for name in names:
+        schema = schema_of(name)
+        generate_dynamic(name, schema.text)
+        assert name in get_types_from_msg(schema.text, name)
+        assert installed_type_hash(name).startswith("RIHS01_")
+
+
+def test_the_feedback_of_an_action_has_a_schema() -> None:
+    action = next((f"{p}/action/{n}" for p, names in interfaces("action").items() for n in names), None)
+    if action is None:
+        pytest.skip("no action is installed")
+    schema = schema_of(f"{action}_FeedbackMessage")
+    assert "MSG: unique_identifier_msgs/UUID" in schema.text
+    assert schema.name in get_types_from_msg(schema.text, schema.name)
+
+
+def test_references_are_told_from_basic_types_constants_and_comments() -> None:
+    lines = (
+        "# geometry_msgs/Pose no",
+        "Header h",
+        "Pose[<=3] poses",
+        "string<=5 s 'a/B c'",
+        "int32 X=3",
+        "uint8[4] d # a/X x",
+    )
+    assert [str(name) for name in referenced_types("\n".join(lines), "geometry_msgs")] == [
+        "std_msgs/msg/Header",
+        "geometry_msgs/msg/Pose",
+    ]
+
+
+def test_unknown_types_have_neither_schema_nor_hash() -> None:
+    with pytest.raises(Ros2CliError):
+        schema_of("std_msgs/msg/Nothing")
+    assert installed_type_hash("std_msgs/msg/Nothing") == ""
+    assert installed_type_hash("nonsense") == ""
+
+
+def test_a_listing_expands_nested_types() -> None:
+    name = InterfaceName.parse("std_msgs/msg/Header")
+    bare = list(definition_lines(name, comments=False, nested_comments=False))
+    assert bare == ["builtin_interfaces/Time stamp", "\tint32 sec", "\tuint32 nanosec", "string frame_id"]
+    assert any(line.startswith("#") for line in definition_lines(name, comments=True, nested_comments=False))
+    assert any(line.startswith("\t#") for line in definition_lines(name, comments=True, nested_comments=True))
