@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from teo_skeleton_retriever.skeleton_std import SKELETON_STD
+
+RECORDING = Path(__file__).parents[4] / "shared" / "data" / "golden" / "skeleton_retriever_abduction_left.log"
+TOKEN = re.compile(r'\(|\)|"[^"]*"|[^\s()]+')
+
+
+class Recording(NamedTuple):
+    """What the original published, n times."""
+
+    points: np.ndarray  # (n, 17, 3) [m]
+    pixels: np.ndarray  # (n, 17, 2) [px]
+    updated: np.ndarray  # (n, 17)
+    sagittal: np.ndarray  # (n, 3)
+    transverse: np.ndarray  # (n, 3)
+    coronal: np.ndarray  # (n, 3)
+
+
+def parse(line: str) -> list[Any]:
+    """Read a line of nested lists."""
+    stack: list[list[Any]] = [[]]
+    for token in TOKEN.findall(line):
+        if token == "(":
+            stack.append([])
+        elif token == ")":
+            inner = stack.pop()
+            stack[-1].append(inner)
+        else:
+            stack[-1].append(value(token))
+    assert len(stack) == 1
+    return stack[0]
+
+
+def value(token: str) -> float | str:
+    try:
+        return float("nan" if token == "nan.0" else token)
+    except ValueError:
+        return token.strip('"')
+
+
+def fields(pairs: list[Any]) -> dict[str, Any]:
+    """A list of (key value) or (key value value ...)."""
+    return {pair[0]: pair[1] if len(pair) == 2 else pair[1:] for pair in pairs}
+
+
+def keypoints(tree: list[Any]) -> dict[str, dict[str, Any]]:
+    found: dict[str, dict[str, Any]] = {}
+    for node in map(fields, tree):
+        found[node["tag"]] = node
+        found |= keypoints(node.get("child", []))
+    return found
+
+
+@pytest.fixture(scope="session")
+def recording() -> Recording:
+    if not RECORDING.exists():
+        pytest.skip(f"the recording of the original is not part of the project and not at {RECORDING}")
+    skeletons = [fields(parse(line)[3]) for line in RECORDING.read_text().splitlines()]
+    people = [keypoints(skeleton["skeleton"]) for skeleton in skeletons]
+    columns = [
+        np.array([[person[tag][key] for tag in SKELETON_STD.keypoints] for person in people])
+        for key in ("position", "pixel", "status")
+    ]
+    planes = [
+        np.array([skeleton[key] for skeleton in skeletons]) for key in ("sagittal", "transverse", "coronal")
+    ]
+    return Recording(columns[0], columns[1], columns[2] == "updated", *planes)
