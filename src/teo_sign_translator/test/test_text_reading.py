@@ -67,6 +67,7 @@ def _words(text: str) -> list[list[str]]:
         ("el 12.10.2024 a las 10:30", [["el", "12", "10", "2024", "a", "las", "10"], ["30"]]),
         ("treinta y un años y dos mil", [["treinta y un", "años", "y", "dos mil"]]),
         ("un 1º", [["un", "1º"]]),
+        ("clase 1ºA", [["clase", "1º", "A"]]),
         ("", []),
         ("...", []),
     ],
