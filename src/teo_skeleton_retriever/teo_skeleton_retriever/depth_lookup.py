@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from teo_skeleton_retriever.arrays import DepthArray, FloatArray
 from teo_skeleton_retriever.errors import DepthError
 
 _MAD_TO_SIGMA = 1.4826  # of a normal distribution
+_DENSE_RADIUS = 8.0  # [px] of larger discs every second pixel, third and so on is read: 200 are enough
 
 
 class DepthSample(NamedTuple):
@@ -105,28 +107,43 @@ class DepthLookup:
 
     @staticmethod
     def _disc(depth: DepthArray, x: float, y: float, radius: float) -> tuple[FloatArray, FloatArray]:
+        """Give the measured depths around a pixel, ascending, and their squared distances to it [px^2]."""
+        stride = math.ceil(radius / _DENSE_RADIUS)
         left, top = max(math.ceil(x - radius), 0), max(math.ceil(y - radius), 0)
-        patch = depth[top : math.floor(y + radius) + 1, left : math.floor(x + radius) + 1]
-        rows, columns = np.nonzero(patch > 0.0)  # NaN is not
-        distances = np.hypot(columns + (left - x), rows + (top - y))
-        inside = distances <= radius
-        return patch[rows, columns][inside].astype(np.float64), distances[inside]
+        patch = depth[top : math.floor(y + radius) + 1 : stride, left : math.floor(x + radius) + 1 : stride]
+        rows = np.arange(patch.shape[0]) * stride + (top - y)
+        columns = np.arange(patch.shape[1]) * stride + (left - x)
+        distances = rows[:, None] ** 2 + columns**2
+        chosen = (patch > 0.0) & (distances <= radius * radius)  # NaN is not above zero
+        values = patch[chosen].astype(np.float64)
+        order = values.argsort(kind="stable")
+        return values[order], distances[chosen][order]
 
     def _choose(self, values: FloatArray, distances: FloatArray, expected: float | None) -> DepthSample:
-        order = np.argsort(values, kind="stable")
-        cuts = np.nonzero(np.diff(values[order]) > self.gap)[0] + 1
-        surfaces = np.split(order, cuts)
-        solid = [surface for surface in surfaces if len(surface) >= self.min_support * len(values)]
+        cuts = np.flatnonzero(values[1:] - values[:-1] > self.gap) + 1
+        edges = [0, *cuts.tolist(), len(values)]
+        surfaces = list(pairwise(edges))
+        solid = [(i, k) for i, k in surfaces if k - i >= self.min_support * len(values)]
         # Very torn patches have no solid surface: then the largest piece is the best there is.
-        candidates = solid or [max(surfaces, key=len)]
-        medians = [float(np.median(values[surface])) for surface in candidates]
-        best = 0 if expected is None else int(np.argmin(np.abs(np.array(medians) - expected)))
-        chosen = candidates[best]
-        return self._sample(values[chosen], distances[chosen], len(chosen) / len(values))
+        candidates = solid or [max(surfaces, key=lambda surface: surface[1] - surface[0])]
+        first, last = candidates[0]
+        if expected is not None and len(candidates) > 1:
+            first, last = min(candidates, key=lambda s: abs(_median(values[s[0] : s[1]]) - expected))
+        return self._sample(values[first:last], distances[first:last], (last - first) / len(values))
 
     def _sample(self, values: FloatArray, distances: FloatArray, support: float) -> DepthSample:
         # The nearest half of the surface: of a slope cut by a contour the median lies to one side.
-        near = values[np.argsort(distances, kind="stable")[: max(1, (len(values) + 1) // 2)]]
-        depth = float(np.median(near))
-        spread = _MAD_TO_SIGMA * float(np.median(np.abs(values - depth)))
-        return DepthSample(depth, math.hypot(spread, self.noise * depth * depth), support)
+        half = (len(values) - 1) // 2
+        near = values[distances <= np.partition(distances, half)[half]]
+        depth = _median(near)
+        deviations = np.abs(values - depth)
+        deviations.sort()
+        return DepthSample(
+            depth, math.hypot(_MAD_TO_SIGMA * _median(deviations), self.noise * depth * depth), support
+        )
+
+
+def _median(ascending: FloatArray) -> float:
+    """Median of values in order; many times as fast as one that has to sort."""
+    n = len(ascending)
+    return float(ascending[(n - 1) // 2] + ascending[n // 2]) / 2.0

@@ -35,3 +35,7 @@ class DepthError(RetrieverError):
 
 class LimbError(RetrieverError):
     """Limb lengths or a limb chain that make no problem to solve."""
+
+
+class TrackingError(RetrieverError):
+    """Settings or times with which nobody can be followed."""

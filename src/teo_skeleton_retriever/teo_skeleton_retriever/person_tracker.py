@@ -1,0 +1,182 @@
+"""Who is who from image to image: ids that stay with people through crossings and gaps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from teo_skeleton_retriever.arrays import FloatArray, frozen
+from teo_skeleton_retriever.errors import TrackingError
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrackerSettings:
+    """How people are followed.
+
+    Attributes:
+        gate: how far from where a person is expected they may be seen [m]: half the width of two people
+            side by side, and more than a torso's depth errs.
+        gate_growth: by how much the gate grows while a person is not seen [m/s]: a brisk walk's surprise.
+        max_gate: and no further than this [m].
+        memory: how long a person who is not seen keeps their id [s]: someone crossing in front takes one.
+        velocity_time: over how long the velocity is averaged [s]; shorter follows turns, longer noise.
+        velocity_memory: after how long without being seen a person is no longer thought to walk on [s].
+        newcomer_images: images in which someone must be seen to get an id; fewer let flickers of the
+            detector become people.
+        newcomer_time: within this time [s].
+    """
+
+    gate: float = 0.4
+    gate_growth: float = 0.8
+    max_gate: float = 1.2
+    memory: float = 3.0
+    velocity_time: float = 0.3
+    velocity_memory: float = 0.7
+    newcomer_images: int = 3
+    newcomer_time: float = 1.0
+
+    def __post_init__(self) -> None:
+        positive = (self.gate, self.memory, self.velocity_time, self.velocity_memory, self.newcomer_time)
+        if not all(math.isfinite(value) and value > 0.0 for value in positive):
+            raise TrackingError("bad_settings", f"expected finite times and lengths above 0, got {positive}")
+        if not (0.0 <= self.gate_growth < math.inf and self.gate <= self.max_gate < math.inf):
+            raise TrackingError("bad_settings", "expected gate_growth >= 0 and gate <= max_gate")
+        if self.newcomer_images < 1:
+            raise TrackingError("bad_settings", f"expected newcomer_images >= 1, got {self.newcomer_images}")
+
+
+@dataclass(frozen=True, eq=False)
+class TrackedPerson:
+    """What is known of where a person is.
+
+    Attributes:
+        person_id: never given to another.
+        position: of the torso when last seen [m]. Shape (3,).
+        velocity: then [m/s]. Shape (3,).
+        last_seen: [s].
+        images: in which the person was seen.
+        first_seen: [s].
+    """
+
+    person_id: int
+    position: FloatArray
+    velocity: FloatArray
+    last_seen: float
+    images: int
+    first_seen: float
+
+    def expected(self, time: float, velocity_memory: float) -> FloatArray:
+        """Where the person should be at a time [m]. Shape (3,)."""
+        walked: FloatArray = self.position + self.velocity * min(time - self.last_seen, velocity_memory)
+        return walked
+
+
+class PersonTracker:
+    """Assigns detections to people so that the distances to where they were expected are least in all.
+
+    In space, not in the image: who crosses in front of someone is a metre nearer. A person walks on at their
+    velocity while they are hidden, and is looked for in a growing ball.
+    """
+
+    def __init__(self, settings: TrackerSettings | None = None) -> None:
+        self._settings = settings or TrackerSettings()
+        self._people: dict[int, TrackedPerson] = {}
+        self._newcomers: list[TrackedPerson] = []
+        self._next_id = 0
+        self._time = -math.inf
+
+    @property
+    def people(self) -> dict[int, TrackedPerson]:
+        """Everybody remembered, by id."""
+        return dict(self._people)
+
+    def step(self, time: float, positions: Sequence[FloatArray]) -> list[int | None]:
+        """Take one image.
+
+        Args:
+            time: of the image [s]. One before the last forgets everybody (ids are still not given again):
+                a bag was set back.
+            positions: of the torso of each detection [m]; not finite where its depth is not known, which is
+                nobody. Shape (3,) each.
+
+        Returns:
+            The id of each detection, None while it is nobody or a newcomer on trial.
+
+        Raises:
+            TrackingError: the time is not finite.
+        """
+        if not math.isfinite(time):
+            raise TrackingError("bad_time", f"expected a finite time [s], got {time}")
+        if time < self._time:
+            self._people, self._newcomers = {}, []
+        self._time = time
+        self._forget(time)
+        ids: list[int | None] = [None] * len(positions)
+        seen = {i: np.asarray(p, dtype=np.float64) for i, p in enumerate(positions) if np.isfinite(p).all()}
+        for i, person in self._match(time, seen, list(self._people.values())):
+            ids[i] = person.person_id
+            self._people[person.person_id] = self._moved(person, time, seen.pop(i))
+        trials = dict(self._match(time, seen, self._newcomers))
+        self._newcomers = [person for person in self._newcomers if person not in trials.values()]
+        for i, position in seen.items():
+            newcomer = self._moved(trials[i], time, position) if i in trials else _newcomer(time, position)
+            ids[i] = self._admit(newcomer)
+        return ids
+
+    def _forget(self, time: float) -> None:
+        self._people = {
+            person_id: person
+            for person_id, person in self._people.items()
+            if time - person.last_seen <= self._settings.memory
+        }
+        self._newcomers = [
+            person for person in self._newcomers if time - person.first_seen <= self._settings.newcomer_time
+        ]
+
+    def _match(
+        self, time: float, seen: dict[int, FloatArray], people: list[TrackedPerson]
+    ) -> list[tuple[int, TrackedPerson]]:
+        """Pair detections with people: as many as the gates allow, at the least sum of squared distances."""
+        if not seen or not people:
+            return []
+        rows = list(seen)
+        expected = np.array([person.expected(time, self._settings.velocity_memory) for person in people])
+        distances = np.linalg.norm(np.array(list(seen.values()))[:, None] - expected[None], axis=2)
+        hidden = np.array([time - person.last_seen for person in people])
+        gates = np.minimum(self._settings.gate + self._settings.gate_growth * hidden, self._settings.max_gate)
+        # Beyond its gate a pair costs more than all pairs within theirs together, so it is the last resort.
+        beyond = len(rows) * len(people) * self._settings.max_gate**2 + 1.0
+        cost = np.where(distances <= gates, distances**2, beyond)
+        pairs = zip(*linear_sum_assignment(cost), strict=True)
+        return [(rows[i], people[k]) for i, k in pairs if distances[i, k] <= gates[k]]
+
+    def _moved(self, person: TrackedPerson, time: float, position: FloatArray) -> TrackedPerson:
+        elapsed = time - person.last_seen
+        velocity = person.velocity
+        if elapsed > 0.0:
+            share = 1.0 - math.exp(-elapsed / self._settings.velocity_time)
+            velocity = velocity + share * ((position - person.position) / elapsed - velocity)
+        return replace(
+            person,
+            position=frozen(position),
+            velocity=frozen(velocity),
+            last_seen=time,
+            images=person.images + 1,
+        )
+
+    def _admit(self, newcomer: TrackedPerson) -> int | None:
+        if newcomer.images < self._settings.newcomer_images:
+            self._newcomers.append(newcomer)
+            return None
+        person_id = self._next_id
+        self._next_id += 1
+        self._people[person_id] = replace(newcomer, person_id=person_id)
+        return person_id
+
+
+def _newcomer(time: float, position: FloatArray) -> TrackedPerson:
+    return TrackedPerson(-1, frozen(position), frozen(np.zeros(3)), time, 1, time)
