@@ -10,6 +10,7 @@ import pytest
 
 from teo_skeleton_retriever.body_25 import BODY_25
 from teo_skeleton_retriever.camera_model import CameraModel
+from teo_skeleton_retriever.coco_18 import COCO_18
 from teo_skeleton_retriever.compat.detection import detect, is_valid
 from teo_skeleton_retriever.compat.parameters import OriginalParameters
 from teo_skeleton_retriever.compat.retriever import OriginalRetriever
@@ -79,6 +80,16 @@ def test_without_depth_or_confidence_nothing_is_seen(value: float) -> None:
     assert updated(seen(person(), np.full((240, 320), value, np.float32))) == set()
     assert updated(seen(person(confidence=0.29))) == set()
     assert updated(seen(Person2D())) == set()
+
+
+def test_with_coco_the_hip_centre_is_put_between_the_hips_in_space() -> None:
+    body = person().body
+    coco = Person2D(body=np.array([body[BODY_25.index[name]] for name in COCO_18.keypoints]))
+    skeleton = seen(coco)
+    hips = skeleton.points[[INDEX["hipLeft"], INDEX["hipRight"]]]
+    np.testing.assert_array_equal(skeleton.points[INDEX["hipCenter"]], hips.mean(axis=0))
+    assert np.isnan(skeleton.pixels[INDEX["hipCenter"]]).all()
+    assert is_valid(skeleton, PARAMETERS)
 
 
 def test_keypoints_outside_the_image_are_not_seen() -> None:

@@ -63,7 +63,10 @@ def _body_25(body: FloatArray) -> FloatArray:
     if len(body) == len(BODY_25):
         return body
     if len(body) == len(COCO_18):
-        return body_25_from_coco_18(body)
+        converted = body_25_from_coco_18(body)
+        # The original knows no mid-hip in COCO: it puts the centre between the hips in space, without a pixel.
+        converted[BODY_25.index["MidHip"]] = 0.0
+        return converted
     raise KeypointError("wrong_layout", f"expected a body in BODY_25 or COCO, got {len(body)} keypoints")
 
 
