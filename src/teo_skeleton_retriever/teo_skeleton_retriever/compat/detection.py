@@ -64,7 +64,7 @@ def _body_25(body: FloatArray) -> FloatArray:
         return body
     if len(body) == len(COCO_18):
         converted = body_25_from_coco_18(body)
-        # The original knows no mid-hip in COCO: it puts the centre between the hips in space, without a pixel.
+        # The original knows no mid-hip in COCO: the centre comes from the hips in space, without a pixel.
         converted[BODY_25.index["MidHip"]] = 0.0
         return converted
     raise KeypointError("wrong_layout", f"expected a body in BODY_25 or COCO, got {len(body)} keypoints")
