@@ -114,7 +114,8 @@ def sign(text: str, out: Path, console: Console) -> bool:
     began = time.monotonic()
     with Graph(log_folder=out / "log") as graph:
         graph.start_nodes()
-        graph.start("recorder", "ros2", "bag", "record", "-o", str(out / "bag"), "--topics", *RECORDED)
+        record = ("ros2", "bag", "record", "-o", str(out / "bag"), "--include-unpublished-topics")
+        graph.start("recorder", *record, "--topics", *RECORDED)
         rclpy.init()
         try:
             with LiveFilm(out / "signing.mp4") as film:
