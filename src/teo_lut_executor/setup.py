@@ -24,7 +24,9 @@ setup(
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
-            "capture_letters = teo_lut_executor.capture_letters:main",
+            "capture_demonstration = teo_lut_executor.capture_cli:demonstration_main",
+            "capture_letters = teo_lut_executor.capture_cli:letters_main",
+            "capture_numbers = teo_lut_executor.capture_cli:numbers_main",
             "executor_node = teo_lut_executor.executor_node:main",
             "lut = teo_lut_executor.lut_cli:main",
             "plan = teo_lut_executor.plan_cli:main",

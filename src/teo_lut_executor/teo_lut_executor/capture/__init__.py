@@ -1,0 +1,1 @@
+"""From what a person's hands did to signs that TEO can make."""

@@ -1,0 +1,102 @@
+"""TEO's right hand as points and rods, in the axes of its palm."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import RIGHT_HAND
+from teo_description.robot import Robot
+
+Array = NDArray[np.float64]
+
+FINGERS = ("Index", "Middle", "Ring", "Pinky")
+PHALANGES = np.array([0.035, 0.025, 0.027])
+"""[m] Lengths of a finger's phalanges, knuckle to tip, alike on the four fingers (Dextra's model)."""
+FINGER_LENGTH = float(PHALANGES.sum())
+
+_FINGER_RADIUS, _THUMB_RADIUS = 0.009, 0.009
+"""[m] Thickest phalanges of the collision model."""
+_PALM_FRONT = 0.009 - 0.003
+"""[m] Height of a thumb's axis over the palm's frame at which its surface touches the palm's box."""
+_PALM_FROM, _PALM_TO, _PALM_HALF_WIDTH = -0.075, 0.032, 0.047
+"""[m] The palm's box along and across the hand, the thumb's radius added at its sides."""
+
+
+class HandPoints(NamedTuple):
+    """Joints and tips in palm axes: along the hand, to the little finger's side, out of the palm [m]."""
+
+    fingers: Array
+    """Knuckle, middle joint, last joint and tip of index, middle, ring and little finger. Shape (4, 4, 3)."""
+    thumb: Array
+    """Knuckle, joint and tip. Shape (3, 3)."""
+
+
+class DextraHand:
+    """Forward kinematics of the right hand relative to its palm."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        parts = ("_link", "Middle_link", "Distal_link", "Tip")
+        self._frames = [
+            "right_palm",
+            *(f"Right{finger}Finger{part}" for finger in FINGERS for part in parts),
+            *(f"RightThumbFinger{part}" for part in ("_link", "Distal_link", "Tip")),
+        ]
+
+    def points(self, positions: Array) -> HandPoints:
+        """Where the joints of the hand are.
+
+        Args:
+            positions: Positions of the six axes of `RIGHT_HAND` [rad]. Shape (6,).
+        """
+        q = self._robot.configuration(dict(zip(RIGHT_HAND, positions.tolist(), strict=True)))
+        places = self._robot.placements(q, self._frames)
+        palm, others = places[0], places[1:, :3, 3]
+        local = (others - palm[:3, 3]) @ palm[:3, :3]
+        return HandPoints(local[:16].reshape(4, 4, 3), local[16:])
+
+
+def thumb_clearances(points: HandPoints) -> Array:
+    """Distances of the thumb from the fingers' phalanges and the palm [m]; negative is overlap.
+
+    Left out of the robot's own clearance because fingers and thumb are meant to meet.
+    """
+    starts, ends = points.thumb[:-1], points.thumb[1:]
+    finger_starts, finger_ends = points.fingers[:, :-1].reshape(-1, 3), points.fingers[:, 1:].reshape(-1, 3)
+    found = [
+        segment_distances(start, end, finger_starts, finger_ends) - (_FINGER_RADIUS + _THUMB_RADIUS)
+        for start, end in zip(starts, ends, strict=True)
+    ]
+    samples = np.linspace(starts, ends, 3).reshape(-1, 3)
+    over_palm = (
+        (samples[:, 0] > _PALM_FROM) & (samples[:, 0] < _PALM_TO) & (np.abs(samples[:, 1]) < _PALM_HALF_WIDTH)
+    )
+    found.append(np.where(over_palm, samples[:, 2] - _PALM_FRONT, np.inf))
+    return np.concatenate(found)
+
+
+def segment_distances(start: Array, end: Array, starts: Array, ends: Array) -> Array:
+    """Distances of one segment from several (Ericson, Real-Time Collision Detection, 2005, 5.1.9).
+
+    Args:
+        start: One end of the segment. Shape (3,).
+        end: The other. Shape (3,).
+        starts: One end of each of n segments. Shape (n, 3).
+        ends: The others. Shape (n, 3).
+
+    Returns:
+        Shape (n,).
+    """
+    one, others, between = end - start, ends - starts, start - starts
+    a, e = float(one @ one), np.einsum("ij,ij->i", others, others)
+    b, c, f = others @ one, between @ one, np.einsum("ij,ij->i", others, between)
+    determinant = a * e - b * b
+    parallel = determinant < 1e-12
+    s = np.clip(np.where(parallel, 0.0, (b * f - c * e) / np.where(parallel, 1.0, determinant)), 0.0, 1.0)
+    t = np.clip((b * s + f) / e, 0.0, 1.0)
+    s = np.clip((b * t - c) / a, 0.0, 1.0)
+    distances: Array = np.linalg.norm(between + s[:, None] * one - t[:, None] * others, axis=1)
+    return distances

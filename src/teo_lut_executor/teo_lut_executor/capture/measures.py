@@ -1,0 +1,44 @@
+"""Figures that every captured sign carries."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import joint_limits
+from teo_description.robot import Robot
+
+Array = NDArray[np.float64]
+
+_SAMPLES = 5
+"""Poses from one knot to the next at which the clearance is measured."""
+
+
+def clearance_mm(robot: Robot, joints: tuple[str, ...], knots: Array) -> float:
+    """Smallest distance between parts of TEO over a motion in straight lines between its knots [mm].
+
+    Args:
+        robot: The robot; joints not named are at home.
+        joints: Names of the m joints that move.
+        knots: Positions [rad]. Shape (n, m).
+    """
+    steps = np.linspace(0.0, 1.0, _SAMPLES, endpoint=False)
+    poses = [first + step * (second - first) for first, second in pairwise(knots) for step in steps]
+    distances = [
+        robot.clearance(robot.configuration(dict(zip(joints, pose.tolist(), strict=True)))).distance
+        for pose in (*poses, knots[-1])
+    ]
+    return round(1000.0 * min(distances), 1)
+
+
+def limit_margin_deg(joints: tuple[str, ...], knots: Array) -> float:
+    """Smallest distance of arm, head and trunk joints from their limits [deg].
+
+    Fingers do not count: a straight one is at its limit by nature.
+    """
+    body = [index for index, joint in enumerate(joints) if "Finger" not in joint and "Hand" not in joint]
+    limits = joint_limits(joints)
+    margins = np.minimum(knots - limits.lower, limits.upper - knots)[:, body]
+    return round(float(np.degrees(margins.min())), 1)

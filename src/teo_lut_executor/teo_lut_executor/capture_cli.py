@@ -1,0 +1,91 @@
+"""Commands that fill the look-up table: `capture_letters`, `capture_numbers`, `capture_demonstration`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+from rich.console import Console
+
+from teo_description.robot import Robot
+from teo_lut_executor.lut_error import LutError
+from teo_lut_executor.sign import Sign
+from teo_lut_executor.sign_file import save_sign
+
+Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
+Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
+
+_output = Console(highlight=False)
+_errors = Console(stderr=True, highlight=False)
+
+
+def capture_letters(
+    out: Out,
+    only: Annotated[
+        list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
+    ] = None,
+    replace: Replace = False,
+) -> None:
+    """Capture the manual alphabet from the recordings in the package spoken-to-signed."""
+    from teo_lut_executor.capture.letter_clips import load_letter_clips
+    from teo_lut_executor.capture.letters import capture_letter, read_alphabet
+
+    robot = Robot.load()
+    try:
+        clips = load_letter_clips()
+    except LutError as error:
+        _fail(error)
+    unknown = [letter for letter in only or [] if letter not in clips]
+    if unknown:
+        message = f"expected letters among {', '.join(clips)}; got {', '.join(unknown)}"
+        _fail(LutError("unknown_letter", message))
+    alphabet = read_alphabet(robot, clips)
+    _save((capture_letter(robot, alphabet, letter) for letter in only or clips), out, replace=replace)
+
+
+def capture_numbers(out: Out, replace: Replace = False) -> None:
+    """Write the numbers 0 to 10 from measured handshapes."""
+    from teo_lut_executor.capture.numbers import digit_signs
+
+    _save(digit_signs(Robot.load()), out, replace=replace)
+
+
+def capture_demonstration(out: Out, replace: Replace = False) -> None:
+    """Write HOLA, MI and NOMBRE from the poses of TEO's own public demonstration."""
+    from teo_lut_executor.capture.demonstration import demonstrated_signs
+
+    _save(demonstrated_signs(Robot.load()), out, replace=replace)
+
+
+def letters_main() -> None:
+    """Run `capture_letters`."""
+    typer.run(capture_letters)
+
+
+def numbers_main() -> None:
+    """Run `capture_numbers`."""
+    typer.run(capture_numbers)
+
+
+def demonstration_main() -> None:
+    """Run `capture_demonstration`."""
+    typer.run(capture_demonstration)
+
+
+def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
+    for sign in signs:
+        try:
+            path = save_sign(out, sign, replace=replace)
+        except LutError as error:
+            _fail(error)
+        figures = "  ".join(f"{name} {value:g}" for name, value in sign.quality.items())
+        _output.print(
+            f"{path.name:12} {len(sign.times):2} knots {sign.duration:5.2f} s  {figures}", soft_wrap=True
+        )
+
+
+def _fail(error: LutError) -> NoReturn:
+    _errors.print(f"{error.code}: {error}", soft_wrap=True)
+    raise typer.Exit(1) from error
