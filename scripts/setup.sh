@@ -44,17 +44,21 @@ repair_wheel_exports() {
 }
 
 install_requirements() {
-    local want options=()
-    want="$(cat requirements/*.txt scripts/setup.sh | sha256sum | cut -d' ' -f1) $PWD $("$python" --version) $ros"
+    local made_for want options=()
+    made_for="$PWD $("$python" --version) $ros"
+    want="$made_for $(cat requirements/*.txt scripts/setup.sh | sha256sum | cut -d' ' -f1)"
     [ "$(cat .venv/.ready 2>/dev/null)" = "$want" ] && return
     check_tools
-    [ "$ros" = sourced ] && options=(--system-site-packages)
-    rm -rf .venv build install log
-    "$python" -m venv "${options[@]}" .venv
+    if [ "$(cat .venv/.made-for 2>/dev/null)" != "$made_for" ]; then # paths and versions are all over an environment
+        rm -rf .venv build install log
+        [ "$ros" = sourced ] && options=(--system-site-packages)
+        "$python" -m venv "${options[@]}" .venv
+        echo "$made_for" >.venv/.made-for
+    fi
     options=(-r requirements/build.txt -r requirements/run.txt -r requirements/capture.txt -r requirements/test.txt)
     # A sourced ROS 2 Jazzy is built against NumPy 1; its messages do not load beside NumPy 2.
     if [ "$ros" = sourced ]; then options+=('numpy<2'); else options+=(-r requirements/ros.txt -c requirements/constraints.txt); fi
-    echo "setup: installing Python packages (a few minutes, about 2.5 GB)"
+    echo "setup: installing Python packages (a few minutes and 2.5 GB the first time)"
     .venv/bin/pip install --disable-pip-version-check --quiet "${options[@]}"
     repair_wheel_exports
     echo "$want" >.venv/.ready
