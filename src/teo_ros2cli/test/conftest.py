@@ -21,16 +21,27 @@ PATIENCE = 20.0
 """Longest time that anything may take [s]; far more than it does on an idle machine."""
 
 
-def ros2_path() -> Path:
+def _command() -> Path:
     """Our own command, also where a genuine one is on the path."""
     return package_prefix("teo_ros2cli") / "lib" / "teo_ros2cli" / "ros2"
 
 
-def ros2(*arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
+@pytest.fixture
+def ros2_path() -> Path:
+    """The command's file."""
+    return _command()
+
+
+@pytest.fixture
+def ros2() -> Callable[..., subprocess.CompletedProcess[str]]:
     """Run the command to its end."""
-    return subprocess.run(
-        [ros2_path(), *arguments], capture_output=True, text=True, timeout=PATIENCE, check=False, **options
-    )
+
+    def run(*arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [_command(), *arguments], capture_output=True, text=True, timeout=PATIENCE, check=False, **options
+        )
+
+    return run
 
 
 class Running:
@@ -39,7 +50,7 @@ class Running:
     def __init__(self, *arguments: str, **options: Any) -> None:
         options.setdefault("stdin", subprocess.DEVNULL)
         self.process = subprocess.Popen(
-            [ros2_path(), *arguments],
+            [_command(), *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

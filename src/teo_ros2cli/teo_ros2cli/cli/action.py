@@ -104,7 +104,7 @@ def run_info(options: argparse.Namespace) -> int:
     action = full_name(options.action_name)
     print(f"Action: {action}")
     with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
+        settle(node, options.spin_time, names=True)
         own = node.get_name()
         nodes = [entry for entry in node.get_node_names_and_namespaces() if entry[0] != own]
         for noun, find in (

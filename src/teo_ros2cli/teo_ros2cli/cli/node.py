@@ -37,7 +37,7 @@ def run_list(options: argparse.Namespace) -> int:
     from teo_ros2cli.graph.session import cli_node, settle
 
     with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
+        settle(node, options.spin_time, names=True)
         names = sorted(_full_names(node))
     if not options.all:
         names = [name for name in names if not is_hidden(name)]
@@ -80,7 +80,7 @@ def run_info(options: argparse.Namespace) -> int:
     full = options.node_name if options.node_name.startswith("/") else f"/{options.node_name}"
     namespace, name = (full.rpartition("/")[0] or "/"), full.rpartition("/")[2]
     with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
+        settle(node, options.spin_time, names=True)
         count = _full_names(node).count(full)
         if not count:
             raise Ros2CliError("node_unknown", f"Unable to find node '{options.node_name}'")

@@ -212,7 +212,7 @@ class _Parameters:
         from teo_ros2cli.graph.session import settle
 
         self._node = self._session.__enter__()
-        settle(self._node, self._options.spin_time)
+        settle(self._node, self._options.spin_time, names=True)
         return self
 
     def __exit__(self, *details: Any) -> None:

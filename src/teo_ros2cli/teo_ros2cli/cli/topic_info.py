@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
 
     with cli_node(use_sim_time=options.use_sim_time, rosout=False) as node:
         topic = full_topic_name(node, options.topic_name)
-        settle(node, options.spin_time)
+        settle(node, options.spin_time, names=True)
         types = topic_types(node, topic)
         own = node.get_name()
         publishers = [info for info in node.get_publishers_info_by_topic(topic) if info.node_name != own]

@@ -148,8 +148,7 @@ def _publish(
     times: int,
     options: argparse.Namespace,
 ) -> None:
-    import rclpy
-    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
     count = 0
 
@@ -169,8 +168,10 @@ def _publish(
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     try:
-        while (times == 0 or count < times) and rclpy.ok(context=node.context):
+        while times == 0 or count < times:
             executor.spin_once()
+            if not node.context.ok():
+                raise ExternalShutdownException  # SIGTERM
     finally:
         executor.remove_node(node)
         node.destroy_timer(timer)

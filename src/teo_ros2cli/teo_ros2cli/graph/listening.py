@@ -21,7 +21,7 @@ def listen(
     report_lost: bool = False,
     every: tuple[float, Callable[[], None]] | None = None,
 ) -> None:
-    """Subscribe to topics and pass their messages on.
+    """Subscribe to topics and pass their messages on; a context that is shut down ends it with an exception.
 
     Args:
         node: The node.
@@ -33,9 +33,8 @@ def listen(
         report_lost: Print a note when the middleware tells that a message was lost.
         every: A period [s] and what to do in it.
     """
-    import rclpy
     from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
-    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
     def subscribe(topic: str, message_class: Any, profile: Any, events: Any) -> None:
         node.create_subscription(
@@ -62,11 +61,13 @@ def listen(
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     try:
-        while rclpy.ok(context=node.context) and not until():
+        while not until():
             left = None if deadline is None else deadline - time.monotonic()
             if left is not None and left <= 0:
                 return
             executor.spin_once(timeout_sec=left)
+            if not node.context.ok():
+                raise ExternalShutdownException  # SIGTERM
     finally:
         executor.remove_node(node)
 

@@ -6,8 +6,9 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, NamedTuple
 
+from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.graph.participants import local_participants
 
 NODE_NAME_PREFIX = "_ros2cli"
@@ -23,8 +24,8 @@ _REMOTE_ANSWER = 0.5
 _LOCAL_ANSWER = 0.1
 # Fast DDS announces a participant every 3 s: one that was not heard of by then does not take part.
 _LONGEST = 3.5
-# Once all participants are known, their endpoints and node names follow within this time [s].
-_QUIET = 0.15
+# Once all participants are known, all that belongs to them follows without a longer pause [s].
+_QUIET = 0.1
 _POLL = 0.02
 """Interval of looking at the graph [s]."""
 
@@ -40,24 +41,36 @@ def cli_node(
         use_sim_time: Take the time from `/clock`.
         rosout: Let the node publish its log on `/rosout`.
         own_signals: Leave SIGINT and SIGTERM to the caller instead of ending the context with them.
+
+    Raises:
+        Ros2CliError: `no_rclpy`, or `invalid_name` for the node.
     """
-    import rclpy
-    from rclpy.context import Context
-    from rclpy.parameter import Parameter
-    from rclpy.signals import SignalHandlerOptions
+    try:
+        import rclpy
+        from rclpy.context import Context
+        from rclpy.exceptions import InvalidNodeNameException
+        from rclpy.parameter import Parameter
+        from rclpy.signals import SignalHandlerOptions
+    except ImportError as error:
+        raise Ros2CliError(
+            "no_rclpy", f"ROS 2 cannot be loaded ({error}): source the workspace, or install it, first"
+        ) from error
 
     context = Context()
     # No arguments: the command line is the command's own, not a node's.
     handlers = SignalHandlerOptions.NO if own_signals else SignalHandlerOptions.ALL
     rclpy.init(args=[], context=context, signal_handler_options=handlers)
     try:
-        node = rclpy.create_node(
-            name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
-            context=context,
-            enable_rosout=rosout,
-            start_parameter_services=False,
-            parameter_overrides=[Parameter("use_sim_time", value=True)] if use_sim_time else None,
-        )
+        try:
+            node = rclpy.create_node(
+                name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
+                context=context,
+                enable_rosout=rosout,
+                start_parameter_services=False,
+                parameter_overrides=[Parameter("use_sim_time", value=True)] if use_sim_time else None,
+            )
+        except InvalidNodeNameException as error:
+            raise Ros2CliError("invalid_name", str(error)) from error
         try:
             yield node
         finally:
@@ -66,26 +79,27 @@ def cli_node(
         rclpy.try_shutdown(context=context)
 
 
-def settle(node: Any, spin_time: float | None = None) -> None:
+def settle(node: Any, spin_time: float | None = None, *, names: bool = False) -> None:
     """Wait until the node knows the graph.
 
-    That is: an answering time has passed, every participant of this machine is known, so are the names of
-    their nodes, and nothing has changed for a moment; at most `_LONGEST` or the spin time.
+    That is: an answering time has passed, every participant of this machine is known, and nothing has changed
+    for a moment; at most `_LONGEST` or the spin time.
 
     Args:
         node: The node.
         spin_time: Answering time [s]; by default half a second, less if only this machine takes part.
+        names: Wait for the names of the nodes as well, which come after topics and services.
     """
     started = time.monotonic()
     shortest = spin_time if spin_time is not None else _answering_time()
     longest = max(shortest, _LONGEST)
     changed, last = started, None
     while (now := time.monotonic()) - started < longest:
-        picture = _picture(node)
+        picture = _picture(node, names)
         if picture != last:
             changed, last = now, picture
-        known, complete, _ = picture
-        ready = complete and known >= local_participants(node.context.get_domain_id())
+        ready = UNKNOWN_NODE not in picture.nodes
+        ready = ready and picture.participants >= local_participants(node.context.get_domain_id())
         if ready and now - started >= shortest and now - changed >= min(_QUIET, shortest):
             return
         time.sleep(_POLL)
@@ -97,11 +111,19 @@ def _answering_time() -> float:
     return _REMOTE_ANSWER if outside or peers else _LOCAL_ANSWER
 
 
-def _picture(node: Any) -> tuple[int, bool, tuple[Any, ...]]:
-    """Return the number of known participants, whether all their nodes have names, and all that is known."""
+class _Picture(NamedTuple):
+    participants: int
+    nodes: tuple[str, ...]
+    topics: tuple[tuple[str, ...], ...]
+
+
+def _picture(node: Any, names: bool) -> _Picture:
+    """Return what the node knows of the graph, the names of nodes only on request."""
     announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
-    known = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
+    participants = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
     # Every node publishes parameter events: by these one sees whether a node's name has come.
-    names = [info.node_name for info in node.get_publishers_info_by_topic("/parameter_events")]
+    nodes = (
+        [info.node_name for info in node.get_publishers_info_by_topic("/parameter_events")] if names else []
+    )
     topics = tuple((name, *types) for name, types in node.get_topic_names_and_types())
-    return len(known), UNKNOWN_NODE not in names, (tuple(sorted(names)), topics)
+    return _Picture(len(participants), tuple(sorted(nodes)), topics)

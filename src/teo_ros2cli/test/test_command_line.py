@@ -1,0 +1,279 @@
+"""The command as a process, without a ROS graph."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from teo_ros2cli.cli import options
+from teo_ros2cli.main import COMMANDS
+
+
+@pytest.fixture
+def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A package `tools` with an executable that prints its arguments and one that waits for a signal."""
+    index = tmp_path / "share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "tools").touch()
+    programs = tmp_path / "lib/tools"
+    programs.mkdir(parents=True)
+    texts = {
+        "show": "import json, sys; print(json.dumps(sys.argv[1:])); sys.exit(7)",
+        "sleep": "import signal\ntry:\n print('ready', flush=True)\n signal.pause()\n"
+        "except KeyboardInterrupt:\n print('interrupted', flush=True); raise SystemExit(3)",
+        "broken": None,
+    }
+    for name, text in texts.items():
+        path = programs / name
+        path.write_text("nothing to run" if text is None else f"#!{sys.executable}\n{text}\n")
+        path.chmod(0o755)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"{tmp_path}{os.pathsep}{os.environ['AMENT_PREFIX_PATH']}")
+    return tmp_path
+
+
+@pytest.mark.usefixtures("tools")
+def test_run_passes_arguments_and_the_exit_status_on(ros2: Callable[..., Any]) -> None:
+    words = ["two words", "", "-h", "--help", "--ros-args", "-p", "text:=¿qué tal?", "--", "$HOME", "*"]
+    done = ros2("run", "tools", "show", *words)
+    assert json.loads(done.stdout) == words
+    assert done.returncode == 7
+
+
+@pytest.mark.usefixtures("tools")
+@pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 3), (signal.SIGTERM, -signal.SIGTERM)])
+def test_run_passes_signals_on(start: Callable[..., Any], number: signal.Signals, status: int) -> None:
+    running = start("run", "tools", "sleep")
+    running.wait_for_line("ready")
+    assert running.stop(number) == status
+
+
+@pytest.mark.usefixtures("tools")
+def test_run_takes_a_prefix(ros2: Callable[..., Any]) -> None:
+    done = ros2("run", "--prefix", "env SHOWN='a b'", "tools", "show", "x")
+    assert json.loads(done.stdout) == ["x"]
+    assert ros2("run", "--prefix", "no-such-command -x", "tools", "show").stderr.startswith("Prefix command")
+
+
+@pytest.mark.usefixtures("tools")
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["nothing", "show"], "Package 'nothing' not found\n"),
+        (["tools", "nothing"], "No executable found\n"),
+        (["tools", "broken"], "cannot be started"),
+    ],
+)
+def test_run_says_what_is_missing(ros2: Callable[..., Any], words: list[str], sentence: str) -> None:
+    done = ros2("run", *words)
+    assert sentence in done.stderr
+    assert (done.returncode, done.stdout) == (1, "")
+
+
+def test_executables_are_listed(tools: Path, ros2: Callable[..., Any]) -> None:
+    assert ros2("pkg", "executables", "tools").stdout == "tools broken\ntools show\ntools sleep\n"
+    assert ros2("pkg", "executables", "tools", "--full-path").stdout.splitlines()[1] == str(
+        tools / "lib/tools/show"
+    )
+    assert "teo_ros2cli ros2\n" in ros2("pkg", "executables").stdout
+    assert ros2("pkg", "executables", "nothing").stderr == "Package 'nothing' not found\n"
+    assert ros2("pkg", "prefix", "tools").stdout == f"{tools}\n"
+    assert ros2("pkg", "prefix", "--share", "tools").stdout == f"{tools}/share/tools\n"
+    assert {"tools", "std_msgs", "teo_ros2cli"} <= set(ros2("pkg", "list").stdout.splitlines())
+    assert ros2("pkg", "xml", "-t", "name", "teo_ros2cli").stdout == "teo_ros2cli\n"
+
+
+def test_help_is_everywhere(ros2: Callable[..., Any]) -> None:
+    assert all(f"  {name}" in ros2("-h").stdout for name in COMMANDS)
+    # One process for all: each costs a tenth of a second.
+    script = (
+        "import sys, contextlib, importlib; from teo_ros2cli.main import COMMANDS, main\n"
+        "for name, entry in COMMANDS.items():\n"
+        "  verbs = getattr(importlib.import_module(entry.module), 'VERBS', {'': None})\n"
+        "  for verb in verbs:\n"
+        "    with contextlib.suppress(SystemExit):\n"
+        "      main([name, *filter(None, [verb]), '--help'])\n"
+        "assert 'rclpy' not in sys.modules\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=True
+    )
+    assert done.stdout.count("usage: ros2") > 30
+
+
+@pytest.mark.parametrize(
+    ("words", "choices"), [(["fly"], "'topic'"), (["topic", "fly"], "'echo'"), (["bag", "fly"], "'record'")]
+)
+def test_an_unknown_word_is_refused_with_the_choices(
+    ros2: Callable[..., Any], words: list[str], choices: str
+) -> None:
+    done = ros2(*words)
+    assert done.returncode == 2
+    assert "invalid choice: 'fly' (choose from " in done.stderr
+    assert choices in done.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["topic", "pub", "/t"],
+        ["topic", "pub", "-r", "0", "/t", "std_msgs/String"],
+        ["topic", "pub", "-r", "nan", "/t", "std_msgs/String"],
+        ["topic", "echo", "--truncate-length", "-1", "/t"],
+        ["topic", "hz", "-w", "0", "/t"],
+        ["bag", "record", "--custom-data", "nothing"],
+        ["bag", "play", "x", "-r", "-1"],
+    ],
+)
+def test_impossible_options_are_refused_with_the_usage(ros2: Callable[..., Any], words: list[str]) -> None:
+    done = ros2(*words)
+    assert done.returncode == 2
+    assert done.stderr.startswith("usage: ros2 ")
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["/t", "std_msgs/msg/Nothing"], "'std_msgs/msg/Nothing' is invalid"),
+        (
+            ["/t", "std_msgs/msg/String", "{data: [1]}"],
+            "Failed to populate field: field 'data' takes a string",
+        ),
+        (["/t", "std_msgs/msg/String", "data"], "needs to be a dictionary"),
+        (["/t", "std_msgs/msg/String", "{data: "], "not valid YAML"),
+        (["-1", "-t", "3", "/t", "std_msgs/msg/String"], "Cannot pass both"),
+    ],
+)
+def test_a_message_that_cannot_be_is_refused_before_joining_the_graph(
+    ros2: Callable[..., Any], words: list[str], sentence: str
+) -> None:
+    done = ros2("topic", "pub", *words)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert sentence in done.stderr
+
+
+def test_interfaces_are_shown(ros2: Callable[..., Any]) -> None:
+    assert (
+        "\nbuiltin_interfaces/Time stamp\n\tint32 sec\n\tuint32 nanosec\n"
+        in ros2("interface", "show", "std_msgs/msg/Header").stdout
+    )
+    assert (
+        ros2("interface", "show", "--no-comments", "std_srvs/Trigger").stdout
+        == "---\nbool success\nstring message\n"
+    )
+    listing = ros2("interface", "list", "-m").stdout
+    assert listing.startswith("Messages:\n    ")
+    assert "\n    std_msgs/msg/String\n" in listing
+    assert ros2("interface", "proto", "std_msgs/msg/Int8").stdout == '"data: 0\n"\n'
+    assert "std_srvs/srv/Trigger" in ros2("interface", "package", "std_srvs").stdout
+    assert ros2("interface", "show", "std_msgs/msg/Nothing").returncode == 1
+
+
+def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) -> None:
+    from teo_ros2cli.bags.metadata import TopicRecord
+    from teo_ros2cli.bags.writer import BagWriter
+    from teo_ros2cli.definitions.schema_text import schema_of
+
+    for name, count in (("good", 3000), ("empty", 0)):
+        writer = BagWriter(tmp_path / name)
+        writer.add_topic(TopicRecord("/t", "std_msgs/msg/UInt8"), schema_of("std_msgs/msg/UInt8"))
+        for i in range(count):
+            writer.write("/t", 10**18 + i, 10**18 + i, b"\0\1\0\0" + bytes([i % 256]))
+            if i % 100 == 99:
+                writer.flush()
+        writer.close()
+    good = ros2("bag", "info", str(tmp_path / "good"))
+    assert (good.returncode, good.stderr) == (0, "")
+    assert "Messages:          3000\n" in good.stdout
+    assert ros2("bag", "info", "-t", str(tmp_path / "good" / "good_0.mcap")).stdout == "/t\n"
+
+    empty = ros2("bag", "info", str(tmp_path / "empty"))
+    assert empty.returncode == 0
+    assert "holds no messages" in empty.stderr
+
+    path = tmp_path / "good" / "good_0.mcap"
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    cut = ros2("bag", "info", str(tmp_path / "good"))
+    assert cut.returncode == 0
+    assert "is truncated or damaged" in cut.stderr
+    assert " messages can be read" in cut.stderr
+    count = next(int(line.split()[1]) for line in cut.stdout.splitlines() if line.startswith("Messages:"))
+    assert 1000 <= count < 3000
+
+    path.write_bytes(b"")
+    for bad in (tmp_path / "good", path, tmp_path / "nowhere"):
+        done = ros2("bag", "info", str(bad))
+        assert done.returncode == 1
+        assert done.stderr.startswith("[ERROR] [ros2bag]: ")
+        assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ([], "Need to specify at least one option"),
+        (["-e", "("], "not a regular expression"),
+        (["-a", "-o", "."], "already exists"),
+        (["-a", "--qos-profile-overrides-path", "nowhere"], "cannot be read"),
+    ],
+)
+def test_a_recording_that_cannot_be_is_refused(
+    ros2: Callable[..., Any], tmp_path: Path, words: list[str], sentence: str
+) -> None:
+    done = ros2("bag", "record", *words, cwd=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr.startswith("[ERROR] [ros2bag]: ")
+    assert sentence in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_reader_that_leaves_is_no_error(ros2_path: Path) -> None:
+    done = subprocess.run(
+        f"'{ros2_path}' interface list | head -1; echo ${{PIPESTATUS[0]}}",
+        shell=True,
+        executable="bash",
+        capture_output=True,
+        text=True,
+        timeout=30,
+        check=True,
+    )
+    assert done.stdout.splitlines()[0] == "Messages:"
+    assert done.stdout.splitlines()[1] in ("0", "141")
+    assert done.stderr == ""
+
+
+def test_the_choices_of_quality_are_those_of_rclpy() -> None:
+    from rclpy.qos import (
+        DurabilityPolicy,
+        HistoryPolicy,
+        LivelinessPolicy,
+        QoSPresetProfiles,
+        ReliabilityPolicy,
+    )
+
+    assert set(options.QOS_PRESETS) == set(QoSPresetProfiles.short_keys())
+    for choices, policy in (
+        (options.QOS_HISTORIES, HistoryPolicy),
+        (options.QOS_RELIABILITIES, ReliabilityPolicy),
+        (options.QOS_DURABILITIES, DurabilityPolicy),
+        (options.QOS_LIVELINESSES, LivelinessPolicy),
+    ):
+        assert set(choices) == set(policy.short_keys())
+
+
+def test_commands_that_need_no_graph_start_fast(ros2: Callable[..., Any]) -> None:
+    def once() -> float:
+        started = time.perf_counter()
+        ros2("pkg", "executables", "teo_ros2cli")
+        return time.perf_counter() - started
+
+    # 0.1 s on an idle machine; the best of a few, because others may use it.
+    assert min(once() for _ in range(5)) < 0.5
