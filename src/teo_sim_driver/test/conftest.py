@@ -11,7 +11,6 @@ from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.plain_message import PlainTrajectory, plain_trajectory
 
 PERIOD = 0.01  # [s]
-RATE_NS = 10_000_000  # [ns]
 START = 1_700_000_000_000_000_000  # a time of day as ROS counts it [ns]
 
 
