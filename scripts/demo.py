@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import rclpy
 import typer
 from film import FRAMES_PER_SECOND, LiveFilm
@@ -202,8 +203,12 @@ def draw_strip(spectator: Spectator, path: Path) -> None:
             captions.append(timing.token.gloss or "(pause)")
     frames.append(spectator.states[-1][1])
     captions.append("(rest)")
-    camera = CAMERAS["front"].sized(400, 400)
-    save_png(path, film_strip([render_pose(frame, camera) for frame in frames], captions, columns=6))
+    pictures = [
+        # The body tells where a sign is made, the hand which one it is.
+        np.hstack([render_pose(frame, CAMERAS[camera].sized(330, 400)) for camera in ("front", "hand")])
+        for frame in frames
+    ]
+    save_png(path, film_strip(pictures, captions, columns=4))
 
 
 def table(progress: Progress) -> Table:
