@@ -1,0 +1,141 @@
+"""What the driver costs and how regular it is: one step, one trajectory's check, and the node over DDS."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import rclpy
+from numpy.typing import NDArray
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from report import Figure, percentiles
+from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from teo_description import COMMANDED_JOINTS, HOME, joint_limits
+from teo_sim_driver.joint_follower import Activity, JointFollower
+from teo_sim_driver.plain_message import SECOND, PlainTrajectory, plain_trajectory
+
+PERIOD = 0.01  # [s]
+WATCHED = 20.0  # [s] of the node in motion
+_TIMEOUT = 30.0  # [s] for the node to start
+_LONG, _SHORT = 60.0, 30.0  # trajectories [s], points 100 times a second
+_NODE = "from teo_sim_driver.driver_node import main; main()"
+
+
+def measure() -> list[Figure]:
+    """Figures of the follower alone, then of the node in a process of its own."""
+    return [*_follower(), *_node()]
+
+
+def _wave(duration: float) -> PlainTrajectory:
+    """All joints away from home and back, again and again, at up to 40 % of their greatest speed."""
+    limits = joint_limits()
+    home = np.array([HOME[name] for name in COMMANDED_JOINTS])
+    reach = np.where(home + 0.1 <= limits.upper, 0.1, -0.1)
+    times = np.arange(1, round(duration / PERIOD) + 1) * PERIOD
+    # Rises gently, so that the first point asks for no jump.
+    rise = np.clip(times / 2.0, 0.0, 1.0)
+    angle = 2.0 * np.pi * times / 2.0
+    shape = rise**3 * (1.0 - np.cos(angle)) / 2.0
+    speed = np.gradient(shape, times)
+    speed[-1] = 0.0
+    positions = home + shape[:, None] * reach
+    return plain_trajectory(COMMANDED_JOINTS, times, positions, speed[:, None] * reach)
+
+
+def _follower() -> list[Figure]:
+    home = np.array([HOME[name] for name in COMMANDED_JOINTS])
+    long = _wave(_LONG)
+    checks: list[float] = []
+    for _ in range(10):
+        follower = JointFollower(limits=joint_limits(), start=home, period=PERIOD)
+        follower.step(0)
+        begin = time.perf_counter()
+        follower.accept(long, 0)
+        checks.append(time.perf_counter() - begin)
+    steps: list[float] = []
+    now = 0
+    while follower.report().activity is Activity.FOLLOWING:
+        now += round(PERIOD * SECOND)
+        begin = time.perf_counter()
+        follower.step(now)
+        steps.append(time.perf_counter() - begin)
+    return [
+        percentiles("one step of 28 joints in motion", steps),
+        percentiles(f"check and accept a trajectory of {len(long.points)} points", checks),
+    ]
+
+
+def _node() -> list[Figure]:
+    os.environ.setdefault("ROS_DOMAIN_ID", "19")
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    rclpy.init()
+    node = Node("bench")
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    heard: list[JointState] = []
+    node.create_subscription(JointState, "joint_states", heard.append, 100)
+    commands = node.create_publisher(JointTrajectory, "joint_trajectory", 10)
+
+    def wait(condition: Callable[[], bool], seconds: float) -> bool:
+        deadline = time.monotonic() + seconds
+        while not condition() and time.monotonic() < deadline:
+            executor.spin_once(timeout_sec=0.1)
+        return condition()
+
+    driver = subprocess.Popen([sys.executable, "-c", _NODE], stderr=subprocess.DEVNULL)
+    try:
+        if not wait(lambda: bool(heard) and commands.get_subscription_count() > 0, _TIMEOUT):
+            raise TimeoutError(f"no joint states within {_TIMEOUT} s")
+        commands.publish(_message(_wave(_SHORT)))
+        if not wait(lambda: any(heard[-1].velocity), _TIMEOUT):
+            raise TimeoutError(f"the driver did not move within {_TIMEOUT} s")
+        heard.clear()
+        begin, used = time.monotonic(), _cpu_seconds(driver.pid)
+        wait(lambda: False, WATCHED)
+        share = (_cpu_seconds(driver.pid) - used) / (time.monotonic() - begin)
+    finally:
+        driver.send_signal(signal.SIGINT)
+        driver.wait()
+        node.destroy_node()
+        rclpy.shutdown()
+    stamps = np.array([state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard])
+    gaps: NDArray[np.float64] = np.diff(stamps)
+    low, high = np.percentile(gaps, [1, 99]) * 1e3
+    return [
+        Figure("driver in motion, of one core", f"{share * 100.0:.1f} %"),
+        Figure("joint states", f"{len(gaps) / (stamps[-1] - stamps[0]):.2f} Hz"),
+        Figure(
+            f"time between joint states ({len(gaps)} times)",
+            f"p1 {low:.2f} ms, p99 {high:.2f} ms, longest {gaps.max() * 1e3:.1f} ms",
+        ),
+    ]
+
+
+def _message(plain: PlainTrajectory) -> JointTrajectory:
+    message = JointTrajectory(joint_names=list(plain.joint_names))
+    for point in plain.points:
+        ros = JointTrajectoryPoint(positions=list(point.positions), velocities=list(point.velocities))
+        ros.time_from_start.sec = point.time_from_start.sec
+        ros.time_from_start.nanosec = point.time_from_start.nanosec
+        message.points.append(ros)
+    return message
+
+
+def _cpu_seconds(pid: int) -> float:
+    """Processor time that a process has used [s], user and system."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+if __name__ == "__main__":
+    for figure in measure():
+        print(f"{figure.what}: {figure.value}")
