@@ -38,6 +38,15 @@ class Route:
                 return index
         return None
 
+    def name_at(self, station: int) -> str:
+        """What the robot does at a station, for people."""
+        if station == 0:
+            return "the start"
+        for span in self.spans:
+            if span.first <= station <= span.last:
+                return f"the sign {span.token.gloss!r}" if span.token.gloss else "a pause"
+        return "rest" if station == len(self.targets) - 1 else "a posture between two signs"
+
 
 # How far the upper arms are lifted sideways and the forearms forward, half way, to pass the body [rad].
 _SIDEWAYS = {"SagittalLeftShoulder": 1.0, "SagittalRightShoulder": -1.0}

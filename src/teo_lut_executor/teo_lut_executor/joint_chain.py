@@ -16,6 +16,10 @@ Array = NDArray[np.float64]
 # share of the limits of velocity and acceleration, or its duration, as a share of it.
 _CHANGE = 1e-3
 
+# A joint may leave the interval between two knots by this much where it turns [rad]: about 1 deg, 3 mm at the
+# hand of a bent arm. Where it would go further, the knots are passed more slowly.
+OVERSHOOT = 0.02
+
 # A knot this near to a limit is on it [rad]: entries of the look-up table keep six decimals.
 _ON_LIMIT = 1e-6
 
@@ -58,7 +62,7 @@ class JointChain:
         """Find how the joints pass their stations, if these are reached at the given times [s]."""
         when = times[self.stations]
         self._durations = np.diff(when)
-        velocities, accelerations = knot_states(when, self.positions, self._brake)
+        velocities, accelerations = knot_states(when, self.positions, self._brake, swing=OVERSHOOT)
         velocities[0], accelerations[0] = self._start.velocity, self._start.acceleration
         top = self.bounds.velocity
         velocities = np.clip(velocities, -top, top)
@@ -85,6 +89,10 @@ class JointChain:
         """Pass both ends of a move more slowly, by a factor."""
         self._brake[index, joints] *= factor
         self._brake[index + 1, joints] *= factor
+
+    def is_single(self, index: int) -> bool:
+        """Whether a move passes no station of other joints."""
+        return bool(self.stations[index + 1] - self.stations[index] == 1)
 
     def is_rest_to_rest(self, index: int) -> bool:
         """Whether a move begins and ends at a standstill."""
@@ -114,14 +122,14 @@ class JointChain:
             bounds = gentle_bounds(begin, end, self.duration(index), bounds, ease=ease)
         return self._mover.move(begin, end, bounds, duration=self.duration(index))
 
-    def beyond(self, index: int, move: Move, margin: float) -> NDArray[np.bool_]:
-        """Which joints leave the interval between two stations by more than a margin [rad]. Shape (m,).
+    def beyond(self, index: int, move: Move) -> NDArray[np.bool_]:
+        """Which joints leave the interval between two stations by more than `OVERSHOOT`. Shape (m,).
 
         A joint that leaves its limits is always among them.
         """
         ends = self.positions[index : index + 2]
-        lowest = np.maximum(ends.min(axis=0) - margin, self.bounds.lower - ROUNDING)
-        highest = np.minimum(ends.max(axis=0) + margin, self.bounds.upper + ROUNDING)
+        lowest = np.maximum(ends.min(axis=0) - OVERSHOOT, self.bounds.lower - ROUNDING)
+        highest = np.minimum(ends.max(axis=0) + OVERSHOOT, self.bounds.upper + ROUNDING)
         least, greatest = move.pieces.range()
         beyond: NDArray[np.bool_] = (least < lowest) | (greatest > highest)
         if index == 0:

@@ -15,18 +15,22 @@ _MONOTONE = 3.0
 # or after the knot, as hands do, instead of stopping dead in it.
 _TURNING = 1.0
 
+# A cubic between two equal knots that begins with velocity v swings out by at most v h / 4 with the step h.
+_SWING = 4.0
 
-def knot_states(times: Array, positions: Array, brake: Array) -> tuple[Array, Array]:
-    """How joints pass their knots: as a smooth spline does that does not leave their interval.
+
+def knot_states(times: Array, positions: Array, brake: Array, *, swing: float) -> tuple[Array, Array]:
+    """How joints pass their knots: as a smooth spline does that hardly leaves their interval.
 
     Velocities are those of the cubic spline with continuous acceleration, which follows densely recorded
-    motion with the least jerk; where that spline would swing out between two knots, its velocity is limited
-    there, and a joint that stands still before or after a knot has none.
+    motion with the least jerk; where that spline would swing out far between two knots, its velocity is
+    limited there, and a joint that stands still before or after a knot has none.
 
     Args:
         times: Times of the knots [s], strictly increasing. Shape (n,), n >= 2.
         positions: Positions [rad]. Shape (n, m).
         brake: Factor on the velocity of each knot, 0 to 1. Shape (n, m).
+        swing: How far a joint may leave the interval between two knots [rad].
 
     Returns:
         Velocities [rad/s] and accelerations [rad/s^2]; zero at the first and last knot. Shape (n, m) each.
@@ -37,6 +41,9 @@ def knot_states(times: Array, positions: Array, brake: Array) -> tuple[Array, Ar
     before, after = chords[:-1], chords[1:]
     slower = np.minimum(np.abs(before), np.abs(after))
     bound[1:-1] = np.where(before * after > 0.0, _MONOTONE, _TURNING) * slower
+    # Among dense knots the spline is to be trusted: it cannot swing out far.
+    bound[1:-1] = np.maximum(bound[1:-1], _SWING * swing / np.maximum(steps[:-1], steps[1:]))
+    bound[1:-1] *= (before != 0.0) & (after != 0.0)
     bound *= brake
 
     fixed = bound == 0.0

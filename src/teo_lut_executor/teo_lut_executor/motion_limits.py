@@ -12,15 +12,16 @@ from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.state_to_state import Bounds
 
-# A joint is at 50 deg/s, its greatest velocity, after 0.27 s and 6.7 deg. TEO's drives default to 10 deg/s^2,
+# A joint is at 50 deg/s, its greatest velocity, after 0.19 s and 4.8 deg. TEO's drives default to 10 deg/s^2,
 # with which 10 deg take 2 s: no sign would be known again; TEO's own gestures were played at 25 deg/s^2 and
-# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 9 N m (2.4
-# at the elbow, 0.6 at the wrist) beside the at most 27 N m with which it carries the arm.
-DEFAULT_ACCELERATION = math.radians(300.0)  # [rad/s^2]
+# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 12 N m (3.2
+# at the elbow, 0.8 at the wrist) beside the at most 27 N m with which it carries the arm. Signers reach
+# several times as much, but letters that shake gain little from more: they are short of velocity.
+DEFAULT_ACCELERATION = math.radians(400.0)  # [rad/s^2]
 
-# The acceleration builds up in 0.1 s, five of the 0.02 s at which TEO's drives are sent set-points, so that
-# it reaches them as a ramp and not as a step.
-DEFAULT_JERK = math.radians(3000.0)  # [rad/s^3]
+# The acceleration builds up in 0.07 s, more than three of the 0.02 s at which TEO's drives are sent
+# set-points, so that it reaches them as a ramp and not as a step.
+DEFAULT_JERK = math.radians(6000.0)  # [rad/s^3]
 
 # The driver interpolates between the points of a trajectory with the quintic that meets position, velocity
 # and acceleration at both. Where the plan's jerk changes in between, the two differ, by at most these numbers

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -166,19 +165,19 @@ class Planner:
             route, plan, times = self._avoid(route, plan, times, start)
         if self._is_clear(plan):
             return plan
-        raise self._collision(plan, route, _step(plan, times))
+        raise self._collision(plan, route, times)
 
     def _avoid(self, route: Route, plan: Plan, times: Array, start: State) -> tuple[Route, Plan, Array]:
         """Lead the transition with the worst collision around the body."""
         step = _step(plan, times)
-        if route.token_at(step) is None:
+        if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
             posture = plan.at(float(times[step] + times[step + 1]) / 2.0)[0]
             for change in DETOURS:
                 other = with_detour(route, step, posture=posture, change=change, limits=self.limits)
                 other_plan, other_times = self._solve(other, start)
                 if self._is_clear(other_plan) or _step(other_plan, other_times) not in (step, step + 1):
                     return other, other_plan, other_times
-        raise self._collision(plan, route, step)
+        raise self._collision(plan, route, times)
 
     def _solve(self, route: Route, start: State) -> tuple[Plan, Array]:
         timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
@@ -237,27 +236,35 @@ class Planner:
 
     def _sample(self, motions: tuple[JointMotion, ...], times: Array) -> Samples:
         found = sample_at(motions, sample_times(times, self._period))
-        # No further than the rounding that `_check` allows.
+        # No further than the rounding that `_check` allows; controllers want the end at rest to the digit.
         positions = np.clip(found.positions, self.limits.lower, self.limits.upper)
-        positions.setflags(write=False)
-        return dataclasses.replace(found, positions=positions)
+        velocities, accelerations = found.velocities.copy(), found.accelerations.copy()
+        positions[-1], velocities[-1], accelerations[-1] = REST, 0.0, 0.0
+        for array in (positions, velocities, accelerations):
+            array.setflags(write=False)
+        return Samples(
+            times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
+        )
 
     def _is_clear(self, plan: Plan) -> bool:
         return plan.nearest is None or plan.nearest.distance >= self._least_clearance
 
-    def _collision(self, plan: Plan, route: Route, step: int) -> PlanError:
-        near = plan.nearest
+    def _is_clear_at(self, plan: Plan, times: Array) -> bool:
+        assert self._collision_model is not None
+        found = self._collision_model.nearest(sample_at(plan.motions, times))
+        return found.distance >= self._least_clearance
+
+    def _collision(self, plan: Plan, route: Route, times: Array) -> PlanError:
+        """What touches, and where: in a sign if one of its postures does, else on the way between two."""
+        near, step = plan.nearest, _step(plan, times)
         assert near is not None
-        token = route.token_at(step)
-        if token is None:
-            before = max((i for i, span in enumerate(route.spans) if span.last <= step), default=None)
-            names = ["rest" if before is None else route.spans[before].token.gloss or "a pause"]
-            following = 0 if before is None else before + 1
-            at_end = following >= len(route.spans)
-            names.append("rest" if at_end else route.spans[following].token.gloss or "a pause")
-            where = f"on the way from {names[0]} to {names[1]}"
+        guilty = next(
+            (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
+        )
+        if guilty is None:
+            where = f"on the way from {route.name_at(step)} to {route.name_at(step + 1)}"
         else:
-            where = f"in the sign {route.spans[token].token.gloss!r}"
+            where = f"in {route.name_at(guilty)}"
         return PlanError(
             "self_collision",
             f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "

@@ -22,10 +22,6 @@ Array = NDArray[np.float64]
 # No two stations are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
 _LEAST_STEP = 1e-3
 
-# A joint may leave the interval between two knots by this much where it turns [rad]: about 1 deg, 3 mm at the
-# hand of a bent arm. Where it would go further, the knots are passed more slowly.
-_OVERSHOOT = 0.02
-
 # A move fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
 _FITS = 1e-9
 
@@ -65,12 +61,15 @@ class StationTiming:
         self._strokes = strokes
         self._chains = joint_chains(targets, start, bounds)
         self._wanted = np.zeros(len(nominal))  # logarithm of the factor for each step
-        for chain in self._chains:
-            ways = np.abs(np.diff(chain.positions, axis=0)) / chain.bounds.velocity
-            for index, needed in enumerate(ways.max(axis=1)):
-                self._want(chain, index, float(needed))
-        self._durations *= np.exp(self._wanted)
-        self._wanted[:] = 0.0
+        # Moves from a station to the next first: a move that passes stations may find time enough then.
+        for single in (True, False):
+            for chain in self._chains:
+                ways = np.abs(np.diff(chain.positions, axis=0)) / chain.bounds.velocity
+                for index, needed in enumerate(ways.max(axis=1).tolist()):
+                    if chain.is_single(index) == single:
+                        self._want(chain, index, needed)
+            self._durations *= np.exp(self._wanted)
+            self._wanted[:] = 0.0
 
     @property
     def times(self) -> Array:
@@ -90,8 +89,13 @@ class StationTiming:
             changed = False
             for chain in self._chains:
                 chain.pass_at(times)
-                for index in chain.to_try(exact=exact):
-                    changed |= self._try(chain, index, patient=patient)
+            for single in (True, False):
+                for chain in self._chains:
+                    for index in chain.to_try(exact=exact):
+                        if chain.is_single(index) == single:
+                            changed |= self._try(chain, index, patient=patient)
+                if self._wanted.any():
+                    break  # see what that gives the moves that pass stations
             changed |= self._stretch()
             if exact and not changed:
                 return
@@ -153,7 +157,7 @@ class StationTiming:
             if not patient:
                 chain.slow(index, slice(None), slower)
             return True
-        beyond = chain.beyond(index, move, _OVERSHOOT)
+        beyond = chain.beyond(index, move)
         if beyond.any():
             chain.slow(index, beyond, slower)
             return True
@@ -167,7 +171,7 @@ class StationTiming:
             if (
                 move is not None
                 and move.duration <= chain.duration(index) + _FITS
-                and not chain.beyond(index, move, _OVERSHOOT).any()
+                and not chain.beyond(index, move).any()
             ):
                 return move
         raise PlanError("no_timing", "expected a move that was found before, got none")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import enum
-import math
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,6 +10,9 @@ from dataclasses import dataclass
 from teo_lut_executor.plan_error import PlanError
 
 PRINTED_PAUSE = "_"  # as a space inside a gloss is written: the hands stay still
+
+SCALES = (0.001, 100.0)
+"""Least and greatest duration scale: beyond, a sign of half a second takes no time or a minute."""
 
 # Letters of the Spanish manual alphabet are one or two characters long (CH, LL, RR).
 _LONGEST_LETTER = 2
@@ -64,8 +66,11 @@ def check_tokens(tokens: Sequence[Token]) -> None:
         if token.kind not in tuple(Kind):
             names = ", ".join(f"{kind.value} {kind.name.lower()}" for kind in Kind)
             raise PlanError("bad_kind", f"{where}: expected a kind of {names}, got {token.kind}")
-        if not (math.isfinite(token.duration_scale) and token.duration_scale > 0.0):
-            message = f"{where}: expected a duration scale above 0, got {token.duration_scale}"
+        least, most = SCALES
+        if not least <= token.duration_scale <= most:
+            message = (
+                f"{where}: expected a duration scale of {least:g} to {most:g}, got {token.duration_scale}"
+            )
             raise PlanError("bad_scale", message)
         if not token.gloss.strip() and token.kind != Kind.PAUSE:
             raise PlanError("bad_gloss", f"{where}: expected the name of a sign, got an empty one")
