@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 _DEFAULT_CLOCK = 40.0
 """Rate of `/clock` if none is given [1/s]."""
 _RATE_STEP = 1.1
-_ACKNOWLEDGEMENT = 2.0
+_ACKNOWLEDGEMENT = 1.0
 """Time that reliable subscriptions get to receive the last messages before the publishers leave [s]."""
 
 
@@ -111,7 +111,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=non_negative_float,
         metavar="TIMEOUT",
         help="Wait at the end until all published messages are acknowledged, for so many milliseconds; 0 for "
-        "ever. Default: 2000.",
+        "ever. Default: 1000.",
     )
     parser.add_argument(
         "--disable-keyboard-controls", action="store_true", help="Disables keyboard controls for playback"

@@ -35,16 +35,15 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`.
     """
-    from rclpy.qos import qos_profile_sensor_data
-
-    from teo_ros2cli.graph.listening import listen
+    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.listening import ANYTHING, listen
     from teo_ros2cli.graph.session import cli_node, settle
     from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
     from teo_ros2cli.messages.classes import message_class
 
     arrivals: deque[tuple[float, int]] = deque(maxlen=options.window_size)
 
-    def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
+    def receive(message: Any, _info: dict[str, Any]) -> None:
         arrivals.append((time.monotonic(), len(message)))
 
     def report() -> None:
@@ -57,7 +56,8 @@ def run(options: argparse.Namespace) -> int:
         settle(node, options.spin_time)
         cls = message_class(wait_for_type(node, topic, "measure"))
         print(f"Subscribed to [{topic}]")
-        listen(node, {topic: (cls, qos_profile_sensor_data)}, receive, raw=True, every=(_REPORT, report))
+        subscription = AdaptiveSubscription(node, topic, cls, receive, fixed=ANYTHING, raw=True, warn=print)
+        listen(node, [subscription], every=(_REPORT, report))
     return 0
 
 

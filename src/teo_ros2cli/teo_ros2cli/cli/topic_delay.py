@@ -36,9 +36,8 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `no_header`, `invalid_topic`, `invalid_type`, `ambiguous_type`.
     """
-    from rclpy.qos import qos_profile_sensor_data
-
-    from teo_ros2cli.graph.listening import listen
+    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.listening import ANYTHING, listen
     from teo_ros2cli.graph.session import cli_node, settle
     from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
     from teo_ros2cli.messages.classes import message_class
@@ -51,7 +50,7 @@ def run(options: argparse.Namespace) -> int:
         if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
             raise Ros2CliError("no_header", f"Messages of topic '{topic}' have no header, and so no stamp")
 
-        def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
+        def receive(message: Any, _info: dict[str, Any]) -> None:
             stamp = message.header.stamp
             delays.append((node.get_clock().now().nanoseconds - stamp.sec * 10**9 - stamp.nanosec) * 1e-9)
 
@@ -59,7 +58,8 @@ def run(options: argparse.Namespace) -> int:
             if delays:
                 print(delay_text(list(delays)))
 
-        listen(node, {topic: (cls, qos_profile_sensor_data)}, receive, every=(_REPORT, report))
+        subscription = AdaptiveSubscription(node, topic, cls, receive, fixed=ANYTHING, warn=print)
+        listen(node, [subscription], every=(_REPORT, report))
     return 0
 
 

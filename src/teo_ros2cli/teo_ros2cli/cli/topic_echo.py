@@ -87,9 +87,11 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_type`, `invalid_field`, `invalid_topic`, `invalid_filter`, `type_unknown`,
             `ambiguous_type`.
     """
+    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
     from teo_ros2cli.graph.listening import listen
+    from teo_ros2cli.graph.qos import from_options, to_record
     from teo_ros2cli.graph.session import cli_node, settle
-    from teo_ros2cli.graph.topics import full_topic_name, matching_qos, only_type
+    from teo_ros2cli.graph.topics import full_topic_name, only_type
     from teo_ros2cli.messages.classes import message_class
 
     given = message_class(options.message_type) if options.message_type else None
@@ -97,23 +99,24 @@ def run(options: argparse.Namespace) -> int:
     deadline = time.monotonic() + options.timeout if options.timeout is not None else None
     with cli_node(use_sim_time=options.use_sim_time) as node:
         topic = full_topic_name(node, options.topic_name)
-        settle(node, options.spin_time)
         if given is None:
+            settle(node, options.spin_time)
             name = only_type(node, topic, "echo")
             if name is None:
                 print(f"WARNING: topic [{options.topic_name}] does not appear to be published yet")
                 raise Ros2CliError("type_unknown", "Could not determine the type for the passed topic")
             given = message_class(name)
-        profile = matching_qos(node, topic, options)
-        listen(
+        subscription = AdaptiveSubscription(
             node,
-            {topic: (given, profile)},
-            lambda _topic, message, info: show(message, info),
+            topic,
+            given,
+            show,
+            fixed=to_record(from_options(options)) if options.qos_given else None,
             raw=options.raw,
-            until=lambda: options.once and show.shown > 0,
-            deadline=deadline,
-            report_lost=not options.no_lost_messages,
+            warn=lambda sentence: print(sentence, file=sys.stderr),
+            lost=None if options.no_lost_messages else show.tell_lost,
         )
+        listen(node, [subscription], until=lambda: options.once and show.shown > 0, deadline=deadline)
     if options.once and not show.shown:
         print(f"No message came within {options.timeout} s", file=sys.stderr)
     return 0
@@ -130,13 +133,14 @@ class _Printer:
             no_strings=options.no_str,
         )
         self._passes = message_filter(options.filter_expression)
+        self._lost = 0
         self.shown = 0
 
     def __call__(self, message: Any, info: dict[str, Any]) -> None:
         part = message
         if self._options.field is not None and not self._options.raw:
             part = select(message, self._options.field)
-        if not self._passes(part):
+        if not self._passes(part) or (self._options.once and self.shown):
             return
         self.shown += 1
         if hasattr(part, "get_fields_and_field_types"):
@@ -145,6 +149,13 @@ class _Printer:
             if self._options.include_message_info:
                 print(f"---Got new message, message info:---\n{info}\n---Message data:---")
             print(part, end="\n---\n")
+
+    def tell_lost(self, count: int) -> None:
+        """Print that the middleware has lost messages."""
+        self._lost += count
+        print(
+            f"A message was lost!!!\n\ttotal count change:{count}\n\ttotal count: {self._lost}", end="---\n"
+        )
 
     def _print_message(self, message: Any, info: dict[str, Any]) -> None:
         if self._options.csv:

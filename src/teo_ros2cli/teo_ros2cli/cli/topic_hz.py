@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import functools
 from typing import Any
 
 from teo_ros2cli.cli.options import add_graph_arguments, positive_int
@@ -49,9 +50,8 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`, `invalid_filter`.
     """
-    from rclpy.qos import qos_profile_sensor_data
-
-    from teo_ros2cli.graph.listening import listen
+    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.listening import ANYTHING, listen
     from teo_ros2cli.graph.session import cli_node, settle
     from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
     from teo_ros2cli.messages.classes import message_class
@@ -78,8 +78,13 @@ def run(options: argparse.Namespace) -> int:
             if rates:
                 print(rate_text(next(iter(rates.values()))) if len(topics) == 1 else rate_table(rates))
 
-        sources = {topic: (cls, qos_profile_sensor_data) for topic, cls in classes.items()}
-        listen(node, sources, receive, raw=raw, every=(_REPORT, report))
+        subscriptions = [
+            AdaptiveSubscription(
+                node, topic, cls, functools.partial(receive, topic), fixed=ANYTHING, raw=raw, warn=print
+            )
+            for topic, cls in classes.items()
+        ]
+        listen(node, subscriptions, every=(_REPORT, report))
     return 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from typing import Any
 
@@ -19,9 +18,11 @@ from teo_ros2cli.messages.classes import message_class
 from teo_ros2cli.messages.fill import StampSetter, fill_message
 from teo_ros2cli.messages.yaml_text import parse
 
-# A subscription may learn of this publisher only with its next announcement, every 3 s: until then its
-# acknowledgement does not come, and a message is lost for it if the publisher leaves.
-_ACKNOWLEDGEMENT = 4.0
+# A subscription that has just been found may itself find this publisher a little later, and only then gets
+# what was published already: until then its acknowledgement does not come, and the message is lost if the
+# publisher leaves.
+_ACKNOWLEDGEMENT = 1.0
+"""Longest time that reliable subscriptions get to receive the last message [s]."""
 _POLL = 0.02
 """Interval of looking for subscriptions [s]."""
 
@@ -184,6 +185,6 @@ def _linger(publisher: Any, profile: Any, keep_alive: float) -> None:
 
     started = time.monotonic()
     reliable = profile.reliability != ReliabilityPolicy.BEST_EFFORT
-    if reliable and not publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGEMENT)):
-        print("Not all subscriptions have acknowledged the last message", file=sys.stderr)
+    if reliable:
+        publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGEMENT))
     time.sleep(max(0.0, keep_alive - (time.monotonic() - started)))

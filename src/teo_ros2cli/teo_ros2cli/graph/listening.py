@@ -1,57 +1,40 @@
-"""Receiving messages of topics until there is a reason to stop."""
+"""Receiving messages until there is a reason to stop."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection
 from typing import Any
 
-Receiver = Callable[[str, Any, dict[str, Any]], None]
-"""Takes a topic's name, a message (bytes if raw) and rclpy's information on it."""
+from teo_ros2cli.bags.qos_record import QosRecord
+from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+
+_STEP = 0.1
+"""Interval of fitting the subscriptions to their publishers [s]."""
+
+# What every publisher serves: for measuring, where a message that was lost is part of the result.
+ANYTHING = QosRecord(reliability="best_effort")
 
 
 def listen(
     node: Any,
-    topics: Mapping[str, tuple[Any, Any]],
-    receive: Receiver,
+    subscriptions: Collection[AdaptiveSubscription],
     *,
-    raw: bool = False,
     until: Callable[[], bool] = lambda: False,
     deadline: float | None = None,
-    report_lost: bool = False,
     every: tuple[float, Callable[[], None]] | None = None,
 ) -> None:
-    """Subscribe to topics and pass their messages on; a context that is shut down ends it with an exception.
+    """Let subscriptions receive; a context that is shut down ends it with rclpy's exception for that.
 
     Args:
-        node: The node.
-        topics: Class of the messages and QoS profile, by full topic name.
-        receive: Called with each message.
-        raw: Pass messages on as they came from the wire.
+        node: The node that they belong to.
+        subscriptions: The subscriptions.
         until: Asked after each step; True ends.
         deadline: Moment of the steady clock at which to end [s], None for never.
-        report_lost: Print a note when the middleware tells that a message was lost.
         every: A period [s] and what to do in it.
     """
-    from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
-    def subscribe(topic: str, message_class: Any, profile: Any, events: Any) -> None:
-        node.create_subscription(
-            message_class,
-            topic,
-            lambda message, info: receive(topic, message, info),
-            profile,
-            raw=raw,
-            event_callbacks=events,
-        )
-
-    for topic, (cls, profile) in topics.items():
-        try:
-            events = SubscriptionEventCallbacks(message_lost=_tell_lost if report_lost else None)
-            subscribe(topic, cls, profile, events)
-        except UnsupportedEventTypeError:
-            subscribe(topic, cls, profile, None)
     if every is not None:
         # Of this machine's time: a simulated clock may stand still.
         from rclpy.clock import Clock
@@ -60,21 +43,18 @@ def listen(
         node.create_timer(*every, clock=Clock(clock_type=ClockType.STEADY_TIME))
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
+    fitted = 0.0
     try:
         while not until():
-            left = None if deadline is None else deadline - time.monotonic()
-            if left is not None and left <= 0:
+            now = time.monotonic()
+            if deadline is not None and now >= deadline:
                 return
-            executor.spin_once(timeout_sec=left)
+            if now - fitted >= _STEP:
+                fitted = now
+                for subscription in subscriptions:
+                    subscription.adapt()
+            executor.spin_once(timeout_sec=_STEP if deadline is None else min(_STEP, deadline - now))
             if not node.context.ok():
                 raise ExternalShutdownException  # SIGTERM
     finally:
         executor.remove_node(node)
-
-
-def _tell_lost(status: Any) -> None:
-    print(
-        f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n\ttotal count: "
-        f"{status.total_count}",
-        end="---\n",
-    )

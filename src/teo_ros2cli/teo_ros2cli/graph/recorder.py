@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
 from teo_ros2cli.bags.metadata import BagMetadata, TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord, request_for, serves
+from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.definitions.schema_text import Schema, schema_of
 from teo_ros2cli.definitions.type_hash import installed_type_hash
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.qos import from_record, to_record
+from teo_ros2cli.graph.adaptive import AdaptiveSubscription
 from teo_ros2cli.messages.classes import message_class
-
-# Messages that may wait in the middleware while Python is busy elsewhere: 10 s of a topic at 100 Hz. The
-# queue drops its oldest when full, so that a slow recorder never holds a publisher back.
-QUEUE_DEPTH = 1000
-# Messages of a topic whose identity is kept, to know a repeated one when a subscription is replaced.
-_REMEMBERED = 2000
 
 
 class RecorderSettings(NamedTuple):
@@ -51,37 +43,6 @@ class RecorderSettings(NamedTuple):
     use_sim_time: bool = False
 
 
-class _Repetitions:
-    """Knows a message that comes a second time, by its time of publishing and its number."""
-
-    def __init__(self) -> None:
-        self._order: deque[tuple[int, int]] = deque()
-        self._seen: set[tuple[int, int]] = set()
-
-    def is_new(self, published: int, sequence: int) -> bool:
-        key = (published, sequence)
-        if key in self._seen:
-            return False
-        self._seen.add(key)
-        self._order.append(key)
-        if len(self._order) > _REMEMBERED:
-            self._seen.discard(self._order.popleft())
-        return True
-
-
-@dataclass
-class _Source:
-    """A subscribed topic."""
-
-    cls: Any
-    request: QosRecord
-    subscription: Any
-    overridden: bool
-    warned: bool = False
-    repeated: _Repetitions | None = None
-    """Kept only once the subscription was replaced."""
-
-
 class Recorder:
     """Subscribes to the topics of a node's graph and writes their messages from a thread of its own.
 
@@ -96,7 +57,7 @@ class Recorder:
         self._bag = BackgroundWriter(writer, settings.cache_size)
         self._settings = settings
         self._log = node.get_logger()
-        self._sources: dict[str, _Source] = {}
+        self._subscriptions: dict[str, AdaptiveSubscription] = {}
         self._refused: set[tuple[str, str]] = set()
         self._lost: dict[str, int] = {}
         self._paused = settings.start_paused
@@ -126,21 +87,17 @@ class Recorder:
         if now < self._next_look:
             return
         self._next_look = now + self._settings.polling_interval
-        for source_name in list(self._sources):
-            self._adapt(source_name)
+        for subscription in self._subscriptions.values():
+            subscription.adapt()
         if not self._discovering:
             return
         for name, types in self._node.get_topic_names_and_types():
-            if name not in self._sources:
+            if name not in self._subscriptions:
                 self._consider(name, list(types))
         wanted = self._settings.selection
         if not self._settings.discovery:
             self._discovering = False
-        elif (
-            wanted.only_names
-            and wanted.names
-            and wanted.names - wanted.excluded_names <= self._sources.keys()
-        ):
+        elif wanted.only_names and wanted.names - wanted.excluded_names <= self._subscriptions.keys():
             self._discovering = False
             self._log.info("All requested topics are subscribed. Stopping discovery...")
 
@@ -150,15 +107,13 @@ class Recorder:
         Raises:
             Ros2CliError: `bag_unwritable`.
         """
-        for name, source in self._sources.items():
-            self._drain(name, source.subscription)
-            self._node.destroy_subscription(source.subscription)
+        for subscription in self._subscriptions.values():
+            subscription.drain()
+            subscription.destroy()
         if self._lost:
             counts = "".join(f"\n\t{name}: {count}" for name, count in sorted(self._lost.items()))
             self._log.warning(f"Messages lost per topic: {counts}\nTotal lost: {sum(self._lost.values())}")
         return self._bag.close()
-
-    # Subscribing
 
     def _consider(self, name: str, types: list[str]) -> None:
         if len(types) > 1:
@@ -167,8 +122,7 @@ class Recorder:
         type_name = types[0]
         if not self._settings.selection.accepts(name, type_name) or (name, type_name) in self._refused:
             return
-        offers = [to_record(info.qos_profile) for info in self._node.get_publishers_info_by_topic(name)]
-        if not offers and not self._settings.include_unpublished:
+        if not self._settings.include_unpublished and not self._node.count_publishers(name):
             return
         if self._settings.ignore_leaf and not self._node.count_subscribers(name):
             return
@@ -178,7 +132,7 @@ class Recorder:
         except Ros2CliError as error:
             self._refuse(name, type_name, str(error))
             return
-        self._subscribe(name, type_name, cls, schema, offers)
+        self._subscribe(name, type_name, cls, schema)
 
     def _refuse(self, name: str, type_name: str, reason: str) -> None:
         if (name, type_name) not in self._refused:
@@ -188,22 +142,23 @@ class Recorder:
                 f"supported. Reason: '{reason}'."
             )
 
-    def _subscribe(
-        self, name: str, type_name: str, cls: Any, schema: Schema, offers: list[QosRecord]
-    ) -> None:
+    def _subscribe(self, name: str, type_name: str, cls: Any, schema: Schema) -> None:
         override = self._settings.overrides.get(name)
         if override is not None:
             self._log.info(f"Overriding subscription profile for {name}")
-            request = override
-        else:
-            adapted = request_for(name, offers)
-            for warning in adapted.warnings:
-                self._log.warning(warning)
-            request = adapted.profile
-        topic = TopicRecord(name, type_name, self._type_hash(name, type_name), tuple(offers))
-        self._bag.add_topic(topic, schema)
-        subscription = self._create(name, cls, request)
-        self._sources[name] = _Source(cls, request, subscription, overridden=override is not None)
+        subscription = AdaptiveSubscription(
+            self._node,
+            name,
+            cls,
+            lambda data, info: self._receive(name, data, info),
+            fixed=override,
+            raw=True,
+            warn=self._log.warning,
+            lost=lambda count: self._note_lost(name, count),
+        )
+        self._subscriptions[name] = subscription
+        offered = tuple(subscription.first_offers)
+        self._bag.add_topic(TopicRecord(name, type_name, self._type_hash(name, type_name), offered), schema)
         self._log.info(f"Subscribed to topic '{name}'")
 
     def _type_hash(self, name: str, type_name: str) -> str:
@@ -213,73 +168,17 @@ class Recorder:
                 return text
         return installed_type_hash(type_name)
 
-    def _create(self, name: str, cls: Any, request: QosRecord) -> Any:
-        from rclpy.event_handler import SubscriptionEventCallbacks
-
-        profile = from_record(request)
-        profile.depth = max(profile.depth, QUEUE_DEPTH)
-        return self._node.create_subscription(
-            cls,
-            name,
-            lambda data, info: self._receive(name, data, info),
-            profile,
-            raw=True,
-            event_callbacks=SubscriptionEventCallbacks(
-                message_lost=lambda status: self._note_lost(name, status.total_count_change),
-                use_default_callbacks=False,
-            ),
-        )
-
-    def _adapt(self, name: str) -> None:
-        """Replace a subscription that a publisher which came later cannot serve by one that all can."""
-        source = self._sources[name]
-        offers = [to_record(info.qos_profile) for info in self._node.get_publishers_info_by_topic(name)]
-        if all(serves(offer, source.request) for offer in offers) or source.warned:
-            return
-        if source.overridden:
-            source.warned = True
-            self._log.warning(
-                f"A publisher of topic '{name}' offers less than the overriding profile asks for: its "
-                f"messages are "
-                "not recorded."
-            )
-            return
-        adapted = request_for(name, offers)
-        for warning in adapted.warnings:
-            self._log.warning(warning)
-        # For a moment both subscriptions receive: what came twice is told by its time and number.
-        source.repeated = _Repetitions()
-        old = source.subscription
-        source.subscription = self._create(name, source.cls, adapted.profile)
-        source.request = adapted.profile
-        self._drain(name, old)
-        self._node.destroy_subscription(old)
-
-    # Receiving
-
     def _receive(self, name: str, data: bytes, info: dict[str, Any]) -> None:
         if self._paused:
-            return
-        source = self._sources[name]
-        published, sequence = info["source_timestamp"], info.get("publication_sequence_number") or 0
-        if source.repeated is not None and not source.repeated.is_new(published, sequence):
             return
         received = info["received_timestamp"]
         if self._settings.use_sim_time:
             received = self._node.get_clock().now().nanoseconds
             if received == 0:
                 return  # the simulated clock does not run yet
-        if not self._bag.write(Arrival(name, received, published, data, sequence)):
+        sequence = info.get("publication_sequence_number") or 0
+        if not self._bag.write(Arrival(name, received, info["source_timestamp"], data, sequence)):
             self._note_lost(name, 1)
-
-    def _drain(self, name: str, subscription: Any) -> None:
-        """Take what a subscription still holds."""
-        while True:
-            with subscription.handle:
-                taken = subscription.handle.take_message(subscription.msg_type, True)
-            if taken is None:
-                return
-            self._receive(name, *taken)
 
     def _note_lost(self, name: str, count: int) -> None:
         if name not in self._lost:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.graph.participants import local_participants
+from teo_ros2cli.packages import package_prefix
 
 NODE_NAME_PREFIX = "_ros2cli"
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
@@ -45,6 +46,7 @@ def cli_node(
     Raises:
         Ros2CliError: `no_rclpy`, or `invalid_name` for the node.
     """
+    _prompt_discovery()
     try:
         import rclpy
         from rclpy.context import Context
@@ -77,6 +79,19 @@ def cli_node(
             node.destroy_node()
     finally:
         rclpy.try_shutdown(context=context)
+
+
+def _prompt_discovery() -> None:
+    """Let this process announce itself and ask for acknowledgements often, unless Fast DDS is set up by the user."""
+    names = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
+    if any(os.environ.get(name) for name in names):
+        return
+    try:
+        profile = package_prefix("teo_ros2cli") / "share" / "teo_ros2cli" / "config" / "fastdds.xml"
+    except Ros2CliError:
+        return  # not installed as a package: slower, that is all
+    if profile.is_file():
+        os.environ[names[0]] = str(profile)
 
 
 def settle(node: Any, spin_time: float | None = None, *, names: bool = False) -> None:

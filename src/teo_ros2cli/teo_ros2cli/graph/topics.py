@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from typing import Any
 
-from teo_ros2cli.bags.qos_record import request_for
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.qos import to_record
 
 
 def full_topic_name(node: Any, topic: str) -> str:
@@ -58,20 +55,3 @@ def wait_for_type(node: Any, topic: str, doing: str) -> str:
         time.sleep(0.1)
         found = only_type(node, topic, doing)
     return found
-
-
-def matching_qos(node: Any, topic: str, options: Any) -> Any:
-    """Return the profile to subscribe with: as the options say or else one that all publishers serve."""
-    from teo_ros2cli.graph.qos import from_options
-
-    profile = from_options(options)
-    if options.qos_given:
-        return profile
-    offers = [to_record(info.qos_profile) for info in node.get_publishers_info_by_topic(topic)]
-    if offers:
-        request = request_for(topic, offers)
-        for warning in request.warnings:
-            print(warning, file=sys.stderr)
-        profile.reliability = type(profile.reliability)[request.profile.reliability.upper()]
-        profile.durability = type(profile.durability)[request.profile.durability.upper()]
-    return profile

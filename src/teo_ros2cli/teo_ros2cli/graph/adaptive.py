@@ -1,0 +1,159 @@
+"""A subscription that fits itself to the publishers of its topic, those that come later included."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from teo_ros2cli.bags.qos_record import QosRecord, request_for, serves
+from teo_ros2cli.graph.qos import from_record, to_record
+
+# Messages that may wait in the middleware while Python is busy elsewhere: 10 s of a topic at 100 Hz. The
+# queue drops its oldest when full, so that a slow receiver never holds a publisher back.
+QUEUE_DEPTH = 1000
+# Messages whose identity is kept to know one that comes a second time: more than any latched topic keeps.
+_REMEMBERED = 2000
+
+Receiver = Callable[[Any, dict[str, Any]], None]
+"""Takes a message (bytes if raw) and rclpy's information on it."""
+
+
+class AdaptiveSubscription:
+    """Asks for what all publishers serve: reliable and latched messages if all of them offer these.
+
+    When a publisher comes that offers less, or when the first ones turn out to be latched, the subscription
+    is replaced; no message is lost or passed on twice by that.
+
+    Args:
+        node: The node to subscribe with.
+        topic: Full topic name.
+        message_class: Class of the messages.
+        receive: Called with each message.
+        fixed: Profile to ask for in any case, instead of fitting.
+        raw: Pass messages on as they came from the wire.
+        warn: Called with a sentence for each thing that cannot be had.
+        lost: Called with the number of messages that the middleware says were lost; None if nobody cares.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        topic: str,
+        message_class: Any,
+        receive: Receiver,
+        *,
+        fixed: QosRecord | None = None,
+        raw: bool = False,
+        warn: Callable[[str], object],
+        lost: Callable[[int], None] | None = None,
+    ) -> None:
+        self._node = node
+        self._topic = topic
+        self._class = message_class
+        self._pass_on = receive
+        self._fixed = fixed
+        self._raw = raw
+        self._warn = warn
+        self._lost = lost
+        self._told = False
+        self.first_offers = self._offers()
+        # Without publishers there is nothing to fit yet; what comes may come again with a latched
+        # subscription.
+        self._blind = not self.first_offers
+        self._repetitions = _Repetitions() if self._blind else None
+        self.request = fixed if fixed is not None else self._fitting(self.first_offers)
+        self._subscription = self._subscribe()
+
+    def adapt(self) -> None:
+        """Look at the publishers, and replace the subscription if it does not fit them."""
+        offers = self._offers()
+        if not offers:
+            return
+        unserved = not all(serves(offer, self.request) for offer in offers)
+        if self._fixed is not None:
+            if unserved and not self._told:
+                self._told = True
+                self._warn(
+                    f"A publisher of topic '{self._topic}' offers less than the profile asks for: its "
+                    f"messages "
+                    "are not received."
+                )
+            return
+        latched = self._blind and all(offer.durability == "transient_local" for offer in offers)
+        self._blind = False
+        if unserved or latched:
+            self._replace(self._fitting(offers))
+
+    def drain(self) -> None:
+        """Pass on what still waits in the middleware."""
+        self._drain(self._subscription)
+
+    def destroy(self) -> None:
+        """End the subscription."""
+        self._node.destroy_subscription(self._subscription)
+
+    def _offers(self) -> list[QosRecord]:
+        return [to_record(info.qos_profile) for info in self._node.get_publishers_info_by_topic(self._topic)]
+
+    def _fitting(self, offers: list[QosRecord]) -> QosRecord:
+        adapted = request_for(self._topic, offers)
+        for warning in adapted.warnings:
+            self._warn(warning)
+        return adapted.profile
+
+    def _replace(self, request: QosRecord) -> None:
+        # For a moment both subscriptions receive: what comes twice is known from here on.
+        self._repetitions = self._repetitions or _Repetitions()
+        old, self.request = self._subscription, request
+        self._subscription = self._subscribe()
+        self._drain(old)
+        self._node.destroy_subscription(old)
+
+    def _subscribe(self) -> Any:
+        from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
+
+        profile = from_record(replace(self.request, depth=max(self.request.depth, QUEUE_DEPTH)))
+        lost = self._lost
+        told = None if lost is None else lambda status: lost(status.total_count_change)
+        for callback in (told, None):
+            events = SubscriptionEventCallbacks(message_lost=callback, use_default_callbacks=False)
+            try:
+                return self._node.create_subscription(
+                    self._class, self._topic, self._receive, profile, raw=self._raw, event_callbacks=events
+                )
+            except UnsupportedEventTypeError:
+                if callback is None:
+                    raise
+        raise AssertionError("unreachable")
+
+    def _receive(self, message: Any, info: dict[str, Any]) -> None:
+        if self._repetitions is None or self._repetitions.is_new(info):
+            self._pass_on(message, info)
+
+    def _drain(self, subscription: Any) -> None:
+        while True:
+            with subscription.handle:
+                taken = subscription.handle.take_message(subscription.msg_type, self._raw)
+            if taken is None:
+                return
+            self._receive(*taken)
+
+
+class _Repetitions:
+    """Knows a message that comes a second time, by its time of publishing and its number."""
+
+    def __init__(self) -> None:
+        self._order: deque[tuple[int, int]] = deque()
+        self._seen: set[tuple[int, int]] = set()
+
+    def is_new(self, info: dict[str, Any]) -> bool:
+        key = (info["source_timestamp"], info.get("publication_sequence_number") or 0)
+        if key in self._seen:
+            return False
+        self._seen.add(key)
+        self._order.append(key)
+        if len(self._order) > _REMEMBERED:
+            self._seen.discard(self._order.popleft())
+        return True
