@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
+import pty
 import signal
 import subprocess
+import termios
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -11,10 +15,12 @@ from typing import Any
 
 import pytest
 import yaml
+from builtin_interfaces.msg import Time
 from mcap_ros2.reader import read_ros2_messages
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosbags.highlevel import AnyReader
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -23,6 +29,8 @@ from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.metadata import read_metadata
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
+PATIENCE = 20.0
+"""Longest time that anything may take [s]."""
 JOINTS = [f"Joint{i:02d}" for i in range(40)]
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=1000)
@@ -172,6 +180,70 @@ def test_playing_is_faster_partial_and_repeated_on_request(
     loop.wait_for_line("Topic '/nothing' is not in the bag; it holds /text")
     graph.wait_until(lambda: came.count("5") >= 2, "it came twice")
     assert loop.stop() == 0
+
+
+def test_keys_pause_and_step(graph: Any, start: Any, tmp_path: Path) -> None:
+    make_text_bag(tmp_path / "bag", 5, step=1000)
+    came: list[str] = []
+    graph.node.create_subscription(String, "text", lambda message: came.append(message.data), DEEP)
+    keys, terminal = pty.openpty()
+
+    def control() -> None:
+        os.setsid()
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+    player = start("bag", "play", str(tmp_path / "bag"), "-p", stdin=terminal, preexec_fn=control)
+    player.wait_for_line("Press CURSOR_RIGHT for Play Next Message")
+    player.wait_for_line("Playback until timestamp: -1")
+
+    def step() -> list[str]:
+        # A message that is played before the subscription is matched is lost: then one more.
+        os.write(keys, b"\x1b[C")
+        time.sleep(0.2)
+        return came
+
+    graph.wait_until(step, "a message came")
+    assert len(came) == 1
+    os.write(keys, b" ")
+    assert player.finish() == 0
+    graph.wait_until(lambda: came[-1] == "4", "the others came")
+    os.close(keys)
+    os.close(terminal)
+
+
+def test_simulated_time_stamps_what_is_recorded(graph: Any, start: Any, tmp_path: Path) -> None:
+    clock = graph.node.create_publisher(Clock, "/clock", DEEP)
+    texts = graph.node.create_publisher(String, "text", DEEP)
+    recorder = start("bag", "record", "--use-sim-time", "-o", str(tmp_path / "bag"), "--topics", "/text")
+    wait_recording(recorder, "/text")
+    graph.wait_until(
+        lambda: texts.get_subscription_count() == clock.get_subscription_count() == 1, "all is matched"
+    )
+    texts.publish(String(data="before the clock runs"))
+    assert texts.wait_for_all_acked(Duration(seconds=PATIENCE))
+    for i in range(1, 4):
+        time.sleep(0.1)
+        clock.publish(Clock(clock=Time(sec=1000 * i)))
+        time.sleep(0.1)
+        texts.publish(String(data=str(i)))
+    assert texts.wait_for_all_acked(Duration(seconds=PATIENCE))
+    time.sleep(0.2)
+    assert recorder.stop() == 0
+    assert [m.log_time for m in open_bag(tmp_path / "bag").messages()] == [
+        i * 1000 * 10**9 for i in (1, 2, 3)
+    ]
+
+
+def test_the_clock_is_played(graph: Any, ros2: Command, tmp_path: Path) -> None:
+    make_text_bag(tmp_path / "bag", 11, step=100_000_000)
+    came: list[float] = []
+    graph.node.create_subscription(
+        Clock, "/clock", lambda message: came.append(message.clock.sec + message.clock.nanosec * 1e-9), DEEP
+    )
+    assert ros2("bag", "play", str(tmp_path / "bag"), "-d", "1", "--clock", "50", "-r", "2").returncode == 0
+    assert 15 <= len(came) <= 30  # half a second
+    assert came == sorted(came)
+    assert 1e9 <= came[0] < came[-1] <= 1e9 + 1.1
 
 
 def make_text_bag(directory: Path, count: int, step: int, kind: str = "std_msgs/msg/String") -> None:

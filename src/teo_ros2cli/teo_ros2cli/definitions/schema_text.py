@@ -51,8 +51,10 @@ def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
         raise Ros2CliError(
             "interface_not_found", f"'{package}/action/{action}' has {len(parts)} sections, expected 3"
         )
-    first = f"unique_identifier_msgs/UUID goal_id\n{package}/{action}_Feedback feedback\n"
-    text = f"{first}\n{SEPARATOR}\nMSG: {package}/{action}_Feedback\n{parts[2]}"
+    # The three-part name: readers that compute the type's hash find the one that the build gave it.
+    feedback = f"{package}/action/{action}_Feedback"
+    first = f"unique_identifier_msgs/UUID goal_id\n{feedback} feedback\n"
+    text = f"{first}\n{SEPARATOR}\nMSG: {feedback}\n{parts[2]}"
     known = {InterfaceName(package, "msg", f"{action}_Feedback")}
     return Schema(type_name, "ros2msg", _with_dependencies(text, package, known))
 

@@ -82,7 +82,7 @@ def cli_node(
 
 
 def _prompt_discovery() -> None:
-    """Let this process announce itself and ask for acknowledgements often, unless Fast DDS is set up by the user."""
+    """Let this process announce itself and ask for acknowledgements often, unless the user set it up."""
     names = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
     if any(os.environ.get(name) for name in names):
         return
