@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -61,17 +61,23 @@ def capture_demonstration(out: Out, replace: Replace = False) -> None:
 
 def letters_main() -> None:
     """Run `capture_letters`."""
-    typer.run(capture_letters)
+    _run(capture_letters)
 
 
 def numbers_main() -> None:
     """Run `capture_numbers`."""
-    typer.run(capture_numbers)
+    _run(capture_numbers)
 
 
 def demonstration_main() -> None:
     """Run `capture_demonstration`."""
-    typer.run(capture_demonstration)
+    _run(capture_demonstration)
+
+
+def _run(command: Callable[..., None]) -> None:
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app.command()(command)
+    app()
 
 
 def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
@@ -80,6 +86,8 @@ def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
             path = save_sign(out, sign, replace=replace)
         except LutError as error:
             _fail(error)
+        except OSError as error:
+            _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
         figures = "  ".join(f"{name} {value:g}" for name, value in sign.quality.items())
         _output.print(
             f"{path.name:12} {len(sign.times):2} knots {sign.duration:5.2f} s  {figures}", soft_wrap=True

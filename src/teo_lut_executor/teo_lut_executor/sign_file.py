@@ -23,9 +23,10 @@ from teo_lut_executor.sign_schema import SCHEMA_VERSION, Provenance, SignFile
 # 28 joints at 25 frames a second for a minute are 0.8 MB of text; no sign is longer than that.
 MAX_FILE_BYTES = 1_000_000
 
-# Entries keep 1e-6 rad (the encoders resolve 1e-5 rad): a knot on a limit may be half of that beyond it.
-LIMIT_TOLERANCE = 1e-6  # [rad]
+# Entries keep 1e-6 rad; the encoders resolve 1e-5 rad.
 _DECIMALS = 6
+# A knot on a limit that another program rounded may be beyond it by half a digit.
+LIMIT_TOLERANCE = 1e-6  # [rad]
 
 
 def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
@@ -86,7 +87,7 @@ def format_sign(sign: Sign) -> str:
         "times": np.round(sign.times, _DECIMALS).tolist(),
     }
     lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
-    lines.append(_block("knots", "[]", [_json(row) for row in np.round(sign.knots, _DECIMALS).tolist()]))
+    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign).tolist()]))
     for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
     return "{\n" + ",\n".join(lines) + "\n}\n"
@@ -256,6 +257,19 @@ def _limits() -> dict[str, tuple[float, float]]:
 def _bounds(joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     lower, upper = np.array([_limits()[joint] for joint in joints]).T
     return lower, upper
+
+
+def _rounded_within(sign: Sign) -> NDArray[np.float64]:
+    """Knots rounded for the file, inwards where the nearest digit lies beyond a limit that the knot keeps."""
+    rounded: NDArray[np.float64] = np.round(sign.knots, _DECIMALS)
+    if not set(sign.joints) <= set(_limits()) or rounded.ndim != 2 or not np.isfinite(rounded).all():
+        return rounded  # refused by name when it is read
+    lower, upper = _bounds(list(sign.joints))
+    step = 10.0**-_DECIMALS
+    rounded = np.where(
+        (rounded > upper) & (sign.knots <= upper), np.round(rounded - step, _DECIMALS), rounded
+    )
+    return np.where((rounded < lower) & (sign.knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
 
 
 def _short(value: object) -> str:

@@ -109,7 +109,7 @@ def capture_letter(robot: Robot, alphabet: Alphabet, letter: str) -> Sign:
         shift = shift + more
     times = (frames - frames[0]) / clip.rate
     kept = reduce_knots(times, positions, _TOLERANCE)
-    knots = _settled(np.round(positions[kept], 6))
+    knots = positions[kept]
     return Sign(
         gloss=letter,
         language="lse",
@@ -213,12 +213,6 @@ def _flexion_for(share: Array, joint: str) -> Array:
     flexion = np.linspace(limits.lower[0], min(limits.upper[0], np.radians(60.0)), 60)
     seen = np.cos(np.outer(flexion, np.arange(1, 4))) @ PHALANGES
     return np.interp(-share, -seen / seen[0], flexion)
-
-
-def _settled(knots: Array) -> Array:
-    """Knots within the limits to the last digit: rounding may have put one a digit beyond."""
-    limits = joint_limits(JOINTS)
-    return np.clip(knots, limits.lower, limits.upper)
 
 
 def _provenance(clip: LetterClip, letter: str) -> Provenance:

@@ -90,7 +90,7 @@ def _number(robot: Robot, digit: str) -> Sign:
     if two_handed:
         joints += LEFT_ARM + LEFT_HAND
         pose = np.concatenate([pose, mirrored_arm(arm.positions), _hand("5")])
-    knots = np.round(np.stack([pose, pose]), 6)
+    knots = np.stack([pose, pose])
     return Sign(
         gloss=digit,
         language="lse",

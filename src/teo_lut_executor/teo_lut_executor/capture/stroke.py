@@ -19,6 +19,9 @@ _RISE = 8.0
 _FORMING = 20.0
 """[deg/frame] Fingers bend faster than this, on average of the four, while the handshape forms or
 dissolves."""
+_SWING = 10.0
+"""[deg] A hand tilted by this much more than it is in the later three quarters of the stroke is still
+arriving."""
 _SWAY = 60.0
 """[pixel] Way of the index tip from side to side, all swings added: at most 41 in still letters, 92 up in
 moving."""
@@ -66,6 +69,7 @@ def find_stroke(clip: LetterClip) -> Stroke:
     forming = np.abs(np.diff(bends, axis=0)).mean(axis=1) >= _FORMING
     steady = np.flatnonzero(~(rising | forming))
     first, last = int(steady[0]), int(steady[-1]) + 1
+    first += _arrival(hand[first : last + 1])
     inside = slice(first, last + 1)
     holds = _holds(hand[inside])
     spans = tuple((first + start, first + end) for start, end in holds)
@@ -79,6 +83,14 @@ def find_stroke(clip: LetterClip) -> Stroke:
         sways=bool(way > _SWAY) or len(spans) > 1,
         wagging=tuple(int(finger) for finger in np.flatnonzero(beyond > _WAG)),
     )
+
+
+def _arrival(hand: Array) -> int:
+    """Frames at the beginning in which the hand still swings into place, beyond all that it does later."""
+    tilt = np.degrees(tilts(hand))
+    later = tilt[len(tilt) // 4 :]
+    inside = (tilt > later.min() - _SWING) & (tilt < later.max() + _SWING)
+    return int(inside.argmax())
 
 
 def total_bends(hand: Array) -> Array:

@@ -1,0 +1,98 @@
+"""How different two signs look: handshape, orientation of the palm, movement.
+
+Each is measured on the right hand at moments spread over the sign, and counted in the difference that is just
+seen with certainty at conversation distance: the thickness of a finger, or 15 deg. Signs are told apart by
+any one of them, so that the largest is the difference of the pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.robot import Robot
+from teo_lut_executor.sign import Sign
+
+Array = NDArray[np.float64]
+
+SEEN_LENGTH = 0.015
+"""[m] The thickness of one of TEO's fingers."""
+SEEN_ANGLE = float(np.radians(15.0))
+"""[rad] A finger's tip moves by a finger's thickness when the hand turns by about this much."""
+
+_MOMENTS = 25
+_PALM = "right_palm"
+_TIPS = tuple(f"Right{finger}FingerTip" for finger in ("Thumb", "Index", "Middle", "Ring", "Pinky"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """How two signs differ.
+
+    Attributes:
+        first: Gloss of one sign.
+        second: Gloss of the other.
+        handshape: Largest distance of a finger tip's places in the palm, mean over the sign [m].
+        orientation: Angle between the palms, mean over the sign [rad].
+        movement: Largest distance of a finger tip's ways, each from its own middle [m].
+    """
+
+    first: str
+    second: str
+    handshape: float
+    orientation: float
+    movement: float
+
+    @property
+    def seen(self) -> float:
+        """The largest of the three, in differences that are just seen: below 1 the signs look alike."""
+        lengths = max(self.handshape, self.movement) / SEEN_LENGTH
+        return max(lengths, self.orientation / SEEN_ANGLE)
+
+
+def nearest_pairs(robot: Robot, signs: Iterable[Sign]) -> list[Difference]:
+    """Every pair of signs, the most alike first."""
+    seen = {sign.gloss: _appearance(robot, sign) for sign in signs}
+    found = [_difference(first, second, seen[first], seen[second]) for first, second in combinations(seen, 2)]
+    return sorted(found, key=lambda difference: difference.seen)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Appearance:
+    local_tips: Array
+    """Finger tips in palm axes [m]. Shape (moments, 5, 3)."""
+    palms: Array
+    """Orientations of the palm. Shape (moments, 3, 3)."""
+    ways: Array
+    """Finger tips from their middle over the sign [m]. Shape (moments, 5, 3)."""
+
+
+def _appearance(robot: Robot, sign: Sign) -> _Appearance:
+    moments = np.linspace(0.0, sign.duration, _MOMENTS)
+    positions = np.column_stack([np.interp(moments, sign.times, column) for column in sign.knots.T])
+    places = np.array(
+        [
+            robot.placements(
+                robot.configuration(dict(zip(sign.joints, row.tolist(), strict=True))), (_PALM, *_TIPS)
+            )
+            for row in positions
+        ]
+    )
+    palms, tips = places[:, 0], places[:, 1:, :3, 3]
+    local = np.einsum("tij,tki->tkj", palms[:, :3, :3], tips - palms[:, None, :3, 3])
+    return _Appearance(local_tips=local, palms=palms[:, :3, :3], ways=tips - tips.mean(axis=0))
+
+
+def _difference(first: str, second: str, one: _Appearance, other: _Appearance) -> Difference:
+    cosines = (np.einsum("tij,tij->t", one.palms, other.palms) - 1.0) / 2.0
+    return Difference(
+        first=first,
+        second=second,
+        handshape=float(np.linalg.norm(one.local_tips - other.local_tips, axis=2).max(axis=1).mean()),
+        orientation=float(np.arccos(np.clip(cosines, -1.0, 1.0)).mean()),
+        movement=float(np.linalg.norm(one.ways - other.ways, axis=2).max()),
+    )

@@ -1,0 +1,119 @@
+"""What people see of the table."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import cv2
+import pytest
+from typer.testing import CliRunner, Result
+
+from teo_lut_executor.lut_cli import app
+
+TABLE = Path(__file__).resolve().parent.parent / "lut" / "lse"
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "200"}).invoke(app, [str(argument) for argument in arguments])
+
+
+def test_list_has_a_line_for_every_sign() -> None:
+    result = run("list", "--lut", TABLE)
+    assert result.exit_code == 0
+    lines = {line.split()[0]: line for line in result.output.splitlines() if line.strip()}
+    assert {"A", "Ñ", "RR", "7", "HOLA"} <= set(lines)
+    assert "letter" in lines["A"]
+    assert "right" in lines["A"]
+    assert "spoken-to-signed" in lines["A"]
+    assert "both" in lines["7"]
+
+
+def test_list_can_be_of_one_kind() -> None:
+    output = run("list", "--lut", TABLE, "--kind", "lexical").output
+    assert "3 signs" in output
+    assert "spoken-to-signed" not in output
+
+
+def test_show_tells_everything() -> None:
+    output = run("show", "Ñ", "--lut", TABLE).output
+    for word in ("Ñ", "letter", "MIT", "FrontalRightElbow", "palm_angle_error_deg", "notes"):
+        assert word in output
+
+
+def test_show_json_is_the_file() -> None:
+    assert run("show", "NOMBRE", "--lut", TABLE, "--json").output == (TABLE / "NOMBRE.json").read_text(
+        "utf-8"
+    )
+
+
+def test_show_of_an_unknown_sign_fails_with_a_sentence() -> None:
+    result = run("show", "NADA", "--lut", TABLE)
+    assert result.exit_code == 1
+    assert "unknown_sign" in result.output
+
+
+def test_validate_passes_for_the_package() -> None:
+    result = run("validate", TABLE)
+    assert result.exit_code == 0
+    assert "0 errors, 0 warnings" in result.output
+
+
+def test_validate_names_every_entry_that_is_wrong(tmp_path: Path) -> None:
+    for name in ("A", "B"):
+        (tmp_path / f"{name}.json").write_text((TABLE / f"{name}.json").read_text("utf-8"), "utf-8")
+    (tmp_path / "B.json").write_text(
+        (tmp_path / "B.json").read_text("utf-8").replace('"letter"', '"word"'), "utf-8"
+    )
+    (tmp_path / "C.json").touch()
+    result = run("validate", tmp_path)
+    assert result.exit_code == 1
+    assert "error bad_value: B.json: kind: expected" in result.output
+    assert "error empty_file: C.json" in result.output
+    assert "3 entries" in result.output
+    assert "2 errors" in result.output
+
+
+def test_a_missing_table_fails_with_a_sentence(tmp_path: Path) -> None:
+    result = run("list", "--lut", tmp_path / "nowhere")
+    assert result.exit_code == 1
+    assert "no_directory" in result.output
+
+
+def test_render_draws_a_still_and_a_moving_sign(tmp_path: Path) -> None:
+    assert run("render", "A", "--lut", TABLE, "--out", tmp_path / "a.png").exit_code == 0
+    assert run("render", "J", "--lut", TABLE, "--out", tmp_path / "j.png").exit_code == 0
+    still, moving = (cv2.imread(str(tmp_path / name)) for name in ("a.png", "j.png"))
+    assert moving.shape[0] > still.shape[0]
+    assert moving.shape[1] > still.shape[1]
+
+
+def test_render_films_a_sign_for_its_duration(tmp_path: Path) -> None:
+    assert run("render", "HOLA", "--lut", TABLE, "--out", tmp_path / "hola.mp4").exit_code == 0
+    film = cv2.VideoCapture(str(tmp_path / "hola.mp4"))
+    assert film.get(cv2.CAP_PROP_FRAME_COUNT) / film.get(cv2.CAP_PROP_FPS) == pytest.approx(1.25, abs=0.1)
+
+
+def test_render_all_makes_a_sheet_of_each_kind(tmp_path: Path) -> None:
+    for name in ("A", "J", "7", "MI"):
+        (tmp_path / f"{name}.json").write_text((TABLE / f"{name}.json").read_text("utf-8"), "utf-8")
+    result = run("render", "--all", "--lut", tmp_path, "--out", tmp_path / "sheets")
+    assert result.exit_code == 0
+    assert sorted(path.name for path in (tmp_path / "sheets").iterdir()) == [
+        "letters.png",
+        "numbers.png",
+        "signs.png",
+    ]
+
+
+@pytest.mark.parametrize(
+    "arguments", [("A",), ("--out", "x.png"), ("A", "--all", "--out", "x.png"), ("A", "--out", "x.gif")]
+)
+def test_render_without_a_sign_or_a_place_says_what_it_needs(arguments: tuple[str, ...]) -> None:
+    result = run("render", *arguments, "--lut", TABLE)
+    assert result.exit_code == 1
+    assert "bad_arguments" in result.output
+
+
+def test_schema_prints_json() -> None:
+    assert json.loads(run("schema").output)["title"] == "TEO sign"
