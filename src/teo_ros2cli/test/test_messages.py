@@ -208,6 +208,7 @@ def test_yaml_is_printed_as_people_know_it() -> None:
         "position:\n- 0.5\n- 1.0\nvelocity: []\neffort: []\n"
     )
     assert dump(message_tree(String(data="x y")), flow_style=True) == "{data: x y}\n"
+    assert dump(message_tree(String(data="¿qué? 😀"))) == "data: ¿qué? 😀\n"
 
 
 def test_long_values_are_cut_and_hidden_on_request() -> None:

@@ -127,6 +127,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         f"Default: {DEFAULT_PRESET}.",
     )
     parser.add_argument(
+        "--compression-mode", default="none", choices=("none",), help="Accepted; chunks are compressed."
+    )
+    parser.add_argument(
         "--log-level",
         default="info",
         choices=("debug", "info", "warn", "error", "fatal"),
