@@ -177,9 +177,9 @@ def perform(
     spectator.start_filming()
     console.print(f"ros2 topic pub --once text std_msgs/msg/String  [bold]{text}[/bold]")
     message = f"{{data: {yaml_quoted(text)}}}"
-    publisher = subprocess.Popen(
-        ["ros2", "topic", "pub", "--once", "text", "std_msgs/msg/String", message], stdout=subprocess.DEVNULL
-    )
+    # Both the translator and the recorder are to get it: "once" alone waits for the first of them.
+    publish = ["ros2", "topic", "pub", "--once", "-w", "2", "text", "std_msgs/msg/String", message]
+    publisher = subprocess.Popen(publish, stdout=subprocess.DEVNULL)
     progress = spectator.progress
     with console.status("translating"):
         wait(lambda: publisher.poll() is not None, START_TIMEOUT, "ros2 topic pub to end", "translator")
