@@ -49,7 +49,7 @@ def run_list(options: argparse.Namespace) -> int:
     """Print the actions of the graph."""
     from rclpy.action import get_action_names_and_types
 
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     with cli_node(use_sim_time=options.use_sim_time) as node:
         settle(node, options.spin_time)
@@ -72,7 +72,7 @@ def run_type(options: argparse.Namespace) -> int:
     """Print the types of an action; exit status 1 if there is no such action."""
     from rclpy.action import get_action_names_and_types
 
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     with cli_node(use_sim_time=options.use_sim_time) as node:
         settle(node, options.spin_time)
@@ -99,7 +99,7 @@ def run_info(options: argparse.Namespace) -> int:
         get_action_server_names_and_types_by_node,
     )
 
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     action = full_name(options.action_name)
     print(f"Action: {action}")
@@ -157,7 +157,7 @@ def run_send_goal(options: argparse.Namespace) -> int:
     from rclpy.action import ActionClient
 
     from teo_ros2cli.graph.calls import wait_for
-    from teo_ros2cli.graph.session import cli_node
+    from teo_ros2cli.graph.cli_node import cli_node
 
     # SIGINT is to cancel the goal, which takes a context that lives on.
     with cli_node(own_signals=True) as node:

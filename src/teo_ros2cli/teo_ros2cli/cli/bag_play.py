@@ -145,9 +145,9 @@ def _play(options: argparse.Namespace, stop: StopSignals) -> int:
         warn(problem)
     _check_selected(options, bag)
 
+    from teo_ros2cli.graph.cli_node import cli_node
     from teo_ros2cli.graph.keyboard import keys
     from teo_ros2cli.graph.player import Player, PlayerSettings
-    from teo_ros2cli.graph.session import cli_node
 
     until = options.playback_until_nsec
     if options.playback_until_sec is not None and options.playback_until_sec >= 0:

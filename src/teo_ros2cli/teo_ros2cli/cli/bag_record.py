@@ -201,9 +201,9 @@ def _record(options: argparse.Namespace, stop: StopSignals) -> int:
     if directory.exists():
         raise Ros2CliError("output_exists", f"Output folder '{directory}' already exists.")
 
+    from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.keyboard import SPACE, keys
     from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
-    from teo_ros2cli.graph.session import cli_node, settle
 
     settings = RecorderSettings(
         selection=selection,

@@ -34,7 +34,7 @@ def add_list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the full names of the nodes of the graph, this command's own left out."""
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     with cli_node(use_sim_time=options.use_sim_time) as node:
         settle(node, options.spin_time, names=True)
@@ -75,7 +75,7 @@ def run_info(options: argparse.Namespace) -> int:
         get_action_server_names_and_types_by_node,
     )
 
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     full = options.node_name if options.node_name.startswith("/") else f"/{options.node_name}"
     namespace, name = (full.rpartition("/")[0] or "/"), full.rpartition("/")[2]

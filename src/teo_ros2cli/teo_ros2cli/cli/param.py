@@ -203,20 +203,20 @@ class _Parameters:
     """Talks to the parameter services of nodes."""
 
     def __init__(self, options: argparse.Namespace) -> None:
-        from teo_ros2cli.graph.session import cli_node
+        from teo_ros2cli.graph.cli_node import cli_node
 
         self._options = options
-        self._session = cli_node(use_sim_time=options.use_sim_time)
+        self._opened = cli_node(use_sim_time=options.use_sim_time)
 
     def __enter__(self) -> _Parameters:
-        from teo_ros2cli.graph.session import settle
+        from teo_ros2cli.graph.cli_node import settle
 
-        self._node = self._session.__enter__()
+        self._node = self._opened.__enter__()
         settle(self._node, self._options.spin_time, names=True)
         return self
 
     def __exit__(self, *details: Any) -> None:
-        self._session.__exit__(*details)
+        self._opened.__exit__(*details)
 
     def nodes(self) -> list[str]:
         own = self._node.get_name()

@@ -127,7 +127,7 @@ def run_call(options: argparse.Namespace) -> int:
         raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
 
     from teo_ros2cli.graph.calls import wait_for
-    from teo_ros2cli.graph.session import cli_node
+    from teo_ros2cli.graph.cli_node import cli_node
 
     with cli_node() as node:
         client = node.create_client(cls, options.service_name)
@@ -145,7 +145,7 @@ def run_call(options: argparse.Namespace) -> int:
 
 
 def _services(options: argparse.Namespace, hidden: bool) -> list[tuple[str, list[str]]]:
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     with cli_node(use_sim_time=options.use_sim_time) as node:
         settle(node, options.spin_time)

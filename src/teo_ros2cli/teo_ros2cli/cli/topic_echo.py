@@ -88,9 +88,9 @@ def run(options: argparse.Namespace) -> int:
             `ambiguous_type`.
     """
     from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.listening import listen
     from teo_ros2cli.graph.qos import from_options, to_record
-    from teo_ros2cli.graph.session import cli_node, settle
     from teo_ros2cli.graph.topics import full_topic_name, only_type
     from teo_ros2cli.messages.classes import message_class
 

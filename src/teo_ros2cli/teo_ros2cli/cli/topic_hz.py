@@ -51,8 +51,8 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`, `invalid_filter`.
     """
     from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.listening import ANYTHING, listen
-    from teo_ros2cli.graph.session import cli_node, settle
     from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
     from teo_ros2cli.messages.classes import message_class
 

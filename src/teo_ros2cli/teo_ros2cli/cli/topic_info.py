@@ -28,7 +28,7 @@ def run(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `topic_unknown` or `invalid_topic`.
     """
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.topics import full_topic_name, topic_types
 
     with cli_node(use_sim_time=options.use_sim_time, rosout=False) as node:

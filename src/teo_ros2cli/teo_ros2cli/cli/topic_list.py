@@ -96,7 +96,7 @@ def run_find(options: argparse.Namespace) -> int:
 
 
 def _topics(options: argparse.Namespace) -> list[_Topic]:
-    from teo_ros2cli.graph.session import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, settle
 
     with cli_node(use_sim_time=options.use_sim_time) as node:
         settle(node, options.spin_time)

@@ -107,8 +107,8 @@ def run(options: argparse.Namespace) -> int:
     except Ros2CliError as error:
         raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
 
+    from teo_ros2cli.graph.cli_node import cli_node
     from teo_ros2cli.graph.qos import from_options
-    from teo_ros2cli.graph.session import cli_node
     from teo_ros2cli.graph.topics import full_topic_name
 
     with cli_node(options.node_name, use_sim_time=options.use_sim_time) as node:
