@@ -10,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+# rclpy checks the types of message fields only when asked to; a wrong one can end the process.
+os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
+
 # Domain IDs up to 101 keep DDS ports below Linux's ephemeral range (ROS 2 documentation, "The
 # ROS_DOMAIN_ID"). 0 to 19 are left to people.
 _DOMAINS = range(20, 102)

@@ -34,6 +34,8 @@ if [ -f "$_teo_root/.venv/lib/librcl.so" ]; then # ROS 2 from the PyPI wheels, n
     _teo_prepend LD_LIBRARY_PATH "$_teo_root/.venv/lib"
 fi
 . "$_teo_root/install/setup.$_teo_shell"
+# Participants find each other within a quarter of a second instead of up to three (see the file).
+export FASTRTPS_DEFAULT_PROFILES_FILE="${FASTRTPS_DEFAULT_PROFILES_FILE:-$_teo_root/install/share/teo_ros2cli/config/fastdds.xml}"
 # Last on the path: a genuine ros2 command, where there is one, is found first.
 case ":$PATH:" in
     *":$_teo_root/install/lib/teo_ros2cli:"*) ;;

@@ -36,8 +36,9 @@ class MotionWatch:
             self._away_since += by
 
     def is_reached(self, robot: RobotState) -> bool:
-        """Whether joint states of after the end show the robot there."""
-        if self.elapsed(robot.oldest) < self.motion.duration:
+        """Whether joint states of after the end show the robot there, at rest."""
+        # A robot that is a little late is within the tolerance, but still moving: no start for the next motion.
+        if self.elapsed(robot.oldest) < self.motion.duration or not robot.is_still:
             return False
         return robot.farthest(self.motion.positions[-1])[0] <= self.settings.goal_tolerance
 
@@ -50,7 +51,7 @@ class MotionWatch:
         found = "no joint states since"
         if self.elapsed(robot.oldest) >= self.motion.duration:
             distance, joint = robot.farthest(self.motion.positions[-1])
-            found = f"{joint} {distance:.3f} rad away from it"
+            found = f"{joint} {distance:.3f} rad away from it" + ("" if robot.is_still else ", moving")
         patience = self.settings.goal_time
         message = f"expected every joint at rest {patience:g} s after the end, got {found}"
         return PlanError("not_reached", message)

@@ -73,6 +73,11 @@ class RobotState:
         """When the joint was heard of that has been silent longest [s]; minus infinity if one never was."""
         return float(self._seen.min())
 
+    @property
+    def is_still(self) -> bool:
+        """Whether no joint moves."""
+        return not self._velocities.any()
+
     def shift_clock(self, by: float) -> None:
         """Follow a clock that was set by so much [s]."""
         self._seen += by
