@@ -36,8 +36,10 @@ def list_signs(
     lut: Directory = None, kind: Annotated[str | None, typer.Option(help="lexical, letter or number.")] = None
 ) -> None:
     """One line a sign: gloss, kind, hands, duration, knots, source."""
-    table = Table("gloss", "kind", "hands", "duration [s]", "knots", box=None)
-    table.add_column("source", no_wrap=True)
+    table = Table(box=None)
+    for name in ("gloss", "kind", "hands", "duration [s]", "knots"):
+        table.add_column(name, no_wrap=True)
+    table.add_column("source")
     count = bad = 0
     signs = _open(lut)
     for gloss in signs.glosses():
@@ -49,10 +51,8 @@ def list_signs(
             continue
         if kind is None or sign.kind == kind:
             count += 1
-            duration = f"{sign.duration:.2f}"
-            table.add_row(
-                gloss, sign.kind, sign.handedness, duration, str(len(sign.times)), sign.provenance.source
-            )
+            duration, source = f"{sign.duration:.2f}", sign.provenance.source.partition(",")[0]
+            table.add_row(gloss, sign.kind, sign.handedness, duration, str(len(sign.times)), source)
     _output.print(table)
     _output.print(f"{count} signs in {signs.directory}" + (f", {bad} entries not valid" if bad else ""))
 

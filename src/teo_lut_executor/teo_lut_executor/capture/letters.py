@@ -33,8 +33,9 @@ Frames = NDArray[np.int64]
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 
-_TOLERANCE = np.radians(1.2)
-"""[rad] Knots follow the recorded motion to this; a landmark's jitter of a pixel makes half of it."""
+_TOLERANCE = np.radians(2.0)
+"""[rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
+the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement."""
 _OUT_OF_REACH = np.radians(20.0)
 """[rad] A palm that is farther than this from the person's is worth giving up place and shape for."""
 _SAME_ARM = {"N": "M", "Ñ": "M"}
