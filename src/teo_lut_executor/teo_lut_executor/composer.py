@@ -243,11 +243,11 @@ class _Composer:
         """How long the last knot is held beyond what the sign itself holds it [s], at a scale of 1."""
         moving = np.flatnonzero(np.abs(sign.knots - sign.knots[-1]).max(axis=1) > _STILL)
         still = sign.duration - float(sign.times[moving[-1] + 1]) if moving.size else sign.duration
-        hold = 0.0
+        hold = still
         if token.spelled:
-            hold = self._style.letter_hold * (self._style.last_letter_hold if ends_word else 1.0)
+            hold = max(still, self._style.letter_hold) * (self._style.last_letter_hold if ends_word else 1.0)
         elif not moving.size:
-            hold = self._style.posture_hold
+            hold = max(still, self._style.posture_hold)
         if ends_sentence:
             hold = max(hold, self._style.final_hold)
         return max(0.0, hold - still)

@@ -6,11 +6,10 @@ answered by another call. `step` is to be called some times a second.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from teo_lut_executor.execution_events import (
     Activity,
@@ -32,8 +31,14 @@ from teo_lut_executor.queue_settings import QueueSettings
 from teo_lut_executor.robot_state import RobotState
 from teo_lut_executor.stopping import stop
 
-# How often a way back to rest is sent again when the robot does not take it up.
-_MOST_RETURNS = 3
+# How often a way back to rest is sent when the robot does not take it up: a driver may refuse one from a
+# robot in motion, when a joint is about to reach a limit say, and take the next.
+_MOST_RETURNS = 5
+
+# How far from its way back the robot may be before the next is sent [rad], and for how long [s]: it stands
+# still at its start, so that it lags behind by little.
+_RETURN_TOLERANCE = 0.05
+_RETURN_TIME = 0.1
 
 
 @dataclass(kw_only=True, eq=False)
@@ -150,8 +155,10 @@ class ExecutionQueue:
         current = self._current
         if current is None:
             return []
-        begin = now + current.lead
-        current.watch = MotionWatch(motion=plan, started=begin, settings=self.settings)
+        settings = self.settings
+        if current.returns < _MOST_RETURNS:
+            settings = replace(settings, path_tolerance=_RETURN_TOLERANCE, path_time=_RETURN_TIME)
+        current.watch = MotionWatch(motion=plan, started=now + current.lead, settings=settings)
         return [TrajectoryReady(plan=plan, lead=current.lead)]
 
     def return_not_planned(self) -> list[Event]:
@@ -247,7 +254,7 @@ class ExecutionQueue:
         if not current.returns and elapsed >= last.start + last.duration:
             return []  # on its way to rest already
         current.returns += 1
-        moving = dataclasses.replace(self._robot.state(), acceleration=watch.motion.at(elapsed)[2])
+        moving = replace(self._robot.state(), acceleration=watch.motion.at(elapsed)[2])
         end, current.lead = stop(moving, self.limits)
         return [ReturnWanted(start=end)]
 
@@ -262,7 +269,7 @@ class ExecutionQueue:
     ) -> list[Event]:
         self._current = None
         timings = () if current.plan is None else current.plan.timings
-        said = message if error is None else str(error)
+        said = message if error is None else f"{error.code}: {error}"
         finished = Finished(ticket=current.ticket, outcome=outcome, message=said, timings=timings)
         if error is None:
             return [finished]

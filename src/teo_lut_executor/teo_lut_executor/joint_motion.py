@@ -61,9 +61,17 @@ class Pieces:
 
     def range(self) -> tuple[Array, Array]:
         """Least and greatest position along the last axis [rad]."""
-        lengths = np.stack([np.zeros_like(self.lengths), self.lengths, *self.turns()])
-        reached = self.after(lengths)[0]
-        return reached.min(axis=(0, -1)), reached.max(axis=(0, -1))
+        times = np.empty((3, *self.lengths.shape))
+        times[0], times[1:] = self.lengths, self.turns()
+        t = times
+        reached = self.positions + t * (
+            self.velocities + t * (self.accelerations / 2.0 + t * (self.jerks / 6.0))
+        )
+        first = self.positions[..., 0]
+        return (
+            np.minimum(reached.min(axis=(0, -1)), first),
+            np.maximum(reached.max(axis=(0, -1)), first),
+        )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -140,16 +148,17 @@ class JointMotionBuilder:
         self._starts.append(begins[lasting])
         self._pieces.append(take(pieces, lasting))
 
-    def hold(self, start: float, position: float, length: float) -> None:
-        """Stand still from a time on [s], at a position [rad], for a time [s]."""
+    def hold(self, start: float, position: float) -> None:
+        """Stand still from a time on [s], at a position [rad], until the next pieces begin."""
+        zero = np.zeros(1)
         self.add(
             start,
             Pieces(
-                lengths=np.array([length]),
+                lengths=np.ones(1),
                 positions=np.array([position]),
-                velocities=np.zeros(1),
-                accelerations=np.zeros(1),
-                jerks=np.zeros(1),
+                velocities=zero,
+                accelerations=zero,
+                jerks=zero,
             ),
         )
 

@@ -17,11 +17,11 @@ from teo_lut_executor.state_to_state import Bounds
 # 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 12 N m (3.2
 # at the elbow, 0.8 at the wrist) beside the at most 27 N m with which it carries the arm. Signers reach
 # several times as much, but letters that shake gain little from more: they are short of velocity.
-DEFAULT_ACCELERATION = math.radians(400.0)  # [rad/s^2]
+DEFAULT_ACCELERATION = 7.0  # [rad/s^2], 401 deg/s^2
 
 # The acceleration builds up in 0.07 s, more than three of the 0.02 s at which TEO's drives are sent
 # set-points, so that it reaches them as a ramp and not as a step.
-DEFAULT_JERK = math.radians(6000.0)  # [rad/s^3]
+DEFAULT_JERK = 105.0  # [rad/s^3], 6016 deg/s^3
 
 # The driver interpolates between the points of a trajectory with the quintic that meets position, velocity
 # and acceleration at both. Where the plan's jerk changes in between, the two differ, by at most these numbers

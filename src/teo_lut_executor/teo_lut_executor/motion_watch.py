@@ -37,7 +37,7 @@ class MotionWatch:
 
     def is_reached(self, robot: RobotState) -> bool:
         """Whether joint states of after the end show the robot there, at rest."""
-        # A robot that is a little late is within the tolerance, but still moving: no start for the next motion.
+        # A robot a little late is within the tolerance, but still moving: no start for the next motion.
         if self.elapsed(robot.oldest) < self.motion.duration or not robot.is_still:
             return False
         return robot.farthest(self.motion.positions[-1])[0] <= self.settings.goal_tolerance

@@ -63,7 +63,7 @@ def _plan(
         planner = Planner(Lut.open(lut), limits=limits, robot=Robot.load())
         plan = planner.plan(parse_printed(sentence))
         _out.print(_table(plan))
-        _out.print(_summary(plan), highlight=False)
+        _out.print(_summary(plan), highlight=False, soft_wrap=True)
         _write(plan, csv, mp4, strip)
     except (PlanError, LutError, DescriptionError) as error:
         _complain(f"{error.code}: {error}")
@@ -74,7 +74,8 @@ def _plan(
 
 
 def _table(plan: Plan) -> Table:
-    table = Table("token", "kind", "start [s]", "duration [s]", "stretch")
+    # Rich takes "[s]" for markup.
+    table = Table("token", "kind", r"start \[s]", r"duration \[s]", "stretch")
     for timing in plan.timings:
         token = timing.token
         cells = (f"{value:.2f}" for value in (timing.start, timing.duration, timing.stretch))

@@ -87,15 +87,25 @@ class Move:
     def pieces(self) -> Pieces:
         """Row for row the pieces of each joint, in order; some have no length. Shape (m, k)."""
         # The brake comes first: what brings a joint that starts beyond its limits back within them.
-        parts = [(item.brake, item) for item in self._trajectory.profiles[0]]
-        lengths = np.array([[*brake.t, *item.t] for brake, item in parts])
-        positions = np.array([[*brake.p, *item.p[:-1]] for brake, item in parts])
+        table = np.array(
+            [
+                (
+                    (*brake.t, *item.t),
+                    (*brake.p, *item.p[:-1]),
+                    (*brake.v, *item.v[:-1]),
+                    (*brake.a, *item.a[:-1]),
+                    (*brake.j, *item.j),
+                )
+                for brake, item in ((item.brake, item) for item in self._trajectory.profiles[0])
+            ]
+        )
+        lengths, positions = table[:, 0], table[:, 1]
         return Pieces(
             lengths=lengths,
             positions=np.where(lengths > 0.0, positions, self._start.position[:, None]),
-            velocities=np.array([[*brake.v, *item.v[:-1]] for brake, item in parts]),
-            accelerations=np.array([[*brake.a, *item.a[:-1]] for brake, item in parts]),
-            jerks=np.array([[*brake.j, *item.j] for brake, item in parts]),
+            velocities=table[:, 2],
+            accelerations=table[:, 3],
+            jerks=table[:, 4],
         )
 
 
@@ -107,6 +117,7 @@ class Mover:
         self._joints = joints
         self._generator = ruckig.Ruckig(joints)
         self._input = ruckig.InputParameter(joints)
+        self._bounds: Bounds | None = None  # as given last
 
     def move(self, start: State, end: State, bounds: Bounds, *, duration: float) -> Move | None:
         """The move from one state to another that takes a given time, or as little more as it must.
@@ -130,9 +141,11 @@ class Mover:
         given.target_position = self._list("end position", end.position)
         given.target_velocity = self._list("end velocity", end.velocity)
         given.target_acceleration = self._list("end acceleration", end.acceleration)
-        given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
-        given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
-        given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
+        if bounds is not self._bounds:
+            given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
+            given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
+            given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
+            self._bounds = bounds
         given.minimum_duration = duration
         trajectory = ruckig.Trajectory(self._joints)
         try:

@@ -114,9 +114,9 @@ class StationTiming:
                     pieces = self._final_move(chain, index).pieces
                     for row, column in enumerate(chain.columns):
                         builders[column].add(begin, take(pieces, row))
-                else:
+                elif index == 0 or index - 1 in moving:  # else the joints stand still already
                     for column, position in zip(chain.columns, chain.positions[index].tolist(), strict=True):
-                        builders[column].hold(begin, position, chain.duration(index))
+                        builders[column].hold(begin, position)
         return tuple(builder.build(float(times[-1])) for builder in builders)
 
     def _want(self, chain: JointChain, index: int, needed: float, *, most: float = math.inf) -> bool:

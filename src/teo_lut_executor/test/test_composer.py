@@ -72,6 +72,9 @@ def test_a_hold_that_the_sign_has_itself_counts(
     assert composition.spans[0].asked == pytest.approx(0.3 + STYLE.letter_hold)
     long = {"B": make_sign("B", knots, [0.0, 0.3, 1.5], kind="letter")}
     assert composed(long | dict(table), "B-A").spans[0].asked == pytest.approx(1.5)
+    assert composed(long | dict(table), "B").spans[0].asked == pytest.approx(
+        0.3 + 1.2 * STYLE.last_letter_hold
+    )
 
 
 def test_the_hands_stay_a_little_after_a_spelled_word(table: Mapping[str, Sign]) -> None:
