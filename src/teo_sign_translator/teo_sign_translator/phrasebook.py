@@ -149,7 +149,7 @@ class Phrasebook:
         if word.kind is not WordKind.LETTERS:
             return False
         entry = self._glosses.find(word.lower)
-        return entry is None or (word.parts[0].istitle() and not entry.function)
+        return entry is None or word.parts[0].istitle()
 
 
 def _pattern(pair: AlignedPair) -> Pattern:

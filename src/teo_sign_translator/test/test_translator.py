@@ -39,6 +39,8 @@ def _word(sentence: Sentence, source: str) -> Token:
         ("Me llamo Guillermo", "MI NOMBRE G-U-I-LL-E-R-M-O"),
         ("Me llamo Íñigo Curro", "MI NOMBRE I-Ñ-I-G-O C-U-RR-O"),
         ("Me llamo María del Carmen de la Torre", "MI NOMBRE M-A-R-I-A D-E-L C-A-R-M-E-N D-E L-A T-O-RR-E"),
+        ("Me llamo Al", "MI NOMBRE A-L"),  # also a word that LSE leaves out: the capital makes it a name
+        ("Me llamo De la Cruz", "MI NOMBRE D-E L-A C-R-U-Z"),
         ("Yo tengo 7 años", "YO EDAD 7"),
         ("Yo tengo siete años", "YO EDAD 7"),
         ("Tengo treinta y cinco años", "YO EDAD 35"),
