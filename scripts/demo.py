@@ -138,7 +138,7 @@ def sign(text: str, out: Path, console: Console) -> bool:
     )
     console.print("  bag/ (MCAP), signing.mp4, signing.png, log/")
     for refusal in spectator.progress.refusals:
-        console.print(f"[red]not signed: {refusal}[/red]")
+        console.print(f"not signed: {refusal}", style="red", markup=False)
     return spectator.progress.signed
 
 
@@ -175,7 +175,7 @@ def perform(
             "executor",
         )
     spectator.start_filming()
-    console.print(f"ros2 topic pub --once text std_msgs/msg/String  [bold]{text}[/bold]")
+    console.print(f"signing: {text}", markup=False)
     message = f"{{data: {yaml_quoted(text)}}}"
     # Both the translator and the recorder are to get it: "once" alone waits for the first of them.
     publish = ["ros2", "topic", "pub", "--once", "-w", "2", "text", "std_msgs/msg/String", message]
@@ -238,7 +238,7 @@ def main(
     try:
         signed = sign(text, out, console)
     except (DemoError, GraphError) as error:
-        console.print(f"[red]{error}[/red]")
+        console.print(str(error), style="red", markup=False)
         signed = False
     if not signed:
         sys.exit(1)
