@@ -1,9 +1,9 @@
 """Time from a text on `text` to its first JointTrajectory, through the real translator and executor.
 
-The bench stands in for driver and clock: as soon as a trajectory arrives it sets simulated time past the
-trajectory's end and reports the robot there, so that 200 sentences take seconds instead of the hour that
-signing them would take. The baseline, in the same run, is the same text echoed by a process that does nothing
-with it: what DDS alone costs.
+The bench stands in for driver and clock: simulated time runs with real time, and as soon as a trajectory
+arrives it is set past the trajectory's end and the robot reported there, so that 200 sentences take seconds
+instead of the hour that signing them would take. The baseline, in the same run, is the same text echoed by a
+process that does nothing with it: what DDS alone costs.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _TEXTS = (
     "Dame la mano",
 )
 _TIMEOUT = 60.0  # [s] for one answer, start of the processes included
-_TICK = 0.005  # [s] between clock messages while waiting
+_TICK = 0.002  # [s] between clock messages
 
 _ECHO = """
 import rclpy
@@ -84,23 +84,21 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     home = JointState(
         name=list(ALL_JOINTS), position=[HOME[name] for name in ALL_JOINTS], velocity=[0.0] * 40
     )
-    now = 1.0
+    ahead = 0.0  # of simulated time before real time [s]
 
-    def tick(seconds: float = _TICK) -> None:
-        nonlocal now
-        now += seconds
+    def tick() -> None:
+        now = time.monotonic() + ahead
         home.header.stamp.sec, home.header.stamp.nanosec = int(now), int(now % 1 * 1e9)
         clock.publish(Clock(clock=home.header.stamp))
         joints.publish(home)
 
-    def wait(condition: Callable[[], bool], ticking: bool) -> None:
+    def wait(condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + _TIMEOUT
         while not condition():
             if time.monotonic() > deadline:
                 raise TimeoutError(f"no answer within {_TIMEOUT} s")
             graph.check()
-            if ticking:
-                tick()
+            tick()
             executor.spin_once(timeout_sec=_TICK)
 
     latencies: dict[str, list[float]] = {"text to trajectory": [], "DDS echo": []}
@@ -109,24 +107,21 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
         simulated = ("--ros-args", "-p", "use_sim_time:=true")
         graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)
         graph.start("echo", sys.executable, "-c", _ECHO)
-        wait(
-            lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1,
-            ticking=True,
-        )
-        wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states, ticking=True)
+        wait(lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1)
+        wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states)
         for index in range(sentences):
             inbox.trajectories.clear()
             inbox.echoes.clear()
             start = time.perf_counter()
             text.publish(String(data=_TEXTS[index % len(_TEXTS)]))
-            wait(lambda: bool(inbox.echoes), ticking=False)
+            wait(lambda: bool(inbox.echoes))
             latencies["DDS echo"].append(time.perf_counter() - start)
-            wait(lambda: bool(inbox.trajectories), ticking=False)
+            wait(lambda: bool(inbox.trajectories))
             latencies["text to trajectory"].append(time.perf_counter() - start)
             inbox.states.clear()
             end = inbox.trajectories[0].points[-1].time_from_start
-            tick(end.sec + end.nanosec * 1e-9 + 0.1)
-            wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states, ticking=True)
+            ahead += end.sec + end.nanosec * 1e-9 + 0.1
+            wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states)
     node.destroy_node()
     rclpy.shutdown()
     return [percentiles(name, values) for name, values in latencies.items()]
