@@ -56,7 +56,7 @@ _OVERLAP = 15.0
 """Weight of overlap: stronger than any wish."""
 _SPREAD_ENDS = np.radians(60.0)
 """[rad] Spread is no longer seen in a finger that is bent so much in all."""
-_STARTS = np.radians([[2.0, 10.0], [30.0, 10.0], [60.0, 10.0], [88.0, 10.0], [20.0, 50.0], [60.0, 50.0]])
+_STARTS = np.radians([[abductor, thumb] for abductor in (2.0, 30.0, 60.0, 88.0) for thumb in (10.0, 40.0)])
 """[rad] Abductor and thumb from which the search sets out: it has several valleys."""
 _TOUCH = 0.018
 """[m] Distance of the tips' axes when thumb and finger touch: two radii."""
