@@ -20,4 +20,4 @@ def _home() -> Mapping[str, float]:
 
 # From the tables and not from the URDF, so that this package can be imported to build a missing URDF.
 HOME: Mapping[str, float] = _home()
-"""TEO's park pose [rad], all 40 joints: body at 0, fingers and thumb at their lower limit, abductors at 0."""
+"""TEO's park pose [rad], all 40 joints: fingers at their lower limit of 7 deg, all others at 0."""

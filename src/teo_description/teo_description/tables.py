@@ -27,7 +27,8 @@ class JointRow:
         origin: Position in the parent link frame [m].
         axis: Unit vector in that frame.
         lower, upper: Limits [rad].
-        follows: Joint whose value this one copies, or None.
+        follows: Joint that this one follows, or None.
+        multiplier, offset: Its value is multiplier times the other's plus offset [rad], if it follows.
     """
 
     name: str
@@ -37,6 +38,8 @@ class JointRow:
     lower: float
     upper: float
     follows: str | None = None
+    multiplier: float = 1.0
+    offset: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,23 +109,32 @@ def body_joints() -> tuple[JointRow, ...]:
 
 
 def hand_joints(side: str) -> tuple[JointRow, ...]:
-    """The 15 joints of the Dextra hand of a side, ``"Left"`` or ``"Right"``."""
+    """The 15 joints of the Dextra hand of a side, ``"Left"`` or ``"Right"``.
+
+    A joint that follows goes through its range as the joint that it follows goes through its own.
+    """
     mirror = side == "Left"
-    joints = []
+    joints: dict[str, JointRow] = {}
     for row in _rows("hand_joints.csv"):
         origin, axis = _vector(row, "x", "y", "z"), AXES[row["axis"]]
-        joints.append(
-            JointRow(
-                name=side + row["joint"],
-                parent=f"{side}{row['parent']}_link",
-                origin=_mirrored(origin) if mirror else origin,
-                axis=_mirrored_axial(axis) if mirror else axis,
-                lower=math.radians(float(row["lower_deg"])),
-                upper=math.radians(float(row["upper_deg"])),
-                follows=side + row["follows"] if row["follows"] else None,
-            )
+        joint = JointRow(
+            name=side + row["joint"],
+            parent=f"{side}{row['parent']}_link",
+            origin=_mirrored(origin) if mirror else origin,
+            axis=_mirrored_axial(axis) if mirror else axis,
+            lower=math.radians(float(row["lower_deg"])),
+            upper=math.radians(float(row["upper_deg"])),
         )
-    return tuple(joints)
+        if row["follows"]:
+            joint = _following(joint, joints[side + row["follows"]])
+        joints[joint.name] = joint
+    return tuple(joints.values())
+
+
+def _following(joint: JointRow, leader: JointRow) -> JointRow:
+    multiplier = (joint.upper - joint.lower) / (leader.upper - leader.lower)
+    offset = joint.lower - multiplier * leader.lower
+    return replace(joint, follows=leader.name, multiplier=multiplier, offset=offset)
 
 
 def inertials() -> dict[str, Inertial]:

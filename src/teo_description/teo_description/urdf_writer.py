@@ -29,7 +29,7 @@ _HEAD_COMMENT = """
   TEO, the humanoid of Universidad Carlos III de Madrid, with two Dextra hands. Written by `build_urdf` from
   the tables in teo_description/data, where every figure names its source: do not edit.
   Units: m, rad, kg. x forward, y left, z up. Joint effort limits and the hands' masses are placeholders.
-  Velocity limits: 50 deg/s on every axis. Phalanges beyond the first copy it (mimic).
+  Velocity limits: 50 deg/s on every axis. Phalanges beyond the first follow it (mimic).
   """
 
 
@@ -120,7 +120,8 @@ def _add_joint(root: ET.Element, joint: JointRow) -> None:
     )
     ET.SubElement(element, "dynamics", damping=_number(DAMPING), friction=_number(FRICTION))
     if joint.follows:
-        ET.SubElement(element, "mimic", joint=joint.follows, multiplier="1", offset="0")
+        multiplier, offset = _number(joint.multiplier), _number(joint.offset)
+        ET.SubElement(element, "mimic", joint=joint.follows, multiplier=multiplier, offset=offset)
 
 
 def _add_fixed(root: ET.Element, frame: FixedFrame, joint: str | None = None) -> None:

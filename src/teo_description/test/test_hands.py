@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,22 @@ class TestAtHome:
             assert moved[1] * medial > 0.02
             assert moved[0] == pytest.approx(0.0, abs=1e-12)
 
+    def test_thumb_can_stand_out_from_the_hand(self, robot, side, medial):  # noqa: ARG002 - class parameters
+        q = robot.configuration({f"{side}ThumbFinger": -np.pi / 2})
+        knuckle, tip = robot.placements(q, [f"{side}ThumbFinger_link", f"{side}ThumbFingerTip"])[:, :3, 3]
+        along = (tip - knuckle) / np.linalg.norm(tip - knuckle)
+        assert abs(along[2]) < 0.1  # across the fingers, which hang down,
+        assert along[0] > 0.99  # away from them
+
+    def test_thumb_and_index_can_touch(self, robot, side, medial):  # noqa: ARG002 - class parameters
+        axes = [f"{side}{axis}" for axis in ("HandAbductor", "ThumbFinger", "IndexFinger")]
+        gaps = []
+        for angles in product(range(60, 85, 6), range(-70, -29, 5), range(30, 61, 5)):
+            q = robot.configuration(dict(zip(axes, np.radians(angles).tolist(), strict=True)))
+            tips = robot.placements(q, [f"{side}ThumbFingerTip", f"{side}IndexFingerTip"])[:, :3, 3]
+            gaps.append(np.linalg.norm(tips[0] - tips[1]))
+        assert min(gaps) < 0.020  # [m]: two radii of 9 mm and the grid's step
+
     def test_thumb_stands_in_front_of_the_index_finger(self, robot, side, medial):  # noqa: ARG002 - class parameters
         q = robot.configuration({})
         thumb, index = robot.placements(q, [f"{side}ThumbFingerTip", f"{side}IndexFingerTip"])[:, :3, 3]
@@ -91,6 +109,20 @@ class TestAtHome:
         frames = [f"{side}{finger}Finger_link" for finger in FINGERS]
         x = robot.placements(robot.configuration({}), frames)[:, 0, 3]
         assert list(x) == sorted(x, reverse=True)
+
+
+@pytest.mark.parametrize(("first", "second"), [(-90, 7), (-45, 26.5), (0, 46), (30, 59), (90, 85)])
+def test_the_thumbs_second_joint_follows_the_first_over_its_whole_range(robot, first, second):
+    q = robot.configuration({"RightThumbFinger": np.radians(first)})
+    knuckle, joint, tip = robot.placements(
+        q, ["RightThumbFinger_link", "RightThumbFingerDistal_link", "RightThumbFingerTip"]
+    )[:, :3, 3]
+    # 30 mm of first phalanx; both joints turn about y, flexion towards the fingers (from +x over -z to -x).
+    for (start, end), angle in (((knuckle, joint), first), ((joint, tip), first + second)):
+        along = (end - start) / np.linalg.norm(end - start)
+        expected = [-np.sin(np.radians(angle)), 0.0, -np.cos(np.radians(angle))]
+        assert along == pytest.approx(expected, abs=1e-9)
+    assert np.linalg.norm(joint - knuckle) == pytest.approx(0.030)
 
 
 def test_phalanges_copy_the_first_one(robot):

@@ -50,8 +50,9 @@ PUBLISHED = {
     "FrontalRightAnkle": (-23.1, 25.4),
     "SagittalRightAnkle": (-19.9, 42.5),
 }
-HAND = {"HandAbductor": (0.0, 90.0)} | {
-    f"{finger}Finger": (7.0, 85.0) for finger in ("Thumb", "Index", "Middle", "Ring", "Pinky")
+# dextra-yarp-devices, share/gz-sim/models/dextra_right/dextra_right.sdf, flexion positive.
+HAND = {"HandAbductor": (0.0, 90.0), "ThumbFinger": (-90.0, 90.0)} | {
+    f"{finger}Finger": (7.0, 85.0) for finger in ("Index", "Middle", "Ring", "Pinky")
 }
 PUBLISHED |= {side + name: limits for side in ("Left", "Right") for name, limits in HAND.items()}
 
@@ -112,10 +113,9 @@ def test_home_is_within_limits_and_names_every_joint():
     assert len(HOME) == 40
     assert (limits.lower <= home).all()
     assert (home <= limits.upper).all()
-    assert {name for name in HOME if HOME[name] != 0.0} == {
-        name for name in ALL_JOINTS if name.endswith("Finger")
-    }
-    assert HOME["LeftThumbFinger"] == math.radians(7.0)
+    fingers = {name for name in ALL_JOINTS if name.endswith("Finger") and "Thumb" not in name}
+    assert {HOME[name] for name in fingers} == {math.radians(7.0)}
+    assert {HOME[name] for name in set(ALL_JOINTS) - fingers} == {0.0}
 
 
 def test_robot_is_a_tree_from_base_link(tree):
@@ -137,7 +137,21 @@ def test_every_joint_of_the_state_is_in_the_urdf_and_only_phalanges_follow(tree)
     assert len(following) == 18
     for name, mimic in following.items():
         assert name.removesuffix("Distal").removesuffix("Middle") == mimic["joint"]
-        assert (float(mimic["multiplier"]), float(mimic["offset"])) == (1.0, 0.0)
+        thumb = (78.0 / 180.0, math.radians(46.0))
+        expected = thumb if "Thumb" in name else (1.0, 0.0)
+        assert (float(mimic["multiplier"]), float(mimic["offset"])) == pytest.approx(expected, abs=1e-12)
+
+
+def test_following_joints_stay_within_their_own_limits(tree):
+    joints = {joint.attrib["name"]: joint for joint in tree.iter("joint")}
+    for name, joint in joints.items():
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            leader = joints[mimic.attrib["joint"]]
+            for end in ("lower", "upper"):
+                led = float(mimic.attrib["multiplier"]) * float(leader.find("limit").attrib[end])
+                led += float(mimic.attrib["offset"])
+                assert led == pytest.approx(float(joint.find("limit").attrib[end]), abs=1e-9), name
 
 
 def test_robot_weighs_what_the_manual_says_with_its_hands_exchanged(robot):

@@ -87,10 +87,10 @@ def test_demonstrated_signs_take_the_published_times_and_end_with_its_pause() ->
 
 
 def test_hand_motors_become_flexions_by_the_documented_line() -> None:
-    # Home is 7 deg at 0 mm; the whole travel of 20 mm (thumb 10 mm) is 85 deg.
-    assert np.degrees(flexions((0, 0, 0, 0, 0, 0))) == pytest.approx([0, 7, 7, 7, 7, 7])
-    assert np.degrees(flexions((90, 10, 20, 20, 20, 20))) == pytest.approx([90, 85, 85, 85, 85, 85])
-    assert column("NOMBRE", RIGHT_HAND)[0] == pytest.approx([40.0, 22.6, 7.0, 7.0, 77.2, 77.2], abs=1e-3)
+    # Fingers: 7 deg at 0 mm, 85 deg at 20 mm; thumb: -90 deg at 0 mm, 90 deg at 10 mm.
+    assert np.degrees(flexions((0, 0, 0, 0, 0, 0))) == pytest.approx([0, -90, 7, 7, 7, 7])
+    assert np.degrees(flexions((90, 10, 20, 20, 20, 20))) == pytest.approx([90, 90, 85, 85, 85, 85])
+    assert column("NOMBRE", RIGHT_HAND)[0] == pytest.approx([40.0, -54.0, 7.0, 7.0, 77.2, 77.2], abs=1e-3)
 
 
 def test_nothing_touches_in_any_of_them(robot: Robot) -> None:

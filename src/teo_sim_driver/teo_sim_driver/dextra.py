@@ -1,10 +1,10 @@
 """The edge to the real Dextra hand: from joint angles to what its motors are told.
 
-Inside the project a finger's axis is the flexion of its proximal phalanx [rad]. The device (RoboticsLab
+Inside the project the axis of a finger or thumb is the flexion of its proximal phalanx [rad]. The device (RoboticsLab
 UC3M, repository dextra-yarp-devices) takes for a finger the tendon wound on its spool, 0..20 mm, for the
 thumb 0..10 mm, and for the thumb's abductor the angle of its servo, 0..90 deg. No measured map from
-tendon to angle is public: this one is the straight line between the ends of both ranges, 7 deg with a
-slack tendon and 85 deg with all of it wound.
+tendon to angle is public: this one is the straight line between the ends of both ranges, with a slack tendon
+and with all of it wound: 7 to 85 deg for a finger, -90 (standing out) to 90 deg for the thumb.
 """
 
 from __future__ import annotations
@@ -20,10 +20,13 @@ from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import DriverError
 
 EXTENDED_DEG = 7.0
-"""Flexion of every phalanx with a slack tendon [deg]."""
+"""Flexion of a finger's phalanges with a slack tendon [deg]."""
 
 FLEXED_DEG = 85.0
-"""Flexion of every phalanx with the tendon wound up [deg]."""
+"""Flexion of a finger's phalanges with the tendon wound up [deg]."""
+
+THUMB_EXTENDED_DEG, THUMB_FLEXED_DEG = -90.0, 90.0
+"""Flexion of the thumb's proximal phalanx with a slack tendon and with the tendon wound up [deg]."""
 
 FINGER_TENDON_MM = 20.0
 """Tendon travel of a finger [mm]."""
@@ -83,8 +86,9 @@ class HandAxis(NamedTuple):
 def _axis(joint: str) -> HandAxis:
     if joint.endswith("HandAbductor"):
         return HandAxis(joint, "deg", ABDUCTOR_DEG, 0.0, ABDUCTOR_DEG)
-    travel = THUMB_TENDON_MM if joint.endswith("ThumbFinger") else FINGER_TENDON_MM
-    return HandAxis(joint, "mm", travel, EXTENDED_DEG, FLEXED_DEG)
+    if joint.endswith("ThumbFinger"):
+        return HandAxis(joint, "mm", THUMB_TENDON_MM, THUMB_EXTENDED_DEG, THUMB_FLEXED_DEG)
+    return HandAxis(joint, "mm", FINGER_TENDON_MM, EXTENDED_DEG, FLEXED_DEG)
 
 
 LEFT_AXES = tuple(_axis(joint) for joint in LEFT_HAND)

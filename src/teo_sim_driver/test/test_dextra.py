@@ -8,6 +8,7 @@ from teo_sim_driver.dextra import LEFT_AXES, RIGHT_AXES, setpoints
 from teo_sim_driver.errors import DriverError
 
 HANDS = LEFT_HAND + RIGHT_HAND
+HOME_SETPOINTS = [0.0, 5.0, 0.0, 0.0, 0.0, 0.0]  # abductor, thumb, fingers
 
 
 @pytest.mark.parametrize(
@@ -16,8 +17,10 @@ HANDS = LEFT_HAND + RIGHT_HAND
         ("LeftIndexFinger", 7.0, 0.0),
         ("LeftIndexFinger", 85.0, 20.0),
         ("RightPinkyFinger", 46.0, 10.0),
-        ("RightThumbFinger", 7.0, 0.0),
-        ("RightThumbFinger", 85.0, 10.0),
+        ("RightThumbFinger", -90.0, 0.0),
+        ("LeftThumbFinger", 0.0, 5.0),
+        ("RightThumbFinger", 7.2, 5.4),
+        ("RightThumbFinger", 90.0, 10.0),
         ("LeftHandAbductor", 0.0, 0.0),
         ("LeftHandAbductor", 57.3, 57.3),
         ("RightHandAbductor", 90.0, 90.0),
@@ -33,7 +36,7 @@ def test_the_letter_t_of_teos_own_demonstration_comes_back():
     letter_t = [57.3, 5.4, 14.9, 4.7, 1.5, 0.0]  # deg, then mm
     angles = [axis.angle(value) for axis, value in zip(RIGHT_AXES, letter_t, strict=True)]
     everything = np.array([HOME[name] for name in LEFT_HAND] + angles)
-    np.testing.assert_allclose(setpoints(HANDS, everything), [0.0] * 6 + letter_t, atol=1e-9)
+    np.testing.assert_allclose(setpoints(HANDS, everything), HOME_SETPOINTS + letter_t, atol=1e-9)
 
 
 def test_the_joint_limits_are_the_ends_of_the_devices_ranges():
@@ -42,9 +45,9 @@ def test_the_joint_limits_are_the_ends_of_the_devices_ranges():
     np.testing.assert_allclose(setpoints(HANDS, limits.upper), [90.0, 10.0, *[20.0] * 4] * 2, atol=1e-9)
 
 
-def test_at_home_every_tendon_is_slack():
+def test_at_home_the_fingers_tendons_are_slack_and_the_thumbs_half_wound():
     home = np.array([HOME[name] for name in COMMANDED_JOINTS])
-    np.testing.assert_allclose(setpoints(COMMANDED_JOINTS, home), 0.0, atol=1e-9)
+    np.testing.assert_allclose(setpoints(COMMANDED_JOINTS, home), HOME_SETPOINTS * 2, atol=1e-9)
 
 
 @pytest.mark.parametrize("degrees", [6.9, 85.1, math.nan, math.inf])

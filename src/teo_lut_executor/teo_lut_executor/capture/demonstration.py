@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import HOME, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
 from teo_lut_executor.capture.measures import clearance_mm, limit_margin_deg
 from teo_lut_executor.lut_error import LutError
@@ -30,7 +30,11 @@ SPELLING_POSES = {
 
 _PAUSE = 0.5  # [s], after each sign of the demonstration
 _FINGER_TRAVEL, _THUMB_TRAVEL = 20.0, 10.0  # [mm] of tendon, straight to bent
-_STRAIGHT, _BENT = 7.0, 85.0  # [deg] flexion at both ends of the travel
+# [deg] Flexion of the proximal phalanx at both ends of the travel: fingers, thumb.
+_STRAIGHT, _BENT = 7.0, 85.0
+_THUMB_OUT, _THUMB_BENT = -90.0, 90.0
+_OPEN_HAND = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+"""Every motor at rest, tendons slack: the thumb stands out from the straight fingers."""
 _ROUNDING = np.radians(0.05)
 """[rad] The poses are published to a tenth of a degree: a joint beyond its limit by half of that is on it."""
 
@@ -46,8 +50,7 @@ class _Demonstrated:
     left_arm: tuple[float, ...] | None
     """Pose held meanwhile [deg]; None where the left arm takes no part."""
     hands: tuple[float, ...] | None
-    """Abductor [deg], thumb, index, middle, ring, little finger [mm of tendon]; None for open hands
-    (home)."""
+    """Abductor [deg], thumb, index, middle, ring, little finger [mm of tendon]; None for open hands."""
     notes: str
 
 
@@ -89,7 +92,7 @@ def flexions(motors: tuple[float, ...]) -> Array:
     """Hand motor positions as flexions.
 
     No measured map from tendon to joint is public; a straight line over the whole travel is assumed: flexion
-    = 7 deg + 78 deg * tendon / 20 mm for a finger, / 10 mm for the thumb.
+    = 7 deg + 78 deg * tendon / 20 mm for a finger, -90 deg + 180 deg * tendon / 10 mm for the thumb.
 
     Args:
         motors: Abductor [deg], thumb and four fingers [mm].
@@ -97,10 +100,10 @@ def flexions(motors: tuple[float, ...]) -> Array:
     Returns:
         The six axes of a hand [rad]. Shape (6,).
     """
-    tendon = np.array(motors[1:])
-    travel = np.array([_THUMB_TRAVEL] + 4 * [_FINGER_TRAVEL])
-    flexion = _STRAIGHT + (_BENT - _STRAIGHT) * tendon / travel
-    axes: Array = np.radians(np.concatenate([[motors[0]], flexion]))
+    abductor, thumb, *fingers = motors
+    thumb_flexion = _THUMB_OUT + (_THUMB_BENT - _THUMB_OUT) * thumb / _THUMB_TRAVEL
+    flexion = _STRAIGHT + (_BENT - _STRAIGHT) * np.array(fingers) / _FINGER_TRAVEL
+    axes: Array = np.radians([abductor, thumb_flexion, *flexion])
     return axes
 
 
@@ -111,11 +114,11 @@ def demonstrated_signs(robot: Robot) -> list[Sign]:
 
 def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
     joints = RIGHT_ARM + RIGHT_HAND
-    right_hand = _hand(RIGHT_HAND, demonstrated.hands)
+    right_hand = _hand(demonstrated.hands)
     rows = [np.concatenate([np.radians(pose), right_hand]) for pose in demonstrated.right_arm]
     if demonstrated.left_arm is not None:
         joints += LEFT_ARM + LEFT_HAND
-        left = np.concatenate([np.radians(demonstrated.left_arm), _hand(LEFT_HAND, demonstrated.hands)])
+        left = np.concatenate([np.radians(demonstrated.left_arm), _hand(demonstrated.hands)])
         rows = [np.concatenate([row, left]) for row in rows]
     times = np.cumsum([0.0, *demonstrated.move_times, _PAUSE])
     knots = _on_limits(joints, np.stack([*rows, rows[-1]]), demonstrated.gloss)
@@ -131,7 +134,8 @@ def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
             source="roboticslab-uc3m/teo-demos-misc, 20191023-ttd-congress.py",
             method=(
                 "published poses and move times of the robot, hand motors to flexion by 7 deg + 78 deg * "
-                "tendon / 20 mm (thumb 10 mm); its pause of 0.5 s as hold at the end"
+                "tendon / 20 mm (thumb -90 deg + 180 deg * tendon / 10 mm); its pause of 0.5 s as hold at the "
+                "end"
             ),
             recorded="2019-10-23",
             created=datetime.date.today().isoformat(),
@@ -146,8 +150,8 @@ def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
     )
 
 
-def _hand(joints: tuple[str, ...], motors: tuple[float, ...] | None) -> Array:
-    return np.array([HOME[joint] for joint in joints]) if motors is None else flexions(motors)
+def _hand(motors: tuple[float, ...] | None) -> Array:
+    return flexions(_OPEN_HAND if motors is None else motors)
 
 
 def _on_limits(joints: tuple[str, ...], knots: Array, gloss: str) -> Array:

@@ -1,6 +1,6 @@
 """A person's handshape on TEO's right hand.
 
-TEO's finger has one motor for three joints that bend alike, and no motor to spread; its thumb has two. What
+TEO's finger has one motor for three joints that bend alike, and no motor to spread; its thumb has two, one for both of its joints. What
 is sought is the hand that *looks* like the person's: for each finger the vector from knuckle to tip, which a
 person's joints make with TEO's phalanges, is compared with TEO's own
 
@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from teo_description import RIGHT_HAND, joint_limits
+from teo_description import HOME, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
 from teo_lut_executor.capture.dextra import (
     FINGER_LENGTH,
@@ -48,6 +48,10 @@ four in a claw falls into a fist."""
 _FLAT = np.array([0.5, 1.0, 1.0])
 """Share of depth, left and up in the distance of thumb and finger: a gap along the line of sight is hardly
 seen, and in the recordings it is the uncertain part."""
+_REST = 0.1
+"""[cm/rad] Pull of abductor and thumb towards `HOME`: chooses among thumbs that look alike the one that has the
+least way to go, and moves its tip by a millimetre or so."""
+_HOME_THUMB = np.array([HOME[joint] for joint in RIGHT_HAND[:2]])
 _PARTED = 1.0
 """Weight of the place of neighbouring tips to each other, as seen: parted in U, together in P."""
 _NEAR = 0.045
@@ -56,10 +60,16 @@ _OVERLAP = 15.0
 """Weight of overlap: stronger than any wish."""
 _SPREAD_ENDS = np.radians(60.0)
 """[rad] Spread is no longer seen in a finger that is bent so much in all."""
-_STARTS = np.radians([[abductor, thumb] for abductor in (2.0, 30.0, 60.0, 88.0) for thumb in (10.0, 40.0)])
+_STARTS = np.radians(
+    [[abductor, thumb] for abductor in (2.0, 30.0, 60.0, 88.0) for thumb in (-60.0, -15.0, 20.0, 55.0)]
+)
 """[rad] Abductor and thumb from which the search sets out: it has several valleys."""
+_SEARCHES = 10
+"""The search sets out from so many of the starts, the best ones: more found nothing better."""
 _TOUCH = 0.018
 """[m] Distance of the tips' axes when thumb and finger touch: two radii."""
+_SURELY_APART = 0.006
+"""[m] A gap smaller than this is a contact: two landmarks are off by 3 mm each."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,15 +105,11 @@ def fit_dextra(robot: Robot, pose: HandPose, palm: Array) -> HandFit:
         np.clip(bends, limits.lower[2:] + 1e-3, limits.upper[2:] - 1e-3)
         for bends in (problem.best_bends(), pose.bends.sum(axis=1) / 3.0)
     ]
+    points = [np.concatenate([thumb, fingers]) for thumb in _STARTS for fingers in starts]
+    points.sort(key=lambda point: float((problem.residuals(point) ** 2).sum()))
     fits = [
-        least_squares(
-            problem.residuals,
-            np.concatenate([thumb, fingers]),
-            bounds=(limits.lower, limits.upper),
-            diff_step=1e-3,
-        )
-        for thumb in _STARTS
-        for fingers in starts
+        least_squares(problem.residuals, point, bounds=(limits.lower, limits.upper), diff_step=1e-3)
+        for point in points[:_SEARCHES]
     ]
     best = min(fits, key=lambda fit: float(fit.cost))
     return problem.result(np.clip(best.x, limits.lower, limits.upper))
@@ -126,7 +132,7 @@ class HandProblem:
         # Several fingers at the thumb share the weight of one: else D's three would be bent into a fist to
         # reach it.
         self._contacts = _CONTACT * nearness / max(1.0, float(nearness.sum()))
-        self._apart = np.maximum(apart, _TOUCH)
+        self._apart = np.where(apart < _TOUCH + _SURELY_APART, _TOUCH, apart)
         self._steps = np.diff(pose.bends.sum(axis=1)) / 3.0
 
     def best_bends(self) -> Array:
@@ -162,6 +168,7 @@ class HandProblem:
                 _PARTED * np.diff(self._seen(fingers, self._fingers), axis=0).ravel(),
                 _OVERLAP * overlap,
                 0.01 * _EVEN * (np.diff(positions[2:]) - self._steps),
+                0.01 * _REST * (positions[:2] - _HOME_THUMB),
             ]
         )
 

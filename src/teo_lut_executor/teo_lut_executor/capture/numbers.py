@@ -47,11 +47,12 @@ _HOLD = 0.64
 
 _FOLDED = np.radians(80.0)
 """[rad] Flexion of a folded finger: total 240 deg, as measured; 5 deg from the limit."""
-# Abductor and thumb [deg]: open beside the hand; across the folded fingers; across the palm under straight
-# ones.
-_THUMB_BESIDE, _THUMB_FOLDED, _THUMB_ACROSS = (0.0, 7.0), (74.0, 7.0), (80.0, 40.0)
-_ZERO_HAND = np.radians([66.0, 7.0, 55.0, 55.0, 55.0, 55.0])
-"""[rad] Fingers bent over the opposed thumb, as near to it as TEO's hand allows."""
+# Abductor and thumb [deg]: spread from the open hand; else as far over the palm as it goes without touching
+# what is folded there, by how many fingers are straight.
+_THUMB_SPREAD = (0.0, -60.0)
+_THUMB_OVER_PALM = {1: (45.0, -15.0), 2: (70.0, -15.0), 3: (80.0, -15.0), 4: (80.0, -15.0)}
+_ZERO_HAND = np.radians([80.0, -54.0, 40.0, 38.0, 42.0, 42.0])
+"""[rad] Fingers bent to the opposed thumb: least sum of the distances of the tips without overlap."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,11 +129,9 @@ def _hand(digit: str) -> Array:
         return _ZERO_HAND
     straight = joint_limits(RIGHT_HAND).lower[2:]
     fingers = np.where([finger == "1" for finger in _STRAIGHT[digit]], straight, _FOLDED)
-    if digit in _OPEN_THUMB:
-        thumb = _THUMB_BESIDE
-    else:
-        thumb = _THUMB_ACROSS if _STRAIGHT[digit] == "1111" else _THUMB_FOLDED
-    return np.concatenate([np.maximum(np.radians(thumb), joint_limits(RIGHT_HAND).lower[:2]), fingers])
+    count = _STRAIGHT[digit].count("1")
+    thumb = _THUMB_SPREAD if digit in _OPEN_THUMB else _THUMB_OVER_PALM[count]
+    return np.concatenate([np.radians(thumb), fingers])
 
 
 def _notes(digit: str) -> str:

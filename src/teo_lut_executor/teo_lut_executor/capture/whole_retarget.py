@@ -33,6 +33,8 @@ _POSTURE = 0.03
 # search falls into it is the one in which the fingers can be counted from the front; the others hold the arm
 # out sideways, the hand at the hip, or the palm towards the viewer.
 _START = np.radians([-78.0, 12.0, 54.0, -50.0, 15.0, 43.0])
+_VALLEY = np.radians(10.0)
+"""[rad] The search stays within this of `_START`, joint by joint: M, N and Ñ get one arm."""
 
 
 def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
@@ -45,6 +47,7 @@ def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
     """
     hand_limits = joint_limits(RIGHT_HAND)
     arm_lower, arm_upper = arm_bounds()
+    arm_lower, arm_upper = np.maximum(arm_lower, _START - _VALLEY), np.minimum(arm_upper, _START + _VALLEY)
     lower, upper = (
         np.concatenate([arm_lower, hand_limits.lower]),
         np.concatenate([arm_upper, hand_limits.upper]),
