@@ -134,8 +134,8 @@ def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
             source="roboticslab-uc3m/teo-demos-misc, 20191023-ttd-congress.py",
             method=(
                 "published poses and move times of the robot, hand motors to flexion by 7 deg + 78 deg * "
-                "tendon / 20 mm (thumb -90 deg + 180 deg * tendon / 10 mm); its pause of 0.5 s as hold at the "
-                "end"
+                "tendon / 20 mm (thumb -90 deg + 180 deg * tendon / 10 mm); its pause of 0.5 s as hold at "
+                "the end"
             ),
             recorded="2019-10-23",
             created=datetime.date.today().isoformat(),

@@ -1,7 +1,7 @@
 """A person's handshape on TEO's right hand.
 
-TEO's finger has one motor for three joints that bend alike, and no motor to spread; its thumb has two, one for both of its joints. What
-is sought is the hand that *looks* like the person's: for each finger the vector from knuckle to tip, which a
+TEO's finger has one motor for three joints that bend alike, and no motor to spread; its thumb has two, one of
+them for both of its joints. What is sought is the hand that *looks* like the person's: for each finger the vector from knuckle to tip, which a
 person's joints make with TEO's phalanges, is compared with TEO's own
 
 - in the plane in which the finger bends (the shape; both ends of the last phalanx, for a fist and a claw have
@@ -49,8 +49,8 @@ _FLAT = np.array([0.5, 1.0, 1.0])
 """Share of depth, left and up in the distance of thumb and finger: a gap along the line of sight is hardly
 seen, and in the recordings it is the uncertain part."""
 _REST = 0.1
-"""[cm/rad] Pull of abductor and thumb towards `HOME`: chooses among thumbs that look alike the one that has the
-least way to go, and moves its tip by a millimetre or so."""
+"""[cm/rad] Pull of abductor and thumb towards `HOME`: chooses among thumbs that look alike the one that
+has the least way to go, and moves its tip by a millimetre or so."""
 _HOME_THUMB = np.array([HOME[joint] for joint in RIGHT_HAND[:2]])
 _PARTED = 1.0
 """Weight of the place of neighbouring tips to each other, as seen: parted in U, together in P."""
