@@ -10,7 +10,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description import (
+    COMMANDED_JOINTS,
+    LEFT_ARM,
+    LEFT_HAND,
+    RIGHT_ARM,
+    RIGHT_HAND,
+    description_hash,
+    joint_limits,
+)
 from teo_lut_executor.plan import Plan
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.sign_file import save_sign
@@ -73,7 +81,7 @@ def small_table() -> dict[str, Sign]:
         letter("Ñ", 60, 60, 10, 10, 80, 80, turn=-20.0),
     ]
     still = [*SPELLING, *np.radians([10, 8, 8, 80, 80, 80])]
-    aside = [*SPELLING + [0, 0, 0.15, 0, 0, 0], *np.radians([10, 8, 8, 80, 80, 80])]
+    aside = [*np.add(SPELLING, [0, 0, 0.15, 0, 0, 0]), *np.radians([10, 8, 8, 80, 80, 80])]
     signs.append(make_sign("LL", [still, aside, still], [0.0, 0.3, 0.6], kind="letter"))
     for digit, fingers in (("1", [60, 60, 8, 80, 80, 80]), ("7", [10, 8, 8, 8, 80, 80])):
         signs.append(make_sign(digit, [[*SPELLING, *np.radians(fingers)]], kind="number"))
@@ -109,11 +117,18 @@ def make_sign_fixture() -> MakeSign:
     return make_sign
 
 
-_LIMB_SETS = (RIGHT, LEFT, LEFT + RIGHT, RIGHT_HAND, ("AxialNeck", "FrontalNeck", *RIGHT_ARM), COMMANDED_JOINTS)
+_LIMB_SETS = (
+    RIGHT,
+    LEFT,
+    LEFT + RIGHT,
+    RIGHT_HAND,
+    ("AxialNeck", "FrontalNeck", *RIGHT_ARM),
+    COMMANDED_JOINTS,
+)
 
 
 def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
-    """Signs that no person makes: anywhere within the limits, on them, or shaking; knots 1 ms to 1 s apart."""
+    """Signs that no person makes: anywhere within the limits, or shaking; knots 1 ms to 1 s apart."""
     table = {}
     for number in range(signs):
         joints = _LIMB_SETS[rng.integers(len(_LIMB_SETS))]
