@@ -134,7 +134,16 @@ def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
         joints = _LIMB_SETS[rng.integers(len(_LIMB_SETS))]
         limits = joint_limits(joints)
         shape = (int(rng.integers(1, 7)), len(joints))
-        match rng.integers(3):
+        gaps = rng.choice([0.001, 0.02, 0.1, 0.3, 1.0], shape[0] - 1) * rng.uniform(0.5, 1.0, shape[0] - 1)
+        match rng.integers(4):
+            case 3:  # as captured from video: knots at every frame, joints that swing
+                shape = (int(rng.integers(8, 20)), len(joints))
+                gaps = np.full(shape[0] - 1, 0.04)
+                phase = rng.uniform(0.0, 2.0 * np.pi, shape[1])
+                phase = phase + np.arange(shape[0])[:, None] * rng.uniform(0.2, 2.0)
+                swing = rng.uniform(0.0, 0.3, shape[1]) * np.sin(phase)
+                middle = rng.uniform(limits.lower, limits.upper)
+                knots = np.clip(middle + swing, limits.lower, limits.upper)
             case 0:
                 knots = rng.uniform(limits.lower, limits.upper, shape)
             case 1:
@@ -142,7 +151,6 @@ def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
                 knots = np.clip(rng.uniform(limits.lower, limits.upper) + steps, limits.lower, limits.upper)
             case _:
                 knots = np.where(rng.random(shape) < 0.5, limits.lower, limits.upper)
-        gaps = rng.choice([0.001, 0.02, 0.1, 0.3, 1.0], shape[0] - 1) * rng.uniform(0.5, 1.0, shape[0] - 1)
         times = np.concatenate([[0.0], np.cumsum(gaps)])
         kind = str(rng.choice(["lexical", "letter", "number"]))
         gloss = f"SIGN{number}"
