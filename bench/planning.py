@@ -65,7 +65,16 @@ def measure(plans: int = PLANS) -> list[Figure]:
     shares = [range(begin, min(begin + _BATCH, plans)) for begin in range(0, plans, _BATCH)]
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         batches = pool.map(_random_plans, shares, chunksize=4)
-    total = Broken(*(sum(column) for column in list(zip(*batches, strict=True))[:3]), *_worst(batches))
+    velocity, acceleration, jerk, beyond = _worst(batches)
+    total = Broken(
+        plans=sum(batch.plans for batch in batches),
+        refused=sum(batch.refused for batch in batches),
+        violations=sum(batch.violations for batch in batches),
+        velocity=velocity,
+        acceleration=acceleration,
+        jerk=jerk,
+        beyond=beyond,
+    )
     figures.append(Figure(f"limit violations in {total.plans} random plans", str(total.violations)))
     figures.append(
         Figure(
@@ -139,20 +148,18 @@ def _check(plan: Plan) -> Broken:
         max(low - item.least for low, item in zip(limits.lower, reached, strict=True)),
         max(item.greatest - high for high, item in zip(limits.upper, reached, strict=True)),
     )
-    shares = [
-        max(
-            float((np.abs(velocity) / limits.velocity).max()),
-            max(item.velocity / limit for item, limit in zip(reached, limits.velocity, strict=True)),
-        ),
-        max(
-            float((np.abs(acceleration) / limits.acceleration).max()),
-            max(item.acceleration / limit for item, limit in zip(reached, limits.acceleration, strict=True)),
-        ),
-        max(item.jerk / limit for item, limit in zip(reached, limits.jerk, strict=True)),
-    ]
+    fastest = max(
+        float((np.abs(velocity) / limits.velocity).max()),
+        max(item.velocity / limit for item, limit in zip(reached, limits.velocity, strict=True)),
+    )
+    strongest = max(
+        float((np.abs(acceleration) / limits.acceleration).max()),
+        max(item.acceleration / limit for item, limit in zip(reached, limits.acceleration, strict=True)),
+    )
+    jerkiest = max(item.jerk / limit for item, limit in zip(reached, limits.jerk, strict=True))
     # Rounding, and for positions the 1.5e-5 rad of one encoder count.
-    broken = (beyond > 1.5e-5) + sum(share > 1.0 + 1e-9 for share in shares)
-    return Broken(1, 0, int(broken), *shares, beyond)
+    broken = (beyond > 1.5e-5) + sum(share > 1.0 + 1e-9 for share in (fastest, strongest, jerkiest))
+    return Broken(1, 0, int(broken), fastest, strongest, jerkiest, beyond)
 
 
 def _interpolated(plan: Plan) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
