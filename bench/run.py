@@ -5,12 +5,13 @@ from __future__ import annotations
 import platform
 
 import driver_rate
+import planning
 import robot_model
 import text_to_trajectory
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = (robot_model, driver_rate, text_to_trajectory)
+BENCHES = (robot_model, planning, driver_rate, text_to_trajectory)
 
 
 def main() -> None:

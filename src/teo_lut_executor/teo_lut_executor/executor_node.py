@@ -100,7 +100,13 @@ class ExecutorNode(Node):
             self._on_tokens,
             QoSProfile(depth=_TOKENS_DEPTH, reliability=reliable),
         )
-        self.create_subscription(JointState, "joint_states", self._on_joint_states, 10)
+        # Best effort takes reliable publishers as well as those of sensor data; only the latest state counts.
+        self.create_subscription(
+            JointState,
+            "joint_states",
+            self._on_joint_states,
+            QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT),
+        )
         self.create_service(ListSigns, "list_signs", self._on_list_signs)
         self.create_service(GetSign, "get_sign", self._on_get_sign)
         self._action = ActionServer(

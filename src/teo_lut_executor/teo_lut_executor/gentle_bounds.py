@@ -9,6 +9,9 @@ from teo_lut_executor.state_to_state import Bounds, State
 # Least share of the limits that a move is given: a joint that hardly moves would otherwise get none.
 _LEAST_SHARE = 0.02
 
+# A little more jerk than exactly enough [1]: rounding must not make it too little.
+_SPARE = 1.01
+
 _SAMPLES = np.linspace(0.0, 1.0, 9)[:, None]
 
 
@@ -33,11 +36,17 @@ def gentle_bounds(begin: State, end: State, duration: float, bounds: Bounds, *, 
     s = _SAMPLES
     acceleration = np.abs(6.0 * c3 * s + 12.0 * c4 * s**2 + 20.0 * c5 * s**3).max(axis=0) / duration**2
     jerk = np.abs(6.0 * c3 + 24.0 * c4 * s + 60.0 * c5 * s**2).max(axis=0) / duration**3
-    acceleration = np.maximum(acceleration, np.abs(begin.acceleration))
+    least_acceleration = _LEAST_SHARE * bounds.acceleration
+    least_jerk = _LEAST_SHARE * bounds.jerk
+    for state in (begin, end):
+        # The joint must be able to end its acceleration below its greatest velocity: v + a^2 / 2 j.
+        room = np.maximum(bounds.velocity - np.abs(state.velocity), 1e-9)
+        least_jerk = np.maximum(least_jerk, _SPARE * state.acceleration**2 / (2.0 * room))
+        least_acceleration = np.maximum(least_acceleration, np.abs(state.acceleration))
     return Bounds(
         lower=bounds.lower,
         upper=bounds.upper,
         velocity=bounds.velocity,
-        acceleration=np.clip(ease * acceleration, _LEAST_SHARE * bounds.acceleration, bounds.acceleration),
-        jerk=np.clip(ease * jerk, _LEAST_SHARE * bounds.jerk, bounds.jerk),
+        acceleration=np.minimum(np.maximum(ease * acceleration, least_acceleration), bounds.acceleration),
+        jerk=np.minimum(np.maximum(ease * jerk, least_jerk), bounds.jerk),
     )

@@ -136,6 +136,20 @@ class JointChain:
             beyond &= self._start.velocity == 0.0  # a joint that moves at the start needs room to turn
         return beyond
 
+    def is_too_fast(self, index: int, move: Move) -> bool:
+        """Whether a move goes beyond the greatest velocity; from the start it may, if the robot does."""
+        if index == 0:
+            return False
+        pieces = move.pieces
+        with np.errstate(divide="ignore", invalid="ignore"):
+            peak = -pieces.accelerations / pieces.jerks
+        inside = np.isfinite(peak) & (peak > 0.0) & (peak < pieces.lengths)
+        times = np.where(inside, peak, 0.0)
+        lasting = pieces.lengths > 0.0
+        speeds = np.abs(pieces.velocities + times * (pieces.accelerations + times * pieces.jerks / 2.0))
+        top = self.bounds.velocity[:, None] * (1.0 + ROUNDING)
+        return bool(((speeds > top) & lasting).any())
+
     def _shares(self) -> Array:
         """Velocities and accelerations at the ends of each move, over the limits. Shape (n - 1, 4, m)."""
         velocities = self._velocities / self.bounds.velocity

@@ -19,3 +19,7 @@ class PlanError(Exception):
         """
         super().__init__(message)
         self.code = code
+
+    def __reduce__(self) -> tuple[type[PlanError], tuple[str, str]]:
+        """Both arguments, so that the error can pass from one process to another."""
+        return type(self), (self.code, str(self))

@@ -158,6 +158,8 @@ class StationTiming:
                 chain.slow(index, slice(None), slower)
             return True
         beyond = chain.beyond(index, move)
+        if chain.is_too_fast(index, move):
+            beyond[:] = True
         if beyond.any():
             chain.slow(index, beyond, slower)
             return True
@@ -172,6 +174,7 @@ class StationTiming:
                 move is not None
                 and move.duration <= chain.duration(index) + _FITS
                 and not chain.beyond(index, move).any()
+                and not chain.is_too_fast(index, move)
             ):
                 return move
         raise PlanError("no_timing", "expected a move that was found before, got none")

@@ -10,7 +10,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description import (
+    COMMANDED_JOINTS,
+    LEFT_ARM,
+    LEFT_HAND,
+    RIGHT_ARM,
+    RIGHT_HAND,
+    description_hash,
+    joint_limits,
+)
 from teo_lut_executor.plan import Plan
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.sign_file import save_sign
@@ -73,7 +81,7 @@ def small_table() -> dict[str, Sign]:
         letter("Ñ", 60, 60, 10, 10, 80, 80, turn=-20.0),
     ]
     still = [*SPELLING, *np.radians([10, 8, 8, 80, 80, 80])]
-    aside = [*SPELLING + [0, 0, 0.15, 0, 0, 0], *np.radians([10, 8, 8, 80, 80, 80])]
+    aside = [*np.add(SPELLING, [0, 0, 0.15, 0, 0, 0]), *np.radians([10, 8, 8, 80, 80, 80])]
     signs.append(make_sign("LL", [still, aside, still], [0.0, 0.3, 0.6], kind="letter"))
     for digit, fingers in (("1", [60, 60, 8, 80, 80, 80]), ("7", [10, 8, 8, 8, 80, 80])):
         signs.append(make_sign(digit, [[*SPELLING, *np.radians(fingers)]], kind="number"))
@@ -109,17 +117,33 @@ def make_sign_fixture() -> MakeSign:
     return make_sign
 
 
-_LIMB_SETS = (RIGHT, LEFT, LEFT + RIGHT, RIGHT_HAND, ("AxialNeck", "FrontalNeck", *RIGHT_ARM), COMMANDED_JOINTS)
+_LIMB_SETS = (
+    RIGHT,
+    LEFT,
+    LEFT + RIGHT,
+    RIGHT_HAND,
+    ("AxialNeck", "FrontalNeck", *RIGHT_ARM),
+    COMMANDED_JOINTS,
+)
 
 
 def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
-    """Signs that no person makes: anywhere within the limits, on them, or shaking; knots 1 ms to 1 s apart."""
+    """Signs that no person makes: anywhere within the limits, or shaking; knots 1 ms to 1 s apart."""
     table = {}
     for number in range(signs):
         joints = _LIMB_SETS[rng.integers(len(_LIMB_SETS))]
         limits = joint_limits(joints)
         shape = (int(rng.integers(1, 7)), len(joints))
-        match rng.integers(3):
+        gaps = rng.choice([0.001, 0.02, 0.1, 0.3, 1.0], shape[0] - 1) * rng.uniform(0.5, 1.0, shape[0] - 1)
+        match rng.integers(4):
+            case 3:  # as captured from video: knots at every frame, joints that swing
+                shape = (int(rng.integers(8, 20)), len(joints))
+                gaps = np.full(shape[0] - 1, 0.04)
+                phase = rng.uniform(0.0, 2.0 * np.pi, shape[1])
+                phase = phase + np.arange(shape[0])[:, None] * rng.uniform(0.2, 2.0)
+                swing = rng.uniform(0.0, 0.3, shape[1]) * np.sin(phase)
+                middle = rng.uniform(limits.lower, limits.upper)
+                knots = np.clip(middle + swing, limits.lower, limits.upper)
             case 0:
                 knots = rng.uniform(limits.lower, limits.upper, shape)
             case 1:
@@ -127,7 +151,6 @@ def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
                 knots = np.clip(rng.uniform(limits.lower, limits.upper) + steps, limits.lower, limits.upper)
             case _:
                 knots = np.where(rng.random(shape) < 0.5, limits.lower, limits.upper)
-        gaps = rng.choice([0.001, 0.02, 0.1, 0.3, 1.0], shape[0] - 1) * rng.uniform(0.5, 1.0, shape[0] - 1)
         times = np.concatenate([[0.0], np.cumsum(gaps)])
         kind = str(rng.choice(["lexical", "letter", "number"]))
         gloss = f"SIGN{number}"

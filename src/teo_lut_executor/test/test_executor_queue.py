@@ -44,6 +44,8 @@ class World:
         self._motion: Plan | None = None
         self._begin = 0.0
         self.positions = REST.copy()
+        self.velocities = np.zeros(REST.size)
+        self.lag = 0.0  # of the robot behind what it was sent [s]
 
     def sign(self, text: str, **fields: object) -> int:
         sentence = Sentence(tokens=parse_printed(text), **fields)  # type: ignore[arg-type]
@@ -87,9 +89,11 @@ class World:
     def tick(self) -> None:
         self.now += TICK
         if self._motion is not None and self.now >= self._begin:
-            self.positions = self._motion.at(self.now - self._begin)[0]
+            elapsed = max(0.0, self.now - self._begin - self.lag)
+            self.positions, self.velocities, _ = self._motion.at(elapsed)
         if self.publishes_states:
-            self.queue.joint_states(COMMANDED_JOINTS, self.positions.tolist(), [], self.now)
+            state = self.positions.tolist(), self.velocities.tolist()
+            self.queue.joint_states(COMMANDED_JOINTS, *state, self.now)
         self.take(self.queue.step(self.now, listening=self.listening))
 
     def finished(self) -> list[tuple[int, Outcome]]:
@@ -341,3 +345,13 @@ def test_joint_states_may_come_from_several_publishers(world: World) -> None:
     world.queue.joint_states(COMMANDED_JOINTS[half:], REST[half:].tolist(), [], world.now)
     world.tick()
     assert len(world.sent) == 1
+
+
+def test_the_next_sentence_waits_for_a_robot_that_is_late_to_stand_still(world: World) -> None:
+    world.lag = 0.15  # at the planned end it is within the tolerance of rest, and still moving there
+    first, second = world.sign("A"), world.sign("A")
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
+    starts = [event.start for event in world.events if isinstance(event, PlanWanted)]
+    np.testing.assert_array_equal(starts[1].velocity, 0.0)
+    np.testing.assert_allclose(starts[1].position, REST, atol=1e-3)
