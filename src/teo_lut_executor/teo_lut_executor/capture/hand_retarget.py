@@ -1,8 +1,8 @@
 """A person's handshape on TEO's right hand.
 
 TEO's finger has one motor for three joints that bend alike, and no motor to spread; its thumb has two, one of
-them for both of its joints. What is sought is the hand that *looks* like the person's: for each finger the vector from knuckle to tip, which a
-person's joints make with TEO's phalanges, is compared with TEO's own
+them for both of its joints. What is sought is the hand that *looks* like the person's: for each finger the
+vector from knuckle to tip, which a person's joints make with TEO's phalanges, is compared with TEO's own
 
 - in the plane in which the finger bends (the shape; both ends of the last phalanx, for a fist and a claw have
   their tips at like places), and
