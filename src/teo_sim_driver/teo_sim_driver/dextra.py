@@ -1,8 +1,8 @@
 """The edge to the real Dextra hand: from joint angles to what its motors are told.
 
 Inside the project the axis of a finger or thumb is the flexion of its proximal phalanx [rad]. The device
-(RoboticsLab UC3M, repository dextra-yarp-devices) takes for a finger the tendon wound on its spool, 0..20
-mm, for the thumb 0..10 mm, and for the thumb's abductor the angle of its servo, 0..90 deg. No measured map from
+(RoboticsLab UC3M, repository dextra-yarp-devices) takes for a finger the tendon wound on its spool, 0..20 mm,
+for the thumb 0..10 mm, and for the thumb's abductor the angle of its servo, 0..90 deg. No measured map from
 tendon to angle is public: this one is the straight line between the ends of both ranges, with a slack tendon
 and with all of it wound: 7 to 85 deg for a finger, -90 (standing out) to 90 deg for the thumb.
 """
