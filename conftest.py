@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import fcntl
 import os
+import signal
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+# A shell starts background jobs with SIGINT ignored, and what they start inherits that: no process could be
+# stopped as Ctrl-C does.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # rclpy checks the types of message fields only when asked to; a wrong one can end the process.
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"

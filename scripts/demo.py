@@ -213,7 +213,7 @@ def draw_strip(spectator: Spectator, path: Path) -> None:
 
 def table(progress: Progress) -> Table:
     """Lay out every token with its times, measured from the first movement."""
-    result = Table("token", "kind", "start [s]", "duration [s]", "stretch", title="What TEO signed")
+    result = Table("token", "kind", r"start \[s]", r"duration \[s]", "stretch", title="What TEO signed")
     first = min((seconds(status.header.stamp) for status in progress.started.values()), default=0.0)
     for _, status in sorted(progress.started.items()):
         begin = seconds(status.header.stamp) - first

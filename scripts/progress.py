@@ -29,7 +29,7 @@ class Progress:
             self.refusals.append(f"{status.code}: {status.message}")
             self.at_rest = status.queued == 0
         elif status.state == ExecutorStatus.STATE_IDLE:
-            self.at_rest = bool(self.started)
+            self.at_rest = bool(self.started or self.refusals)
 
     @property
     def expected(self) -> int:

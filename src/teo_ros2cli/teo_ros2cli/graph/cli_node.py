@@ -49,8 +49,10 @@ def cli_node(
     _prompt_discovery()
     try:
         import rclpy
+        from rclpy._rclpy_pybind11 import RCLError  # public by no other name
         from rclpy.context import Context
         from rclpy.exceptions import InvalidNodeNameException
+        from rclpy.executors import ExternalShutdownException
         from rclpy.parameter import Parameter
         from rclpy.signals import SignalHandlerOptions
     except ImportError as error:
@@ -75,6 +77,11 @@ def cli_node(
             raise Ros2CliError("invalid_name", str(error)) from error
         try:
             yield node
+        except RCLError as error:
+            if context.ok():
+                raise
+            # SIGTERM came between two looks at the context.
+            raise ExternalShutdownException from error
         finally:
             node.destroy_node()
     finally:

@@ -18,6 +18,8 @@ try:
 except ImportError:  # PyYAML without its C part: the same text, slower
     from yaml import SafeDumper as _Dumper  # type: ignore[assignment]
 
+_UNICODE_BREAKS = "\x85\u2028\u2029"
+
 # The C emitter takes a C int.
 _NO_WRAPPING = 2**31 - 1
 
@@ -77,8 +79,12 @@ def plain(tree: Any) -> Any:
 def dump(tree: Any, *, flow_style: bool = False) -> str:
     """Write a tree of plain values as YAML: keys in their order, UTF-8 as it is, no line wrapped."""
     text = _dump(tree, flow_style, _Dumper)
-    # The C emitter is four times as fast, but writes an emoji as its number.
-    return _dump(tree, flow_style, yaml.SafeDumper) if "\\U" in text else text
+    if "\\U" not in text:
+        return text
+    # The C emitter is four times as fast, but writes an emoji as its number; the other one writes the line
+    # breaks of Unicode as they are, which come back as blanks.
+    readable = _dump(tree, flow_style, yaml.SafeDumper)
+    return text if any(character in readable for character in _UNICODE_BREAKS) else readable
 
 
 def _dump(tree: Any, flow_style: bool, dumper: Any) -> str:
