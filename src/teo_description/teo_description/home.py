@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from types import MappingProxyType
 
 from teo_description import tables
 from teo_description.joints import ALL_JOINTS
+
+THUMB_AT_REST = math.radians(-30.0)
+"""[rad] The thumb lies along the index, 22 mm off; at 0 its last phalanx, bent by 46 deg, would be in it."""
 
 
 def _home() -> Mapping[str, float]:
@@ -15,9 +19,10 @@ def _home() -> Mapping[str, float]:
         for row in (*tables.body_joints(), *tables.hand_joints("Left"), *tables.hand_joints("Right"))
     }
     # 0 where the joint can reach it, else the nearest it can: the fingers rest at their most extended, 7 deg.
-    return MappingProxyType({name: min(max(0.0, rows[name].lower), rows[name].upper) for name in ALL_JOINTS})
+    home = {name: min(max(0.0, rows[name].lower), rows[name].upper) for name in ALL_JOINTS}
+    return MappingProxyType({**home, "LeftThumbFinger": THUMB_AT_REST, "RightThumbFinger": THUMB_AT_REST})
 
 
 # From the tables and not from the URDF, so that this package can be imported to build a missing URDF.
 HOME: Mapping[str, float] = _home()
-"""TEO's park pose [rad], all 40 joints: fingers at their lower limit of 7 deg, all others at 0."""
+"""TEO's park pose [rad], 40 joints: fingers at their lower limit of 7 deg, thumbs at -30 deg, others at 0."""

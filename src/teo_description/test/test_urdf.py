@@ -115,7 +115,9 @@ def test_home_is_within_limits_and_names_every_joint():
     assert (home <= limits.upper).all()
     fingers = {name for name in ALL_JOINTS if name.endswith("Finger") and "Thumb" not in name}
     assert {HOME[name] for name in fingers} == {math.radians(7.0)}
-    assert {HOME[name] for name in set(ALL_JOINTS) - fingers} == {0.0}
+    thumbs = {"LeftThumbFinger", "RightThumbFinger"}
+    assert {HOME[name] for name in thumbs} == {math.radians(-30.0)}
+    assert {HOME[name] for name in set(ALL_JOINTS) - fingers - thumbs} == {0.0}
 
 
 def test_robot_is_a_tree_from_base_link(tree):

@@ -8,7 +8,7 @@ from teo_sim_driver.dextra import LEFT_AXES, RIGHT_AXES, setpoints
 from teo_sim_driver.errors import DriverError
 
 HANDS = LEFT_HAND + RIGHT_HAND
-HOME_SETPOINTS = [0.0, 5.0, 0.0, 0.0, 0.0, 0.0]  # abductor, thumb, fingers
+HOME_SETPOINTS = [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0]  # abductor, thumb, fingers
 
 
 @pytest.mark.parametrize(
@@ -45,7 +45,7 @@ def test_the_joint_limits_are_the_ends_of_the_devices_ranges():
     np.testing.assert_allclose(setpoints(HANDS, limits.upper), [90.0, 10.0, *[20.0] * 4] * 2, atol=1e-9)
 
 
-def test_at_home_the_fingers_tendons_are_slack_and_the_thumbs_half_wound():
+def test_at_home_the_fingers_tendons_are_slack_and_the_thumbs_wound_by_a_third():
     home = np.array([HOME[name] for name in COMMANDED_JOINTS])
     np.testing.assert_allclose(setpoints(COMMANDED_JOINTS, home), HOME_SETPOINTS * 2, atol=1e-9)
 

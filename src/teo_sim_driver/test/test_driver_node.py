@@ -133,7 +133,7 @@ def test_the_robot_description_and_the_hand_setpoints_reach_a_late_subscriber(be
     bench.client.create_subscription(Float64MultiArray, "dextra_setpoints", hands.append, LATCHED)
     bench.until(lambda: heard and hands)
     assert heard[0].data == urdf_text()
-    np.testing.assert_allclose(hands[0].data, [0.0, 5.0, 0.0, 0.0, 0.0, 0.0] * 2, atol=1e-9)
+    np.testing.assert_allclose(hands[0].data, [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0] * 2, atol=1e-9)
     assert [dimension.size for dimension in hands[0].layout.dim] == [2, 6]
 
 
@@ -142,7 +142,7 @@ def test_a_finger_that_moves_is_told_to_the_hand_as_tendon_travel(bench, swing):
     bench.client.create_subscription(Float64MultiArray, "dextra_setpoints", hands.append, LATCHED)
     bench.commands.publish(one_way(swing, joint="RightIndexFinger", angle=np.radians(39.0), duration=4.0))
     bench.until(lambda: hands and abs(hands[-1].data[8] - 10.0) < 1e-9)  # half of its way
-    others = np.delete(np.subtract(hands[-1].data, [0.0, 5.0, 0.0, 0.0, 0.0, 0.0] * 2), 8)  # from home
+    others = np.delete(np.subtract(hands[-1].data, [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0] * 2), 8)  # from home
     np.testing.assert_allclose(others, 0.0, atol=1e-9)
 
 
