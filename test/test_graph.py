@@ -24,7 +24,7 @@ from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, joint_limits
 
 START_TIMEOUT = 60.0  # [s] for all processes to be there, on a loaded machine
 SIGNING_TIMEOUT = 120.0  # [s] for a short text
-REST_TIMEOUT = 10.0  # [s] for the last states: a sentence has succeeded once the robot is within a tolerance of rest
+REST_TIMEOUT = 10.0  # [s] for the last states: a sentence has succeeded once the robot is nearly at rest
 
 
 class Witness(Node):
