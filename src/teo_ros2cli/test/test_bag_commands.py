@@ -199,7 +199,9 @@ def test_keys_pause_and_step(graph: Any, start: Any, tmp_path: Path) -> None:
     def step() -> list[str]:
         # A message that is played before the subscription is matched is lost: then one more.
         os.write(keys, b"\x1b[C")
-        time.sleep(0.2)
+        deadline = time.monotonic() + 2.0
+        while not came and time.monotonic() < deadline:
+            time.sleep(0.01)
         return came
 
     graph.wait_until(step, "a message came")
