@@ -319,8 +319,16 @@ def test_topics_that_appear_and_publishers_that_differ_are_recorded(
         String, "text", QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
     )
     wait_recording(recorder, "/waiting")
-    graph.wait_until(lambda: weak.get_subscription_count() == 1, "the recorder took the weaker publisher")
-    graph.wait_until(lambda: first.get_subscription_count() == 1, "one subscription is left")
+
+    def reliabilities() -> list[ReliabilityPolicy]:
+        return [info.qos_profile.reliability for info in graph.node.get_subscriptions_info_by_topic("text")]
+
+    graph.wait_until(
+        lambda: reliabilities() == [ReliabilityPolicy.BEST_EFFORT], "the weaker subscription is the only one"
+    )
+    graph.wait_until(
+        lambda: weak.get_subscription_count() == first.get_subscription_count() == 1, "both are matched"
+    )
     for i in range(10):
         weak.publish(String(data=f"weak {i}"))
         first.publish(String(data=f"first {i}"))
