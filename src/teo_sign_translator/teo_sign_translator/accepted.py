@@ -19,20 +19,17 @@ def accepted(pattern: str) -> frozenset[tuple[str, ...]]:
     """All translations that a pattern stands for, each as its glosses.
 
     Raises:
-        TranslationError: "invalid_data" if the pattern is empty, a bracket is not closed in its own word, or it
-            stands for too many translations.
+        TranslationError: "invalid_data" if the pattern is empty, a bracket is not closed in its own word, or
+            it stands for too many translations.
     """
     translations: set[tuple[str, ...]] = set()
     for alternative in pattern.split("||"):
         choices = [_choices(word, pattern) for word in alternative.split()]
         if not choices:
             raise TranslationError("invalid_data", f"expected glosses on both sides of ||, got '{pattern}'")
-        for picked in product(*choices):
-            translations.add(tuple(gloss for gloss in picked if gloss))
-            if len(translations) > _MOST:
-                raise TranslationError(
-                    "invalid_data", f"expected at most {_MOST} translations, got '{pattern}'"
-                )
+        if prod(map(len, choices)) > _MOST:
+            raise TranslationError("invalid_data", f"expected at most {_MOST} translations, got '{pattern}'")
+        translations |= {tuple(filter(None, picked)) for picked in product(*choices)}
     return frozenset(translations)
 
 
