@@ -1,7 +1,7 @@
 """Plural and feminine of nouns and adjectives, by rule.
 
-The rules are those of the Ortografía de la lengua española (RAE 2010); the words that do not follow them are in
-the lexicon files.
+The rules are those of the Ortografía de la lengua española (RAE 2010); the words that do not follow
+them are in the lexicon files.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def plural(word: str) -> str:
 
 
 def feminine(word: str) -> str:
-    """Feminine of a masculine noun or adjective that has one: `"alemán"` is `"alemana"`, `"jefe"` `"jefa"`."""
+    """Feminine of a noun or adjective that has one: `"alemán"` is `"alemana"`, `"jefe"` is `"jefa"`."""
     if word[-1] in "oe":
         return word[:-1] + "a"
     return (_stressed_as_before(word) if word[-1] in "ns" else word) + "a"
@@ -60,7 +60,7 @@ def unaccented(word: str) -> str:
 
 
 def _stressed_as_before(word: str) -> str:
-    """Write the accent for a syllable more, the stress staying: `"jamón"` `"jamon-"`, `"joven"` `"jóven-"`."""
+    """A stem with one syllable more, stressed as before: `"jamon-"` of `"jamón"`, `"jóven-"` of `"joven"`."""
     accents = [index for index, character in enumerate(word) if character in _PLAIN]
     if not accents:
         nuclei = list(_NUCLEUS.finditer(word))
