@@ -57,3 +57,8 @@ class SentenceModel(Protocol):
         Returns:
             One to `beam` hypotheses, best first.
         """
+
+    def translate_all(
+        self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
+    ) -> tuple[tuple[Hypothesis, ...], ...]:
+        """Translate many sentences, faster than one by one; the results are in their order."""
