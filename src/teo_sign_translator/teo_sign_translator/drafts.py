@@ -20,6 +20,7 @@ class Draft:
         confidence: 0 to 1.
         words: Words of the text, as typed, that it stands for.
         origin: Where it comes from.
+        said: What a word without a sign of its own says; spelled if nothing else of its sentence is signed.
     """
 
     signs: tuple[str, ...]
@@ -27,21 +28,28 @@ class Draft:
     confidence: float
     words: tuple[str, ...]
     origin: Origin
+    said: str = ""
 
 
 #: Hands held still between two clauses.
 PAUSE = Draft(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PUNCTUATION)
 
 
-def carried(words: tuple[str, ...]) -> Draft:
-    """Words that go with the next draft that is signed."""
-    return Draft(signs=(), kind=Kind.LEXICAL, confidence=1.0, words=words, origin=Origin.WORD_LIST)
+def carried(word: str, typed: tuple[str, ...]) -> Draft:
+    """A word that goes with the next draft that is signed."""
+    return Draft(signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word)
 
 
-def spelled(word: str, confidence: float) -> Draft:
-    """A word in letters of the manual alphabet."""
+def spelled(word: str, typed: tuple[str, ...], confidence: float) -> Draft:
+    """A word in letters of the manual alphabet.
+
+    Args:
+        word: What is spelled.
+        typed: Words of the text that it stands for.
+        confidence: 0 to 1.
+    """
     return Draft(
-        signs=letters(word), kind=Kind.LETTER, confidence=confidence, words=(word,), origin=Origin.SPELLING
+        signs=letters(word), kind=Kind.LETTER, confidence=confidence, words=typed, origin=Origin.SPELLING
     )
 
 
@@ -53,7 +61,7 @@ def hand_over(drafts: Sequence[Draft], confidence: float) -> list[Draft]:
         confidence: Of words that are spelled for that reason.
     """
     if not any(draft.signs and draft.kind is not Kind.PAUSE for draft in drafts):
-        return [spelled(word, confidence) for draft in drafts for word in draft.words]
+        return [spelled(draft.said, draft.words, confidence) for draft in drafts if draft.said]
     result: list[Draft] = []
     waiting: list[str] = []
     for draft in drafts:

@@ -182,13 +182,12 @@ def _drafts(
                 )
             )
             continue
-        if extra:
-            result.append(carried(_typed(words, extra)))
+        result += [carried(word.lower, word.parts) for place in extra for word in words[place]]
         for word in (word for place in own for word in words[place]):
             if word.kind is WordKind.NUMBER:
                 result += number(word, confidence)
             else:
-                result.append(spelled(word.parts[0], confidence))
+                result.append(spelled(word.lower, word.parts, confidence))
     return result
 
 

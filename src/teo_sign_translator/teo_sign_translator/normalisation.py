@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from dataclasses import dataclass
 
@@ -32,6 +33,9 @@ _REPLACEMENTS = str.maketrans(
         "＄": "$",
     }
 )
+
+# What Spanish keyboards give is in that form already; most texts are.
+_IN_ONE_FORM = re.compile("[ -_a-~áéíóúüñÁÉÍÓÚÜÑ¿¡ºª€…\n]*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +73,8 @@ def clean(text: str) -> CleanText:
             "broken_encoding",
             f"expected text in UTF-8, got U+{ord(broken):04X} instead: check the sender's encoding",
         )
+    if _IN_ONE_FORM.fullmatch(text):
+        return CleanText(text, ())
     kept: list[str] = []
     ignored: list[str] = []
     for character in unicodedata.normalize("NFC", text.replace("\r\n", "\n").translate(_REPLACEMENTS)):
@@ -99,6 +105,8 @@ def _plain(character: str) -> str:
 
 def fold(word: str) -> str:
     """Lower case without accents but with `ñ`: `"CÓMO"` is `"como"`, `"año"` is not `"ano"`."""
+    if word.isascii():
+        return word.lower()
     decomposed = unicodedata.normalize("NFD", word.lower())
     kept = [
         mark

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.normalisation import clean
+from teo_sign_translator.reading import Clause, Word, WordKind, read
 
-_WORD = re.compile(r"\d+(?:[.,]\d+)*|[^\W\d_]+|[,.?!:]")
+#: Readings that a word has at most.
+_MOST_READINGS = 4
+# No Spanish word has a letter three times in a row.
+_DRAWN_OUT = re.compile(r"([^\W\d_])\1{2,}")
+_ROMAN_NUMERAL = re.compile("[IVXLCDM]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,10 +22,14 @@ class SourceWord:
     """A word or mark of a sentence.
 
     Attributes:
-        text: As typed.
-        form: Lower case with the accents that were typed; a number, also one of several words, in digits.
-        capital: Whether it was typed with a capital although it is not the first word of its sentence.
-        readings: What it may be, most likely first; at least one.
+        text: As typed. Words that one short form stands for have the same text (`EE. UU.`, `xfa`).
+        form: What it says, in lower case with the accents that were typed: a short form or symbol in full
+            (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`), a word
+            drawn out as it is written (`holaaaa` is `hola`). A mark is one of `,` (any mark that is a short
+            pause), `.`, `?`, `!`; opening marks are left out.
+        capital: Whether it was typed with a capital that neither the beginning of a sentence nor capitals
+            all over explain.
+        readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
     """
 
     text: str
@@ -27,13 +37,74 @@ class SourceWord:
     capital: bool
     readings: tuple[Reading, ...]
 
+    @property
+    def is_mark(self) -> bool:
+        """Whether it is punctuation."""
+        return self.readings[0].tag == "MARK"
+
 
 def source_words(sentence: str, morphology: Morphology) -> tuple[SourceWord, ...]:
-    """The words and marks of one sentence, in its order."""
+    """The words and marks of one sentence, in its order.
+
+    Args:
+        sentence: As typed; what ends a sentence inside it is a mark like the others.
+        morphology: Gives the readings.
+
+    Raises:
+        TranslationError: See `normalisation.clean`.
+    """
+    return words_of_clauses(read(clean(sentence).text).clauses, morphology)
+
+
+def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple[SourceWord, ...]:
+    """The words and marks of a sentence that has been read."""
+    shouted = _is_shouted(word for clause in clauses for word in clause.words)
     words: list[SourceWord] = []
-    for match in _WORD.finditer(clean(sentence).text):
-        text = match.group()
-        words.append(
-            SourceWord(text, text.lower(), bool(words) and text[0].isupper(), morphology.readings(text))
-        )
+    begins = True
+    for clause in clauses:
+        begins = begins or bool(clause.opening)
+        for word in clause.words:
+            capital = not begins and not shouted and not word.stands_for and word.capitalised
+            words.append(_source_word(word, capital, morphology))
+            begins = False
+        if clause.end:
+            words.append(SourceWord(clause.end, clause.end, False, _MARKS[clause.end]))
+        begins = clause.closes
     return tuple(words)
+
+
+_MARKS = {mark: (Reading(mark, "MARK"),) for mark in (",", ".", "?", "!")}
+
+
+def _is_shouted(words: Iterable[Word]) -> bool:
+    """Whether a sentence is all in capitals; a single one-letter word says nothing."""
+    letters = "".join(part for word in words for part in word.parts if word.kind is WordKind.LETTERS)
+    return len(letters) > 1 and letters.isupper()
+
+
+def _source_word(word: Word, capital: bool, morphology: Morphology) -> SourceWord:
+    text = word.text
+    if word.kind is WordKind.NUMBER and not word.stands_for:
+        return SourceWord(text, word.value, capital, (Reading(word.value, "NUM"),))
+    form = word.lower
+    if not word.stands_for and _DRAWN_OUT.search(form) and not _ROMAN_NUMERAL.fullmatch(text):
+        form = _written(form, morphology)
+    readings = morphology.readings(form)
+    if capital and not any(r.tag.startswith("NAME") for r in readings):
+        readings = _with_name(text, readings)
+    return SourceWord(text, form, capital, readings)
+
+
+def _written(form: str, morphology: Morphology) -> str:
+    """A drawn-out word as it is written: each letter once, or twice if that is a word ("leeer")."""
+    single, double = _DRAWN_OUT.sub(r"\1", form), _DRAWN_OUT.sub(r"\1\1", form)
+    known_twice = any(reading.exact for reading in morphology.readings(double))
+    return double if known_twice and not any(r.exact for r in morphology.readings(single)) else single
+
+
+def _with_name(text: str, readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """Readings of a word with a capital inside a sentence: it may be a name that the lexicon lacks."""
+    name = Reading(text, "NAME", exact=False)
+    if not any(reading.exact for reading in readings):
+        return (name, *readings[: _MOST_READINGS - 1])
+    return (*readings[: _MOST_READINGS - 1], name)

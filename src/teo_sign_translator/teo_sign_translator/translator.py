@@ -81,7 +81,6 @@ class Translator:
         self._sentences = KnownSentences(model, phrasebook, glosses, min_confidence=min_confidence)
         self._phrasebook = phrasebook
         self._glosses = glosses
-        self._symbols = glosses.symbols()
         self.name = name
 
     @classmethod
@@ -117,7 +116,7 @@ class Translator:
                 "unsignable_text" (letters that the LSE alphabet cannot spell).
         """
         cleaned = clean(text)
-        reading = read(cleaned.text, self._symbols)
+        reading = read(cleaned.text)
         ignored = cleaned.ignored + reading.ignored
         if not reading.clauses:
             if not cleaned.text.strip():
@@ -248,7 +247,9 @@ def _refuse_other_scripts(clauses: Sequence[Clause]) -> None:
     """Refuse letters that the LSE alphabet cannot spell, by name."""
     words = (word for clause in clauses for word in clause.words if word.kind is WordKind.LETTERS)
     found = list(
-        dict.fromkeys(character for word in words for part in word.parts for character in unsignable(part))
+        dict.fromkeys(
+            c for word in words for part in (word.stands_for or word.text).split() for c in unsignable(part)
+        )
     )
     if found:
         named = ", ".join(

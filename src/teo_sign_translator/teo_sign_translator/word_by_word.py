@@ -44,13 +44,14 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
         found = None if name else glosses.find_longest(_run(words, index, glosses.longest))
         if found is None:
             likely_name = word.capitalised and not shouted
-            result.append(spelled(word.parts[0], NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE))
+            confidence = NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE
+            result.append(spelled(word.lower, word.parts, confidence))
             index += 1
             continue
         entry, size = found
         typed = tuple(part for w in words[index : index + size] for part in w.parts)
         if entry.function:
-            result.append(carried(typed))
+            result += [carried(w.lower, w.parts) for w in words[index : index + size]]
         else:
             alone = size == len(words)
             result.append(
@@ -67,29 +68,31 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
 
 
 def number(word: Word, confidence: float) -> list[Draft]:
-    """A number as the signs of its digits; a decimal comma is a word between them."""
-    result: list[Draft] = []
-    for index, digits in enumerate(word.value.split(",")):
-        if index:
-            result.append(
-                Draft(
-                    signs=(_DECIMAL_GLOSS,),
-                    kind=Kind.LEXICAL,
-                    confidence=confidence,
-                    words=word.parts,
-                    origin=Origin.NUMBER,
-                )
-            )
-        result.append(
-            Draft(
-                signs=tuple(digits),
-                kind=Kind.NUMBER,
-                confidence=confidence,
-                words=word.parts,
-                origin=Origin.NUMBER,
-            )
-        )
-    return result
+    """A number as the signs of its digits; a decimal comma is a word between them.
+
+    Hours and minutes of a time of day are two numbers; no minutes are not said.
+    """
+    hours, _, minutes = word.value.partition(":")
+    if minutes:
+        said = [hours] if minutes == "00" else [hours, minutes]
+        return [_digits(digits, word, confidence) for digits in said]
+    whole, _, decimals = word.value.partition(",")
+    if not decimals:
+        return [_digits(whole, word, confidence)]
+    comma = Draft(
+        signs=(_DECIMAL_GLOSS,),
+        kind=Kind.LEXICAL,
+        confidence=confidence,
+        words=word.parts,
+        origin=Origin.NUMBER,
+    )
+    return [_digits(whole, word, confidence), comma, _digits(decimals, word, confidence)]
+
+
+def _digits(digits: str, word: Word, confidence: float) -> Draft:
+    return Draft(
+        signs=tuple(digits), kind=Kind.NUMBER, confidence=confidence, words=word.parts, origin=Origin.NUMBER
+    )
 
 
 def _is_function(word: Word, glosses: GlossList) -> bool:
