@@ -27,6 +27,8 @@ setup(
             "translator_node = teo_sign_translator.translator_node:main",
             "translate = teo_sign_translator.translate_cli:main",
             "train = teo_sign_translator.train:main",
+            "evaluate = teo_sign_translator.evaluate:main",
+            "compare = teo_sign_translator.compare:main",
             "reproduce_paper = teo_sign_translator.reproduce_paper:main",
         ],
     },
