@@ -18,7 +18,7 @@ from typing import Annotated, Any
 import typer
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology.nominal import unaccented
+from teo_sign_translator.morphology.accents import unaccented
 from teo_sign_translator.morphology.tags import IMPERATIVE_PERSONS, PERSONS, VERB_TAGS
 from teo_sign_translator.resources import data_file
 from teo_sign_translator.tables import read_rows, write_atomically

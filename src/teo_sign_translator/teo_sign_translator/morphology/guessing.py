@@ -1,0 +1,48 @@
+"""What a word that is in no list may be, from its ending."""
+
+from __future__ import annotations
+
+import re
+
+from teo_sign_translator.morphology.conjugation import Conjugations
+from teo_sign_translator.morphology.reading import Reading
+from teo_sign_translator.normalisation import strip_marks
+
+#: The verb whose endings new verbs take (wasapear, guglear), and the shortest ending that tells a verb from a
+#: noun [letters]: -ando, -aste, -aban do, -a and -os do not.
+_MODEL = "amar"
+_SHORTEST_ENDING = 3
+
+#: Endings of plurals and of their singulars; the first that fits counts.
+_PLURALS = tuple(
+    (re.compile(several + "$"), one)
+    for several, one in (
+        ("([cs])iones", r"\1ión"),
+        ("ones", "ón"),
+        ("anes", "án"),
+        ("ines", "ín"),
+        ("eses", "és"),
+        ("ces", "z"),
+        ("(?<=[aeiouáéíóú])([lrd])es", r"\1"),
+        ("([aáeéoó])s", r"\1"),
+    )
+)
+#: Shortest word that is taken for a plural [letters]: "gas" and "dos" are none.
+_SHORTEST_PLURAL = 5
+
+
+def guess(form: str, conjugations: Conjugations) -> Reading:
+    """The likeliest reading of an unknown word in lower case."""
+    folded = strip_marks(form)
+    for cut in range(2, len(folded) - _SHORTEST_ENDING + 1):
+        for ending, tag in conjugations.endings(_MODEL, folded[cut:]):
+            if len(ending) >= _SHORTEST_ENDING:
+                return Reading(form[:cut] + "ar", tag, exact=False)
+    return Reading(singular(form), "X", exact=False)
+
+
+def singular(form: str) -> str:
+    """The singular of an unknown word, as far as its ending tells: `"chándales"` is `"chándal"`."""
+    if len(form) < _SHORTEST_PLURAL:
+        return form
+    return next((several.sub(one, form) for several, one in _PLURALS if several.search(form)), form)
