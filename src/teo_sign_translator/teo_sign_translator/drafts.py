@@ -20,6 +20,7 @@ class Draft:
         confidence: 0 to 1.
         words: Words of the text, as typed, that it stands for.
         origin: Where it comes from.
+        is_name: Whether its one gloss is somebody's name, spelled unless it has a sign.
         said: What a word without a sign of its own says; spelled if nothing else of its sentence is signed.
     """
 
@@ -28,11 +29,12 @@ class Draft:
     confidence: float
     words: tuple[str, ...]
     origin: Origin
+    is_name: bool = False
     said: str = ""
 
 
 #: Hands held still between two clauses.
-PAUSE = Draft(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PUNCTUATION)
+PAUSE = Draft(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PAUSE)
 
 
 def carried(word: str, typed: tuple[str, ...]) -> Draft:
@@ -49,7 +51,19 @@ def spelled(word: str, typed: tuple[str, ...], confidence: float) -> Draft:
         confidence: 0 to 1.
     """
     return Draft(
-        signs=letters(word), kind=Kind.LETTER, confidence=confidence, words=typed, origin=Origin.SPELLING
+        signs=letters(word), kind=Kind.LETTER, confidence=confidence, words=typed, origin=Origin.SPELLED
+    )
+
+
+def name(gloss: str, typed: tuple[str, ...], confidence: float) -> Draft:
+    """Somebody's name; its letters if it has no sign."""
+    return Draft(
+        signs=(gloss,),
+        kind=Kind.LEXICAL,
+        confidence=confidence,
+        words=typed,
+        origin=Origin.MODEL,
+        is_name=True,
     )
 
 

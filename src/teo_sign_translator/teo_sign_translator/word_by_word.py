@@ -7,6 +7,7 @@ from itertools import takewhile
 
 from teo_sign_translator.drafts import Draft, carried, spelled
 from teo_sign_translator.glosses import GlossList
+from teo_sign_translator.number_signs import number
 from teo_sign_translator.reading import Word, WordKind
 from teo_sign_translator.translation import Kind, Origin
 
@@ -19,9 +20,6 @@ LISTED_CONFIDENCE = 0.5
 NAME_CONFIDENCE = 0.5
 #: Another word without a sign: spelling Spanish is the last resort.
 SPELLED_CONFIDENCE = 0.3
-
-# Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
-_DECIMAL_GLOSS = "COMA"
 
 
 def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
@@ -37,7 +35,8 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
     while index < len(words):
         word = words[index]
         if word.kind is WordKind.NUMBER:
-            result.extend(number(word, NAME_CONFIDENCE if len(content) > 1 else ALONE_CONFIDENCE))
+            confidence = NAME_CONFIDENCE if len(content) > 1 else ALONE_CONFIDENCE
+            result += number(word.value, word.parts, confidence)
             index += 1
             continue
         name = index > 0 and word.capitalised and not shouted and not _is_function(word, glosses)
@@ -65,34 +64,6 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
             )
         index += size
     return result
-
-
-def number(word: Word, confidence: float) -> list[Draft]:
-    """A number as the signs of its digits; a decimal comma is a word between them.
-
-    Hours and minutes of a time of day are two numbers; no minutes are not said.
-    """
-    hours, _, minutes = word.value.partition(":")
-    if minutes:
-        said = [hours] if minutes == "00" else [hours, minutes]
-        return [_digits(digits, word, confidence) for digits in said]
-    whole, _, decimals = word.value.partition(",")
-    if not decimals:
-        return [_digits(whole, word, confidence)]
-    comma = Draft(
-        signs=(_DECIMAL_GLOSS,),
-        kind=Kind.LEXICAL,
-        confidence=confidence,
-        words=word.parts,
-        origin=Origin.NUMBER,
-    )
-    return [_digits(whole, word, confidence), comma, _digits(decimals, word, confidence)]
-
-
-def _digits(digits: str, word: Word, confidence: float) -> Draft:
-    return Draft(
-        signs=tuple(digits), kind=Kind.NUMBER, confidence=confidence, words=word.parts, origin=Origin.NUMBER
-    )
 
 
 def _is_function(word: Word, glosses: GlossList) -> bool:

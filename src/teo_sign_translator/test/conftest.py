@@ -7,5 +7,5 @@ from teo_sign_translator.translator import Translator
 
 @pytest.fixture(scope="session")
 def translator() -> Translator:
-    """The shipped model with the shipped data; it keeps nothing between texts."""
-    return Translator.load()
+    """The published model with the shipped data; it keeps nothing between texts."""
+    return Translator.load("lstm256")

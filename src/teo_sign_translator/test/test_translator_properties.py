@@ -14,7 +14,7 @@ from teo_sign_translator.spelling import ALPHABET
 from teo_sign_translator.translation import Kind, Translation
 from teo_sign_translator.translator import MAX_SENTENCE_TOKENS, Translator
 
-TRANSLATOR = Translator.load()
+TRANSLATOR = Translator.load("lstm256")
 REASONS = {"empty_text", "nothing_to_sign", "unsignable_text", "broken_encoding", "text_too_long"}
 TYPED = st.sampled_from(
     [

@@ -1,0 +1,85 @@
+"""Seeing to it that no word of a sentence is lost in its translation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from teo_sign_translator.function_words import FunctionWords
+from teo_sign_translator.neural import Hypothesis, OutputGloss
+from teo_sign_translator.neural.lexis import copied_gloss
+from teo_sign_translator.spanish_words import SourceWord
+
+#: Of a gloss that was put back: its word is right, its place a guess.
+REPAIRED_CONFIDENCE = 0.2
+
+
+@dataclass(frozen=True, slots=True)
+class Faithful:
+    """Glosses that leave no word out.
+
+    Attributes:
+        glosses: In signing order.
+        repaired: For each whether the model had left its word out and it was put back.
+    """
+
+    glosses: tuple[OutputGloss, ...]
+    repaired: tuple[bool, ...]
+
+
+def faithful(
+    words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], function_words: FunctionWords
+) -> Faithful:
+    """The best translation that loses no word; if all do, the best one with the lost words put back.
+
+    A word put back stands beside the gloss of the nearest word that has one. A sentence of nothing but
+    function words has each of them signed, since it would be empty otherwise.
+
+    Args:
+        words: Of the sentence; one at least is no mark.
+        hypotheses: Its translations, best first.
+        function_words: What may be left out.
+    """
+    for hypothesis in hypotheses:
+        if hypothesis.glosses and not lost(words, hypothesis.glosses, function_words):
+            return Faithful(hypothesis.glosses, (False,) * len(hypothesis.glosses))
+    best = hypotheses[0].glosses
+    missing = lost(words, best, function_words)
+    if not best and not missing:
+        missing = [place for place, word in enumerate(words) if not word.is_mark]
+    glosses = list(best)
+    repaired = [False] * len(best)
+    for place in missing:
+        index = _place_for(place, glosses)
+        gloss = OutputGloss(_gloss(words[place], function_words), (place,), REPAIRED_CONFIDENCE, copied=True)
+        glosses.insert(index, gloss)
+        repaired.insert(index, True)
+    return Faithful(tuple(glosses), tuple(repaired))
+
+
+def lost(
+    words: Sequence[SourceWord], glosses: Sequence[OutputGloss], function_words: FunctionWords
+) -> list[int]:
+    """Places of the words that must not be left out and that no gloss stands for."""
+    covered = {source for gloss in glosses for source in gloss.sources}
+    return [
+        place
+        for place, word in enumerate(words)
+        if place not in covered and not function_words.may_be_left_out(word)
+    ]
+
+
+def _gloss(word: SourceWord, function_words: FunctionWords) -> str:
+    reading = next((each for each in word.readings if not function_words.lists(each)), word.readings[0])
+    return copied_gloss(reading)
+
+
+def _place_for(word: int, glosses: Sequence[OutputGloss]) -> int:
+    """Where the gloss of a word belongs: beside that of the nearest word, of two the one before."""
+    best, index = float("inf"), len(glosses)
+    for place, gloss in enumerate(glosses):
+        for source in gloss.sources:
+            distance = 2 * abs(source - word) - (source < word)
+            if distance < best or (distance == best and source < word):
+                best, index = distance, place + (source < word)
+    return index
