@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -123,13 +123,15 @@ class Morphology:
             return (Reading(word, "NAME", exact=False), unknown) if capital else (unknown,)
         order = self._preferences.get(form, ())
         ranked = sorted(
-            candidates, key=lambda each: (each.effort, _preference(each.reading, order), each.source)
+            candidates,
+            key=lambda each: (
+                each.effort,
+                _preference(each.reading, order),
+                each.source,
+                each.reading.lemma != form,  # música is music before it is a woman who plays it
+            ),
         )
-        distinct = {
-            (each.reading.lemma, tag_class(each.reading.tag), each.reading.exact): each.reading
-            for each in reversed(ranked)
-        }
-        readings = tuple(reversed(distinct.values()))[:MAX_READINGS]
+        readings = _distinct(each.reading for each in ranked)
         if capital and ranked[0].effort == _RARE:
             return (Reading(word, "NAME", exact=False), *readings)[:MAX_READINGS]
         return readings
@@ -210,6 +212,17 @@ def _lexicon_entries() -> Iterator[_Entry]:
         yield from (_Entry(form, _ADJECTIVE) for form in lexicon.nominal_forms(adjective))
     for name in lexicon.names():
         yield _Entry(Form(name.name, name.name, lexicon.NAME_TAGS[name.kind]), _NAME)
+
+
+def _distinct(readings: Iterable[Reading]) -> tuple[Reading, ...]:
+    """The first readings that differ in lemma, tag class or exactness; a form is not read again less exactly."""
+    kept: dict[tuple[str, str, bool], Reading] = {}
+    tags = set()
+    for reading in readings:
+        if (reading.lemma, reading.tag) not in tags:
+            tags.add((reading.lemma, reading.tag))
+            kept.setdefault((reading.lemma, tag_class(reading.tag), reading.exact), reading)
+    return tuple(kept.values())[:MAX_READINGS]
 
 
 def _effort(written: str, typed: str) -> int:
