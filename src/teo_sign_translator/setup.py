@@ -33,6 +33,7 @@ setup(
             "translator_node = teo_sign_translator.translator_node:main",
             "translate = teo_sign_translator.translate_cli:main",
             "generate_corpus = teo_sign_translator.corpus.generate_cli:main",
+            "build_morphology = teo_sign_translator.morphology.conjugation_build:main",
             "train = teo_sign_translator.train:main",
             "evaluate = teo_sign_translator.evaluate:main",
             "compare = teo_sign_translator.compare:main",
