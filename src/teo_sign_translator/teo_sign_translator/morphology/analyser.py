@@ -215,7 +215,7 @@ def _lexicon_entries() -> Iterator[_Entry]:
 
 
 def _distinct(readings: Iterable[Reading]) -> tuple[Reading, ...]:
-    """The first readings that differ in lemma, tag class or exactness; a form is not read again less exactly."""
+    """The first readings that differ in lemma, tag class or exactness; none again with less accents."""
     kept: dict[tuple[str, str, bool], Reading] = {}
     tags = set()
     for reading in readings:
