@@ -196,8 +196,6 @@ class Morphology:
 
 
 def _lexicon_entries() -> Iterator[_Entry]:
-    for form in lexicon.closed_class_forms():
-        yield _Entry(form, _CLOSED)
     for adverb in lexicon.adverbs():
         tag = lexicon.ADVERB_TAGS[adverb.kind]
         late = adverb.kind in ("manner", "degree", "sentence")
@@ -212,6 +210,9 @@ def _lexicon_entries() -> Iterator[_Entry]:
         yield from (_Entry(form, _ADJECTIVE) for form in lexicon.nominal_forms(adjective))
     for name in lexicon.names():
         yield _Entry(Form(name.name, name.name, lexicon.NAME_TAGS[name.kind]), _NAME)
+    # Last: the first form of a lemma and tag is the one that is written, and grande has the short form gran here.
+    for form in lexicon.closed_class_forms():
+        yield _Entry(form, _CLOSED)
 
 
 def _distinct(readings: Iterable[Reading]) -> tuple[Reading, ...]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import NamedTuple
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.nominal import feminine, is_invariable, plural
 from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
+from teo_sign_translator.tables import read_rows, words_of
 
 ADVERB_TAGS = {
     "time-past": "ADV:time:past",
@@ -32,6 +32,16 @@ NAME_TAGS = {
     "region": "NAME:place",
     "city": "NAME:place",
 }
+#: Semantic classes; the files' headers say what each holds.
+NOUN_CLASSES = words_of(
+    "person family profession animal food drink place building room object clothing furniture vehicle body "
+    "illness time event subject nature weather material abstract media money tool sport music group language "
+    "plant container document device game"
+)
+ADJECTIVE_CLASSES = words_of("size colour person feeling food object place quality weather nationality")
+_USES = ("ser", "estar", "both")
+_REFLEXIVE = ("no", "also", "mostly")
+
 #: What the gender column says, as the beginnings of tags: of the word itself and of its feminine.
 _GENDERS = {"m": "m", "f": "f", "mf": "c", "inv": "c", "m+f": "m", "mp": "m", "fp": "f"}
 
@@ -88,7 +98,9 @@ class Name(NamedTuple):
 def nouns() -> tuple[Noun, ...]:
     """The common nouns."""
     return tuple(
-        Noun(lemma, _known(gender, _GENDERS, place), tuple(classes.split(",")), _irregular(forms))
+        Noun(
+            lemma, _known(gender, _GENDERS, place), _classes(classes, NOUN_CLASSES, place), _irregular(forms)
+        )
         for place, (lemma, gender, classes, forms) in _rows("nouns", 4)
     )
 
@@ -97,7 +109,13 @@ def nouns() -> tuple[Noun, ...]:
 def adjectives() -> tuple[Adjective, ...]:
     """The common adjectives."""
     return tuple(
-        Adjective(lemma, _known(gender, _GENDERS, place), tuple(classes.split(",")), use, _irregular(forms))
+        Adjective(
+            lemma,
+            _known(gender, _GENDERS, place),
+            _classes(classes, ADJECTIVE_CLASSES, place),
+            _known(use, _USES, place),
+            _irregular(forms),
+        )
         for place, (lemma, gender, classes, use, forms) in _rows("adjectives", 5)
     )
 
@@ -113,7 +131,9 @@ def adverbs() -> tuple[Adverb, ...]:
 @cache
 def verbs() -> tuple[Verb, ...]:
     """The verbs of everyday use."""
-    return tuple(Verb(*columns) for _, columns in _rows("verbs", 2))
+    return tuple(
+        Verb(lemma, _known(reflexive, _REFLEXIVE, place)) for place, (lemma, reflexive) in _rows("verbs", 2)
+    )
 
 
 @cache
@@ -169,7 +189,11 @@ def _irregular(column: str) -> dict[str, str]:
     return dict(part.split("=", 1) for part in column.split() if "=" in part)
 
 
-def _known(value: str, known: dict[str, str], place: str) -> str:
+def _classes(column: str, known: Iterable[str], place: str) -> tuple[str, ...]:
+    return tuple(_known(name, known, place) for name in column.split(","))
+
+
+def _known(value: str, known: Iterable[str], place: str) -> str:
     if value not in known:
         raise TranslationError("invalid_data", f"{place}: expected one of {', '.join(known)}, got {value!r}")
     return value
