@@ -210,7 +210,7 @@ def _lexicon_entries() -> Iterator[_Entry]:
         yield from (_Entry(form, _ADJECTIVE) for form in lexicon.nominal_forms(adjective))
     for name in lexicon.names():
         yield _Entry(Form(name.name, name.name, lexicon.NAME_TAGS[name.kind]), _NAME)
-    # Last: the first form of a lemma and tag is the one that is written, and grande has the short form gran here.
+    # Last: of the forms of a lemma and tag the first is the one that is written, and here is gran for grande.
     for form in lexicon.closed_class_forms():
         yield _Entry(form, _CLOSED)
 

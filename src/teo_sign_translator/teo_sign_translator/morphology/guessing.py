@@ -8,10 +8,13 @@ from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.reading import Reading
 from teo_sign_translator.normalisation import strip_marks
 
-#: The verb whose endings new verbs take (wasapear, guglear), and the shortest ending that tells a verb from a
-#: noun [letters]: -ando, -aste, -aban do, -a and -os do not.
+#: The verb whose endings new verbs take (guglear), and those of its forms that no noun is likely to look like:
+#: -ado, -ara, -ase, -aste and -o are endings of nouns too.
 _MODEL = "amar"
-_SHORTEST_ENDING = 3
+_TELLING_FORMS = ("V:ger", "V:ind:impf", "V:ind:fut", "V:cond", "V:ind:pret:2p", "V:ind:pret:3p")
+
+#: Infinitives of new verbs end so; nouns end in -ar (hogar), hardly ever so.
+_NEW_INFINITIVES = ("ear", "izar", "ificar")
 
 #: Endings of plurals and of their singulars; the first that fits counts.
 _PLURALS = tuple(
@@ -33,11 +36,12 @@ _SHORTEST_PLURAL = 5
 
 def guess(form: str, conjugations: Conjugations) -> Reading:
     """The likeliest reading of an unknown word in lower case."""
-    folded = strip_marks(form)
-    for cut in range(2, len(folded) - _SHORTEST_ENDING + 1):
-        for ending, tag in conjugations.endings(_MODEL, folded[cut:]):
-            if len(ending) >= _SHORTEST_ENDING:
+    for cut in range(2, len(form)):
+        for ending, tag in conjugations.endings(_MODEL, strip_marks(form[cut:])):
+            if ending == form[cut:] and tag.startswith(_TELLING_FORMS):
                 return Reading(form[:cut] + "ar", tag, exact=False)
+    if form.endswith(_NEW_INFINITIVES):
+        return Reading(form, "V:inf", exact=False)
     return Reading(singular(form), "X", exact=False)
 
 
