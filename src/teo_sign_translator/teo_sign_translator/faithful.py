@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from teo_sign_translator.function_words import FunctionWords
+from teo_sign_translator.morphology import Reading
 from teo_sign_translator.neural import Hypothesis, OutputGloss
 from teo_sign_translator.neural.lexis import copied_gloss
 from teo_sign_translator.spanish_words import SourceWord
@@ -27,6 +28,11 @@ class Faithful:
     repaired: tuple[bool, ...]
 
 
+def as_said(hypothesis: Hypothesis) -> Faithful:
+    """A translation as the model says it."""
+    return Faithful(hypothesis.glosses, (False,) * len(hypothesis.glosses))
+
+
 def faithful(
     words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], function_words: FunctionWords
 ) -> Faithful:
@@ -42,16 +48,16 @@ def faithful(
     """
     for hypothesis in hypotheses:
         if hypothesis.glosses and not lost(words, hypothesis.glosses, function_words):
-            return Faithful(hypothesis.glosses, (False,) * len(hypothesis.glosses))
+            return as_said(hypothesis)
     best = hypotheses[0].glosses
-    missing = lost(words, best, function_words)
+    missing = {place: _meant(words[place], function_words) for place in lost(words, best, function_words)}
     if not best and not missing:
-        missing = [place for place, word in enumerate(words) if not word.is_mark]
+        missing = {place: word.readings[0] for place, word in enumerate(words) if not word.is_mark}
     glosses = list(best)
     repaired = [False] * len(best)
-    for place in missing:
+    for place, reading in missing.items():
         index = _place_for(place, glosses)
-        gloss = OutputGloss(_gloss(words[place], function_words), (place,), REPAIRED_CONFIDENCE, copied=True)
+        gloss = OutputGloss(copied_gloss(reading), (place,), REPAIRED_CONFIDENCE, copied=True)
         glosses.insert(index, gloss)
         repaired.insert(index, True)
     return Faithful(tuple(glosses), tuple(repaired))
@@ -65,13 +71,25 @@ def lost(
     return [
         place
         for place, word in enumerate(words)
-        if place not in covered and not function_words.may_be_left_out(word)
+        if place not in covered
+        and not function_words.may_be_left_out(word)
+        and not _says_only_the_future(words, place)
     ]
 
 
-def _gloss(word: SourceWord, function_words: FunctionWords) -> str:
-    reading = next((each for each in word.readings if not function_words.lists(each)), word.readings[0])
-    return copied_gloss(reading)
+def _says_only_the_future(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
+    following = words[place + 1 : place + 3]
+    return (
+        any(reading.lemma == "ir" for reading in words[place].readings)
+        and len(following) == 2
+        and following[0].form == "a"
+        and any(reading.tag == "V:inf" for reading in following[1].readings)
+    )
+
+
+def _meant(word: SourceWord, function_words: FunctionWords) -> Reading:
+    return next((each for each in word.readings if not function_words.lists(each)), word.readings[0])
 
 
 def _place_for(word: int, glosses: Sequence[OutputGloss]) -> int:

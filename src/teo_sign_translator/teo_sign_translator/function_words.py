@@ -7,6 +7,7 @@ from pathlib import Path
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import TAGS, Reading
+from teo_sign_translator.normalisation import fold
 from teo_sign_translator.resources import data_file
 from teo_sign_translator.spanish_words import SourceWord
 from teo_sign_translator.tables import read_rows
@@ -43,8 +44,12 @@ class FunctionWords:
         return cls(lemmas)
 
     def may_be_left_out(self, word: SourceWord) -> bool:
-        """Whether one of a word's readings is a function word, or it is a mark."""
-        return word.is_mark or any(map(self.lists, word.readings))
+        """Whether one of a word's readings is a function word, or it is a mark.
+
+        Who types accents means them: "quién" is not "quien"; "esta" may be "está".
+        """
+        plain = word.form == fold(word.form)
+        return word.is_mark or any(self.lists(reading) for reading in word.readings if plain or reading.exact)
 
     def lists(self, reading: Reading) -> bool:
         """Whether this reading is that of a function word."""

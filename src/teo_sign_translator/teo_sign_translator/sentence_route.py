@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
 
 from teo_sign_translator.drafts import PAUSE, Draft, name
-from teo_sign_translator.faithful import Faithful, faithful
+from teo_sign_translator.faithful import Faithful, as_said, faithful
 from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.morphology import Morphology, Reading
-from teo_sign_translator.neural import OutputGloss, SentenceModel
+from teo_sign_translator.neural import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.neural.lexis import copied_gloss
 from teo_sign_translator.number_signs import number
+from teo_sign_translator.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.reading import Clause
 from teo_sign_translator.route import DraftedSentence
 from teo_sign_translator.sentence_type import SentenceType
@@ -28,6 +31,13 @@ MOST_WORDS = 40
 _PEOPLE = ("NAME", "NAME:m", "NAME:f")
 
 
+class _Sentence(NamedTuple):
+    """Clauses that are translated together, and the pattern that they are, if they were taught."""
+
+    clauses: Sequence[Clause]
+    taught: Pattern | None
+
+
 class SentenceRoute:
     """Translates each sentence with a model that reads words with their readings."""
 
@@ -36,6 +46,7 @@ class SentenceRoute:
         model: SentenceModel,
         morphology: Morphology,
         function_words: FunctionWords,
+        taught: Phrasebook,
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
     ) -> None:
@@ -45,11 +56,14 @@ class SentenceRoute:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
             function_words: What a translation may leave out.
+            taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
+                loss, and a name that it signs is not spelled.
             beam_width: Translations that the model weighs against each other, at least 1.
         """
         self._model = model
         self._morphology = morphology
         self._function_words = function_words
+        self._taught = taught
         self._beam_width = beam_width
 
     @property
@@ -59,24 +73,61 @@ class SentenceRoute:
 
     def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[DraftedSentence]]:
         """See `Route`; all sentences of all texts are given to the model together."""
-        sentences = [_by_sentence(clauses) for clauses in texts]
+        sentences = [self._sentences(clauses) for clauses in texts]
         parts = [
-            _parts(words_of_clauses(clauses, self._morphology)) for text in sentences for clauses in text
+            _parts(words_of_clauses(sentence.clauses, self._morphology))
+            for text in sentences
+            for sentence in text
         ]
         answers = iter(
-            self._model.translate_all([part for each in parts for part in each], beam=self._beam_width)
+            self._model.translate_all([part for own in parts for part in own], beam=self._beam_width)
         )
-        drafted: list[DraftedSentence] = []
-        for clauses, own in zip((clauses for text in sentences for clauses in text), parts, strict=True):
-            drafts: list[Draft] = []
-            asks = False
-            for part in own:
-                said = faithful(part, next(answers), self._function_words)
-                drafts += [*([PAUSE] if drafts else []), *_drafts(part, said)]
-                asks = _asks(part, said.glosses)
-            drafted.append(DraftedSentence(clauses, drafts, SentenceType.WH_QUESTION if asks else None))
-        ordered = iter(drafted)
-        return [[next(ordered) for _ in text] for text in sentences]
+        own_parts = iter(parts)
+        return [
+            [self._drafted(sentence, next(own_parts), answers) for sentence in text] for text in sentences
+        ]
+
+    def _sentences(self, clauses: Sequence[Clause]) -> list[_Sentence]:
+        """The sentences of a text; two that were taught as one are one."""
+        single = _by_sentence(clauses)
+        result: list[_Sentence] = []
+        while single:
+            both = [*single[0], *single[1]] if len(single) > 1 else []
+            match = self._match(both) if both else None
+            if match is not None:
+                result.append(_Sentence(both, match.pattern))
+                del single[:2]
+            else:
+                match = self._match(single[0])
+                result.append(_Sentence(single.pop(0), match.pattern if match else None))
+        return result
+
+    def _match(self, clauses: Sequence[Clause]) -> Match | None:
+        return self._taught.match(
+            [word for clause in clauses for word in clause.words],
+            crosses_stop=any(clause.closes for clause in clauses[:-1]),
+            crosses_pause=len(clauses) > 1,
+        )
+
+    def _drafted(
+        self,
+        sentence: _Sentence,
+        parts: Sequence[Sequence[SourceWord]],
+        answers: Iterator[tuple[Hypothesis, ...]],
+    ) -> DraftedSentence:
+        drafts: list[Draft] = []
+        recognised = sentence.taught.type if sentence.taught else None
+        for part, hypotheses in zip(parts, answers, strict=False):  # the answers go on to other sentences
+            if sentence.taught and hypotheses[0].glosses:
+                said = as_said(hypotheses[0])
+            else:
+                said = faithful(part, hypotheses, self._function_words)
+            if drafts:
+                drafts.append(PAUSE)
+            drafts += _drafts(part, said, sentence.taught.glosses if sentence.taught else ())
+            if not sentence.taught and _asks(part, said.glosses):
+                recognised = SentenceType.WH_QUESTION
+        return DraftedSentence(sentence.clauses, drafts, recognised)
 
 
 def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
@@ -101,13 +152,20 @@ def _parts(words: Sequence[SourceWord]) -> list[Sequence[SourceWord]]:
     return [part for part in parts if not all(word.is_mark for word in part)]
 
 
-def _drafts(words: Sequence[SourceWord], said: Faithful) -> list[Draft]:
-    """Glosses as drafts; words that none stands for go with the next one, marks between them are pauses."""
+def _drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection[str]) -> list[Draft]:
+    """Glosses as drafts; words that none stands for go with the next one, marks between them are pauses.
+
+    Args:
+        words: Of the sentence.
+        said: Its translation.
+        signed: Glosses that are no names whatever their words.
+    """
     typed = _typed(words, [gloss.sources for gloss in said.glosses])
     pauses = _pauses(words, said.glosses)
     result: list[Draft] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
-        result += _draft(words, gloss, Origin.REPAIRED if repaired else Origin.MODEL, own)
+        draft = _draft(words, gloss, Origin.REPAIRED if repaired else Origin.MODEL, own)
+        result += [replace(each, is_name=False) for each in draft] if gloss.gloss in signed else draft
         if place in pauses:
             result.append(PAUSE)
     return result

@@ -89,6 +89,8 @@ def _source_word(word: Word, capital: bool, morphology: Morphology) -> SourceWor
     form = word.lower
     if not word.stands_for and _DRAWN_OUT.search(form) and not _ROMAN_NUMERAL.fullmatch(text):
         form = _written(form, morphology)
+    if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
+        return SourceWord(text, form, capital, (Reading(form, "X"),))
     readings = morphology.readings(form)
     if capital and not any(r.tag.startswith("NAME") for r in readings):
         readings = _with_name(text, readings)

@@ -91,15 +91,16 @@ class Translator:
         Raises:
             TranslationError: "unknown_model", "invalid_model", "invalid_data".
         """
+        glosses = GlossList.load()
+        taught = Phrasebook(training_pairs(), glosses)
         if name in sentence_models(directory):
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
-            route: Route = SentenceRoute(model, morphology, FunctionWords.load(), beam_width=beam_width)
+            route: Route = SentenceRoute(
+                model, morphology, FunctionWords.load(), taught, beam_width=beam_width
+            )
             return cls(route, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
-        glosses = GlossList.load()
-        route = PhraseRoute(
-            load_model(name, directory), Phrasebook(training_pairs(), glosses), glosses, name=name
-        )
+        route = PhraseRoute(load_model(name, directory), taught, glosses, name=name)
         return cls(route, SignChooser(read_synonyms(), None), min_confidence=min_confidence)
 
     @property
