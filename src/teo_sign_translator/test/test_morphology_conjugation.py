@@ -124,7 +124,7 @@ def test_every_everyday_verb_has_every_form() -> None:
 
 
 def test_simplemma_leads_nearly_every_form_to_the_same_infinitive() -> None:
-    # simplemma has one lemma a form: of ambiguous ones (vino, casa) another word. Its participles are adjectives.
+    # simplemma has one lemma a form: of ambiguous ones (vino, casa) another word; of participles, adjectives.
     tags = [tag for tag in VERB_TAGS if ":part" not in tag and not tag.startswith("V:imp")]
     total = agreed = 0
     for verb in lexicon.verbs()[::10]:

@@ -8,8 +8,8 @@ from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.reading import Reading
 from teo_sign_translator.normalisation import strip_marks
 
-#: The verb whose endings new verbs take (guglear), and those of its forms that no noun is likely to look like:
-#: -ado, -ara, -ase, -aste and -o are endings of nouns too.
+#: The verb whose endings new verbs take (guglear), and its forms that hardly any noun looks like: -ado,
+#: -ara, -ase, -aste and -o are endings of nouns too.
 _MODEL = "amar"
 _TELLING_FORMS = ("V:ger", "V:ind:impf", "V:ind:fut", "V:cond", "V:ind:pret:2p", "V:ind:pret:3p")
 
