@@ -35,7 +35,7 @@ class Memory:
         first: Decoder states before the first gloss, one array a layer. Shape (B, state size).
         slots: Where each candidate's gloss stands: in the closed list, or (its size) + the first candidate
             with the same gloss. Shape (B, C).
-        real: Which candidates are readings. Shape (B, C).
+        barred: 0 for each candidate that is a reading, minus infinity for the others. Shape (B, C).
         glosses: The candidates' glosses, of each sentence.
     """
 
@@ -45,7 +45,7 @@ class Memory:
     said: Array
     first: tuple[Array, ...]
     slots: Ints
-    real: NDArray[np.bool_]
+    barred: Array
     glosses: tuple[tuple[str, ...], ...]
 
 
@@ -144,7 +144,7 @@ class ArrayModel:
         count, width = words.shape[:2]
         none = np.zeros((count, 0, 0), np.float32)
         keys = pointer = said = none
-        slots, real = np.zeros((count, 0), np.int64), np.zeros((count, 0), np.bool_)
+        slots, barred = np.zeros((count, 0), np.int64), np.zeros((count, 0), np.float32)
         glosses: tuple[tuple[str, ...], ...] = ((),) * count
         if self.config.attention:
             keys = (words @ self._key + self._key_bias).swapaxes(1, 2) * np.float32(self.config.hidden**-0.5)
@@ -162,45 +162,46 @@ class ArrayModel:
             ] + readings @ self._said_reading
             said = self._decoder[0].project(candidates.reshape(count, width * READINGS, -1))
             glosses = tuple(_candidates(row) for row in features)
-            real = np.array([[bool(gloss) for gloss in row] for row in glosses])
+            barred = np.array([[0.0 if gloss else -np.inf for gloss in row] for row in glosses], np.float32)
             slots = np.array([self._slots(row) for row in glosses], np.int64)
-        return Memory(words, keys, pointer, said, self._first_states(words), slots, real, glosses)
+        return Memory(words, keys, pointer, said, self._first_states(words), slots, barred, glosses)
 
-    def step(self, memory: Memory, row: Ints, said: Ints, states: tuple[Array, ...]) -> Step:
+    def step(self, memory: Memory, said: Ints, states: tuple[Array, ...]) -> Step:
         """Say one gloss more in each row.
 
         Args:
-            memory: Of the sentences.
-            row: Which sentence each row belongs to. Shape (rows,).
+            memory: Of B sentences; each has the same number K of rows, those of one sentence together.
             said: Gloss said before: place in the closed list, or its size + candidate. Shape (rows,).
             states: Of the decoder before.
         """
         size = len(self._output_bias)
+        count = len(memory.words)
+        beam = len(said) // count
         projected = self._said[np.minimum(said, size - 1)]
         copied = np.flatnonzero(said >= size)
         if len(copied):
-            projected[copied] = memory.said[row[copied], said[copied] - size]
+            projected[copied] = memory.said[copied // beam, said[copied] - size]
         after = [self._decoder[0].step(projected, states[0])]
         hidden = after[0][:, : self.config.hidden]
         for layer, state in zip(self._decoder[1:], states[1:], strict=True):
             after.append(layer.step(layer.project(hidden), state))
             hidden = after[-1][:, : self.config.hidden]
-        attention = np.zeros((len(row), 0), np.float32)
+        attention = np.zeros((len(said), 0), np.float32)
         if self.config.attention:
-            attention = softmax((hidden[:, None] @ memory.keys[row])[:, 0])
-            seen = (attention[:, None] @ memory.words[row])[:, 0]
+            looks = softmax(hidden.reshape(count, beam, -1) @ memory.keys)
+            seen = (looks @ memory.words).reshape(len(said), -1)
+            attention = looks.reshape(len(said), -1)
             hidden = np.tanh(np.concatenate([hidden, seen], axis=1) @ self._readout + self._readout_bias)
         logits = hidden @ self._output + self._output_bias
-        candidates = np.zeros((len(row), 0), np.float32)
+        candidates = np.zeros((len(said), 0), np.float32)
         if self.config.copy:
-            pointed = (hidden[:, None] @ memory.pointer[row])[:, 0]
-            pointed[~memory.real[row]] = -np.inf
-            both = softmax(np.concatenate([logits, pointed], axis=1))
+            pointed = hidden.reshape(count, beam, -1) @ memory.pointer + memory.barred[:, None]
+            both = softmax(np.concatenate([logits, pointed.reshape(len(said), -1)], axis=1))
             candidates = both[:, size:]
             probability = both.copy()
             probability[:, size:] = 0
-            rows = np.arange(len(row))[:, None]
-            np.add.at(probability, (np.broadcast_to(rows, candidates.shape), memory.slots[row]), candidates)
+            slots = np.repeat(memory.slots, beam, axis=0)
+            np.add.at(probability, (np.arange(len(said))[:, None], slots), candidates)
         else:
             probability = softmax(logits)
         return Step(probability, candidates, attention, tuple(after))
@@ -256,9 +257,8 @@ class ArrayModel:
         start = np.tanh(last @ self._start + self._start_bias)
         states = []
         for layer in range(self.config.layers):
-            state = np.zeros((len(words), self._state_size), np.float32)
-            state[:, :hidden] = start[:, layer * hidden : (layer + 1) * hidden]
-            states.append(state)
+            own = start[:, layer * hidden : (layer + 1) * hidden]
+            states.append(np.tile(own, (1, self._state_size // hidden)))
         return tuple(states)
 
 

@@ -93,8 +93,7 @@ def search(
     memory = model.encode(sentences)
     count, width = memory.words.shape[:2]
     size = len(model.lexis.glosses)
-    sentence = np.repeat(np.arange(count), beam)
-    states = tuple(state[sentence] for state in memory.first)
+    states = tuple(np.repeat(state, beam, axis=0) for state in memory.first)
     score = np.full((count, beam), -np.inf, np.float32)
     score[:, 0] = 0
     ended = np.zeros((count, beam), np.bool_)
@@ -102,7 +101,7 @@ def search(
     choices: list[_Choice] = []
     # Twice the words and some: plurals repeat a word, and pronoun, tense and question add glosses.
     for _ in range(2 * width + 8):
-        step = model.step(memory, sentence, said.ravel(), states)
+        step = model.step(memory, said.ravel(), states)
         options = step.probability.shape[1]
         with np.errstate(divide="ignore"):
             following = np.log(step.probability).reshape(count, beam, options)

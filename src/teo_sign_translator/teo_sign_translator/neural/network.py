@@ -94,9 +94,7 @@ class Network(nn.Module):
                 parts[row, places[part]] = 1
         self.register_buffer("tag_parts", parts, persistent=False)
 
-        cell = _CELLS[config.cell]
-        depth = {"num_layers": config.layers, "batch_first": True, "dropout": dropout * (config.layers > 1)}
-        self.encoder = cell(2 * size, hidden, bidirectional=config.bidirectional, **depth)
+        self.encoder = _recurrent(config, 2 * size, config.bidirectional, dropout)
         memory = hidden * (1 + config.bidirectional)
         glosses = len(lexis.glosses)
         if config.layout == "equal_length":
@@ -104,7 +102,7 @@ class Network(nn.Module):
             return
         self.start = nn.Linear(memory, hidden * config.layers)
         self.said = nn.Embedding(glosses, size)
-        self.decoder = cell(size, hidden, **depth)
+        self.decoder = _recurrent(config, size, False, dropout)
         self.output = nn.Linear(hidden, glosses)
         if config.attention:
             self.key = nn.Linear(memory, hidden)
@@ -185,4 +183,22 @@ class Network(nn.Module):
             last = torch.cat([last, memory[:, 0, hidden:]], dim=-1)
         state = torch.tanh(self.start(last))
         state = state.view(-1, self.config.layers, hidden).transpose(0, 1).contiguous()
-        return (state, torch.zeros_like(state)) if self.config.cell == "lstm" else state
+        return (state, state) if self.config.cell == "lstm" else state
+
+
+def _recurrent(config: NetworkConfig, inputs: int, bidirectional: bool, dropout: float) -> nn.RNNBase:
+    """Recurrent layers; an LSTM begins with open forget gates, to keep what it reads (Jozefowicz 2015)."""
+    layers: nn.RNNBase = _CELLS[config.cell](
+        inputs,
+        config.hidden,
+        num_layers=config.layers,
+        batch_first=True,
+        dropout=dropout if config.layers > 1 else 0.0,
+        bidirectional=bidirectional,
+    )
+    if config.cell == "lstm":
+        with torch.no_grad():
+            for name, values in layers.named_parameters():
+                if name.startswith("bias_ih"):
+                    values[config.hidden : 2 * config.hidden] = 1
+    return layers

@@ -12,10 +12,11 @@ POINTER = "pointer"
 
 #: By name, from the simplest on. The first ones are the layouts of Figure 1 of arXiv:1907.04198, then its
 #: future work. All read the same words and readings, so that a row of `compare` differs from the next by its
-#: mechanism alone.
+#: mechanism alone. The equal-length layout reads from both ends: its first gloss stands at the first word,
+#: and may be said by the last.
 ZOO = MappingProxyType(
     {
-        "rnn_equal": NetworkConfig(cell="rnn", layout="equal_length"),
+        "rnn_equal": NetworkConfig(cell="rnn", layout="equal_length", bidirectional=True),
         "lstm_equal": NetworkConfig(cell="lstm", layout="equal_length", bidirectional=True),
         "rnn": NetworkConfig(cell="rnn"),
         "gru": NetworkConfig(cell="gru"),
