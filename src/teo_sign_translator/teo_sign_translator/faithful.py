@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from teo_sign_translator.function_words import FunctionWords
@@ -56,7 +56,7 @@ def faithful(
     glosses = list(best)
     repaired = [False] * len(best)
     for place, reading in missing.items():
-        index = _place_for(place, glosses)
+        index = _place_for(place, words, glosses)
         gloss = OutputGloss(copied_gloss(reading), (place,), REPAIRED_CONFIDENCE, copied=True)
         glosses.insert(index, gloss)
         repaired.insert(index, True)
@@ -67,13 +67,31 @@ def lost(
     words: Sequence[SourceWord], glosses: Sequence[OutputGloss], function_words: FunctionWords
 ) -> list[int]:
     """Places of the words that must not be left out and that no gloss stands for."""
-    covered = {source for gloss in glosses for source in gloss.sources}
+    covered = {place for gloss in glosses for place in _stands_for(words, gloss)}
     return [
         place
         for place, word in enumerate(words)
         if place not in covered
         and not function_words.may_be_left_out(word)
         and not _says_only_the_future(words, place)
+    ]
+
+
+def _stands_for(words: Sequence[SourceWord], gloss: OutputGloss) -> Collection[int]:
+    """The words that a gloss says: of those that it stands for, not all may be meant.
+
+    A word's own lemma says that word, whatever else the model looked at; a name or a number is said by
+    nothing else.
+    """
+    own = [
+        place
+        for place in gloss.sources
+        if any(copied_gloss(reading) == gloss.gloss for reading in words[place].readings)
+    ]
+    return own or [
+        place
+        for place in gloss.sources
+        if not all(reading.tag.startswith(("NAME", "NUM")) for reading in words[place].readings)
     ]
 
 
@@ -92,11 +110,11 @@ def _meant(word: SourceWord, function_words: FunctionWords) -> Reading:
     return next((each for each in word.readings if not function_words.lists(each)), word.readings[0])
 
 
-def _place_for(word: int, glosses: Sequence[OutputGloss]) -> int:
+def _place_for(word: int, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int:
     """Where the gloss of a word belongs: beside that of the nearest word, of two the one before."""
     best, index = float("inf"), len(glosses)
     for place, gloss in enumerate(glosses):
-        for source in gloss.sources:
+        for source in _stands_for(words, gloss):
             distance = 2 * abs(source - word) - (source < word)
             if distance < best or (distance == best and source < word):
                 best, index = distance, place + (source < word)

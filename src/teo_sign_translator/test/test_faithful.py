@@ -68,3 +68,16 @@ def test_a_verb_that_only_says_the_future_may_be_left_out() -> None:
     words = source_words("Mañana voy a Roma", MORPHOLOGY)
     said = _hypothesis(("MAÑANA", 0), ("ROMA", 3))
     assert "IR" in _glosses(faithful(words, [said], FunctionWords.load()))
+
+
+def test_a_gloss_that_is_one_words_lemma_says_that_word_alone() -> None:
+    said = Hypothesis((OutputGloss("LECHE", (1, 3, 4), 0.9, True), OutputGloss("BEBER", (2,), 0.9, True)), -1)
+    assert _glosses(_checked(said)) == "LECHE FRÍO NIÑA BEBER"
+
+
+def test_a_name_or_number_is_said_by_nothing_else() -> None:
+    words = source_words("Ana come 3 peras", MORPHOLOGY)
+    said = Hypothesis(
+        (OutputGloss("ALGUIEN", (0, 2, 3), 0.9, False), OutputGloss("COMER", (1,), 0.9, True)), -1
+    )
+    assert _glosses(faithful(words, [said], FunctionWords.load())) == "ALGUIEN ANA COMER 3"
