@@ -30,6 +30,12 @@ _PLURALS = tuple(
         ("([aáeéoó])s", r"\1"),
     )
 )
+#: Endings that only nouns have, with their gender.
+_NOUNS = (
+    (("ción", "sión", "dad", "tad", "tud"), "f"),
+    (("miento", "ismo", "aje"), "m"),
+    (("ista",), "c"),
+)
 #: Shortest word that is taken for a plural [letters]: "gas" and "dos" are none.
 _SHORTEST_PLURAL = 5
 
@@ -42,7 +48,11 @@ def guess(form: str, conjugations: Conjugations) -> Reading:
                 return Reading(form[:cut] + "ar", tag, exact=False)
     if form.endswith(_NEW_INFINITIVES):
         return Reading(form, "V:inf", exact=False)
-    return Reading(singular(form), "X", exact=False)
+    lemma = singular(form)
+    gender = next((gender for endings, gender in _NOUNS if lemma.endswith(endings)), None)
+    if gender is None:
+        return Reading(lemma, "X", exact=False)
+    return Reading(lemma, f"N:{gender}{'s' if lemma == form else 'p'}", exact=False)
 
 
 def singular(form: str) -> str:
