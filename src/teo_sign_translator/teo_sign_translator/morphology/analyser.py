@@ -27,6 +27,9 @@ MAX_READINGS = 4
 #: Words whose readings are kept ready [words]: more than are in use in any conversation; about 10 MB.
 _CACHED_WORDS = 20_000
 
+#: Longer words are names of chemicals, or no words [letters]: to look into them takes time and finds nothing.
+_LONGEST_WORD = 40
+
 _NUMBER = re.compile(r"\d+(?:[.,:]\d+)*")
 #: What a reading comes from, the likeliest first.
 _CLOSED, _ADVERB, _NOUN, _ADJECTIVE, _LATE_ADVERB, _VERB, _NAME, _WITH_PRONOUNS = range(8)
@@ -116,6 +119,8 @@ class Morphology:
             return (Reading(form, "NUM"),)
         if not any(character.isalnum() for character in form):
             return (Reading(form, "MARK"),)
+        if len(form) > _LONGEST_WORD:
+            return (Reading(form, "X", exact=False),)
         capital = word[0].isupper()
         candidates = self._candidates(form, strip_marks(form), capital)
         if not candidates:
@@ -175,7 +180,7 @@ class Morphology:
                 adverb = written + "mente"
                 effort = _effort(adverb, form)
                 yield _Candidate(effort, _LATE_ADVERB, Reading(adverb, "ADV:manner", exact=effort == _EXACT))
-                yield _Candidate(_DERIVED, _ADJECTIVE, Reading(lemma, "A:fs", exact=effort == _EXACT))
+                yield _Candidate(_DERIVED, _ADJECTIVE, Reading(lemma, tag, exact=effort == _EXACT))
 
     def _derived(self, folded: str) -> Iterator[_Candidate]:
         for derived in of_diminutive(folded):
