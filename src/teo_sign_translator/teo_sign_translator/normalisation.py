@@ -34,6 +34,8 @@ _REPLACEMENTS = str.maketrans(
     }
 )
 
+_DRAWN_OUT = re.compile(r"([^\W\d_])\1{2,}")
+
 # What Spanish keyboards give is in that form already; most texts are.
 _IN_ONE_FORM = re.compile("[ -_a-~áéíóúüñÁÉÍÓÚÜÑ¿¡ºª€…\n]*")
 
@@ -119,3 +121,13 @@ def fold(word: str) -> str:
 def strip_marks(word: str) -> str:
     """Lower case without any mark: how a word comes from a keyboard without `ñ`."""
     return "".join(c for c in unicodedata.normalize("NFD", word.lower()) if unicodedata.category(c) != "Mn")
+
+
+def is_drawn_out(word: str) -> bool:
+    """Whether a letter stands three times in a row, as in `"holaaaa"`: no Spanish word is written so."""
+    return _DRAWN_OUT.search(word) is not None
+
+
+def shortened(word: str, times: int = 1) -> str:
+    """A drawn-out word with each such letter once, or twice: `"leeeer"` is `"ler"` or `"leer"`."""
+    return _DRAWN_OUT.sub(lambda match: match[1] * times, word)

@@ -7,13 +7,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from teo_sign_translator.morphology import Morphology, Reading
-from teo_sign_translator.normalisation import clean
+from teo_sign_translator.normalisation import clean, is_drawn_out, shortened
 from teo_sign_translator.reading import Clause, Word, WordKind, read
 
 #: Readings that a word has at most.
 _MOST_READINGS = 4
-# No Spanish word has a letter three times in a row.
-_DRAWN_OUT = re.compile(r"([^\W\d_])\1{2,}")
 _ROMAN_NUMERAL = re.compile("[IVXLCDM]+")
 
 
@@ -87,7 +85,7 @@ def _source_word(word: Word, capital: bool, morphology: Morphology) -> SourceWor
     if word.kind is WordKind.NUMBER and not word.stands_for:
         return SourceWord(text, word.value, capital, (Reading(word.value, "NUM"),))
     form = word.lower
-    if not word.stands_for and _DRAWN_OUT.search(form) and not _ROMAN_NUMERAL.fullmatch(text):
+    if not word.stands_for and is_drawn_out(form) and not _ROMAN_NUMERAL.fullmatch(text):
         form = _written(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
         return SourceWord(text, form, capital, (Reading(form, "X"),))
@@ -99,7 +97,7 @@ def _source_word(word: Word, capital: bool, morphology: Morphology) -> SourceWor
 
 def _written(form: str, morphology: Morphology) -> str:
     """A drawn-out word as it is written: each letter once, or twice if that is a word ("leeer")."""
-    single, double = _DRAWN_OUT.sub(r"\1", form), _DRAWN_OUT.sub(r"\1\1", form)
+    single, double = shortened(form), shortened(form, times=2)
     known_twice = any(reading.exact for reading in morphology.readings(double))
     return double if known_twice and not any(r.exact for r in morphology.readings(single)) else single
 

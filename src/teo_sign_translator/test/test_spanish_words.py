@@ -43,6 +43,7 @@ def _forms(sentence: str) -> list[str]:
         ("q haces? xq tb vienes", "que|haces|?|porque|también|vienes"),
         ("vitamina K y plan Q", "vitamina|k|y|plan|q"),
         ("Holaaaa, síííí", "hola|,|sí"),
+        ("leeer un libro", "leer|un|libro"),
         ("Carlos III", "carlos|iii"),
         ("ﬁn", "fin"),
         ("Me gusta 😀 mucho!!!", "me|gusta|mucho|!"),

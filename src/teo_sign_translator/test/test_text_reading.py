@@ -150,6 +150,8 @@ def test_digits_are_read_as_spanish_writes_them(text: str, values: list[str]) ->
         ("Hola, ¿cuándo vienes?", SentenceType.WH_QUESTION),
         ("donde vives", SentenceType.WH_QUESTION),
         ("como estas", SentenceType.WH_QUESTION),
+        ("cuando vienes", SentenceType.WH_QUESTION),
+        ("Cuando llegue, te llamo", SentenceType.STATEMENT),
         ("Como pan", SentenceType.STATEMENT),
         ("Que tengas buen día", SentenceType.STATEMENT),
         ("¡Qué bien!", SentenceType.EXCLAMATION),
@@ -165,6 +167,7 @@ def test_the_type_of_a_sentence(text: str, kind: SentenceType) -> None:
     ("text", "negated"),
     [
         ("No vengo", True),
+        ("Nooooo vengo", True),
         ("Nunca vengo", True),
         ("No hay nadie", True),
         ("Vienes, ¿no?", False),
