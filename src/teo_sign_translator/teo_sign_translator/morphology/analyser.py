@@ -122,7 +122,8 @@ class Morphology:
         if len(form) > _LONGEST_WORD:
             return (Reading(form, "X", exact=False),)
         capital = word[0].isupper()
-        candidates = self._candidates(form, strip_marks(form), capital)
+        folded = strip_marks(form)
+        candidates = self._candidates(form, folded, capital)
         if not candidates:
             unknown = guess(form, self._conjugations)
             return (Reading(word, "NAME", exact=False), unknown) if capital else (unknown,)
@@ -133,7 +134,7 @@ class Morphology:
                 each.effort,
                 _preference(each.reading, order),
                 each.source,
-                each.reading.lemma != form,  # música is music before it is a woman who plays it
+                strip_marks(each.reading.lemma) != folded,  # música is music first, then a woman who plays it
             ),
         )
         readings = _distinct(each.reading for each in ranked)
@@ -142,13 +143,17 @@ class Morphology:
         return readings
 
     def _candidates(self, form: str, folded: str, capital: bool) -> list[_Candidate]:
-        """All readings of a word, the rare ones only where there is no other."""
+        """All readings of a word; rare verbs, and words with other accents, only where there is nothing else.
+
+        The short words of the closed classes are always there: people mistake tú for tu and más for mas.
+        """
         common = [*self._listed(form, folded, capital), *self._verbs(form, folded)]
         if not any(each.effort == _EXACT and each.reading.exact for each in common):
             common += self._derived(folded)
         common += self._adverbs(form, folded)
-        everyday = [each for each in common if each.effort != _RARE]
-        return everyday or common
+        likely = [each for each in common if each.effort != _RARE] or common
+        fitting = [each for each in likely if each.effort != _ACCENTS_WRONG or each.source == _CLOSED]
+        return fitting or likely
 
     def _listed(self, form: str, folded: str, capital: bool) -> Iterator[_Candidate]:
         for (written, lemma, tag), source in self._by_folded.get(folded, ()):
