@@ -95,7 +95,9 @@ class Expressions:
         if expression is None:
             return None
         if expression.category == "chat" and len(form) == 1 and typed.isupper():
-            return None
+            before = text[:start].rstrip(" ¿¡")
+            if before and before[-1] not in ".?!…\n":
+                return None
         if expression.category == "title" and form in self._entries and typed.endswith("."):
             following = text[match.end() :].lstrip(" ")[:1]
             if not following.isupper():  # "D. Juan", but not "vitamina d."

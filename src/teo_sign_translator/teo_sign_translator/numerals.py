@@ -47,9 +47,13 @@ _BEFORE_DATES = frozenset(
 _DIGITS = re.compile(r"\d+(?:[.,]\d+)*")
 _THOUSANDS = re.compile(r"[1-9]\d{0,2}(?:\.\d{3})+(?:,\d+)?")
 _SPACED_THOUSANDS = re.compile(r"[1-9]\d{0,2}(?: \d{3})+(?![\d.,]*\d)")
-_ORDINAL = re.compile(r"(\d+)(?:\.?[ºª](?! ?[cC]\b)|(?:er|ro|do|to|mo|vo|no|ra|da|ta)\b)")
+_ORDINAL = re.compile(r"(\d+)(?:\.?[ºª](?! ?[cC]\b)|\.er\b|(?:er|ro|do|to|mo|vo|no|ra|da|ta)\b)")
 _TIME = re.compile(r"([01]?\d|2[0-3])(?:[:h]([0-5]\d)(?![\d:])|\.([0-5]\d)(?= ?h\b))")
 _DATE = re.compile(r"(0?[1-9]|[12]\d|3[01])([/.-])(0?[1-9]|1[0-2])(?:\2(\d{4}|\d\d))?(?![/\d]|[.,]\d)")
+
+
+_ROMAN = re.compile(r"(?=..)X{0,3}(?:IX|IV|V?I{0,3})")
+_ROMAN_LETTERS = {"I": 1, "V": 5, "X": 10}
 
 
 class Digits(NamedTuple):
@@ -101,7 +105,20 @@ def _below_thousand(words: Sequence[str]) -> tuple[int, int]:
                 return total + unit, used + 2
     elif rest and rest[0] in _SMALL and not (used and rest[0] == "cero"):
         total, used = total + _SMALL[rest[0]], used + 1
+    elif used and rest and rest[0] in ("un", "una"):  # "ciento un días"
+        total, used = total + 1, used + 1
     return total, used
+
+
+def roman_value(word: str) -> int:
+    """Value of a Roman numeral in capitals, 2 to 39, of two letters or more (`XXI`, `VI`); 0 for others."""
+    if not _ROMAN.fullmatch(word):
+        return 0
+    values = [_ROMAN_LETTERS[letter] for letter in word]
+    return sum(
+        -value if any(after > value for after in values[place + 1 : place + 2]) else value
+        for place, value in enumerate(values)
+    )
 
 
 def match_digits(text: str, start: int, before: str = "") -> list[Digits]:

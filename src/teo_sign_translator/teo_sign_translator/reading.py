@@ -116,6 +116,7 @@ class _Reader:
         self._words: list[Word] = []
         self._opening = ""
         self._start = 0
+        self._number_start = 0
 
     def read(self) -> Reading:
         index = 0
@@ -160,6 +161,7 @@ class _Reader:
 
     def _digits(self, index: int) -> int:
         """Read a number, ordinal, time or date."""
+        self._number_start = index
         said = match_digits(self._text, index, self._words[-1].lower if self._words else "")
         for part in said:
             typed = (self._text[part.start : part.stop],)
@@ -179,9 +181,10 @@ class _Reader:
         return found.stop
 
     def _after_number(self) -> bool:
-        return bool(self._words) and (
-            self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
-        )
+        """Whether a unit may stand here: behind a number, but not in "UC3M"."""
+        if not self._words or self._words[-1].kind is not WordKind.NUMBER:
+            return bool(self._words) and self._words[-1].fold in NUMBER_WORDS
+        return not self._text[max(0, self._number_start - 1) : self._number_start].isalpha()
 
     def _points(self, start: int, stop: int) -> None:
         """One point or several: the end of the sentence, a pause, or part of an abbreviation or address."""

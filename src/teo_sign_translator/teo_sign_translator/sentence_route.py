@@ -30,6 +30,9 @@ MOST_WORDS = 40
 # Tags of people's names; names of places have signs, or are spelled like any other word.
 _PEOPLE = ("NAME", "NAME:m", "NAME:f")
 
+# Behind it stands a name: "me llamo rosa" is MI NOMBRE R-O-S-A.
+_NAME_GLOSS = "NOMBRE"
+
 
 class _Sentence(NamedTuple):
     """Clauses that are translated together, and the pattern that they are, if they were taught."""
@@ -164,7 +167,9 @@ def _drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection[str]
     pauses = _pauses(words, said.glosses)
     result: list[Draft] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
-        draft = _draft(words, gloss, Origin.REPAIRED if repaired else Origin.MODEL, own)
+        named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
+        origin = Origin.REPAIRED if repaired else Origin.MODEL
+        draft = _draft(words, gloss, origin, own, named=named)
         result += [replace(each, is_name=False) for each in draft] if gloss.gloss in signed else draft
         if place in pauses:
             result.append(PAUSE)
@@ -172,13 +177,27 @@ def _drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection[str]
 
 
 def _draft(
-    words: Sequence[SourceWord], gloss: OutputGloss, origin: Origin, typed: tuple[str, ...]
+    words: Sequence[SourceWord],
+    gloss: OutputGloss,
+    origin: Origin,
+    typed: tuple[str, ...],
+    *,
+    named: bool,
 ) -> list[Draft]:
+    """A gloss as a sign, a name or a number.
+
+    Args:
+        words: Of the sentence.
+        gloss: What is said.
+        origin: How it came about.
+        typed: The words that it stands for.
+        named: Whether it follows the sign for "name".
+    """
     readings = [reading for source in gloss.sources for reading in words[source].readings]
     meant = [reading for reading in readings if copied_gloss(reading) == gloss.gloss]
     if gloss.gloss[0].isdigit():
         return number(gloss.gloss, typed, gloss.probability)
-    if _is_name([words[source] for source in gloss.sources], meant):
+    if _is_name([words[source] for source in gloss.sources], meant, named=named):
         return [name(gloss.gloss, typed, gloss.probability)]
     return [
         Draft(
@@ -191,13 +210,16 @@ def _draft(
     ]
 
 
-def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading]) -> bool:
+def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bool) -> bool:
     """Whether a gloss is somebody's name.
 
     Args:
         words: That it stands for.
         meant: Their readings that have this gloss, the likeliest first.
+        named: Whether it follows the sign for "name"; then any word that may be a name is one.
     """
+    if named and any(reading.tag in (*_PEOPLE, "X") for reading in meant):
+        return True
     if not any(reading.tag in _PEOPLE for reading in meant):
         return False
     return meant[0].tag in _PEOPLE or any(word.capital for word in words)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.normalisation import clean, is_drawn_out, shortened
+from teo_sign_translator.numerals import roman_value
 from teo_sign_translator.reading import Clause, Word, WordKind, read
 
 #: Readings that a word has at most.
 _MOST_READINGS = 4
-_ROMAN_NUMERAL = re.compile("[IVXLCDM]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,9 +21,9 @@ class SourceWord:
     Attributes:
         text: As typed. Words that one short form stands for have the same text (`EE. UU.`, `xfa`).
         form: What it says, in lower case with the accents that were typed: a short form or symbol in full
-            (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`), a word
-            drawn out as it is written (`holaaaa` is `hola`). A mark is one of `,` (any mark that is a short
-            pause), `.`, `?`, `!`; opening marks are left out.
+            (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`) or a
+            Roman one (`21`), a drawn-out word as it is written (`holaaaa` is `hola`). A mark is one of `,`
+            (any mark that is a short pause), `.`, `?`, `!`; opening marks are left out.
         capital: Whether it was typed with a capital that neither the beginning of a sentence nor capitals
             all over explain.
         readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
@@ -61,14 +60,23 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
     begins = True
     for clause in clauses:
         begins = begins or bool(clause.opening)
-        for word in clause.words:
+        for word in _asking_why(clause):
             capital = not begins and not shouted and not word.stands_for and word.capitalised
-            words.append(_source_word(word, capital, morphology))
+            words.append(_source_word(word, capital, morphology, shouted=shouted))
             begins = False
         if clause.end:
             words.append(SourceWord(clause.end, clause.end, False, _MARKS[clause.end]))
         begins = clause.closes
     return tuple(words)
+
+
+def _asking_why(clause: Clause) -> Sequence[Word]:
+    """The words of a clause; "porque" at the beginning of a question is "por qué" typed in haste."""
+    first = clause.words[0]
+    if first.lower != "porque" or (clause.end != "?" and clause.opening != "¿"):
+        return clause.words
+    why = (replace(first, stands_for="por"), replace(first, stands_for="qué"))
+    return (*why, *clause.words[1:])
 
 
 _MARKS = {mark: (Reading(mark, "MARK"),) for mark in (",", ".", "?", "!")}
@@ -80,12 +88,15 @@ def _is_shouted(words: Iterable[Word]) -> bool:
     return len(letters) > 1 and letters.isupper()
 
 
-def _source_word(word: Word, capital: bool, morphology: Morphology) -> SourceWord:
+def _source_word(word: Word, capital: bool, morphology: Morphology, *, shouted: bool) -> SourceWord:
     text = word.text
+    roman = 0 if shouted else roman_value(text)
+    if roman:
+        return SourceWord(text, str(roman), False, (Reading(str(roman), "NUM"),))
     if word.kind is WordKind.NUMBER and not word.stands_for:
         return SourceWord(text, word.value, capital, (Reading(word.value, "NUM"),))
     form = word.lower
-    if not word.stands_for and is_drawn_out(form) and not _ROMAN_NUMERAL.fullmatch(text):
+    if not word.stands_for and is_drawn_out(form):
         form = _written(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
         return SourceWord(text, form, capital, (Reading(form, "X"),))

@@ -26,7 +26,7 @@ def _said(text: str, start: int = 0) -> tuple[str, ...]:
         ("D. Juan", ("don",)),
         ("d. juan", ()),
         ("q", ("que",)),
-        ("Q", ()),
+        ("Q tal", ("que",)),
         ("qué", ()),
         ("%", ("por ciento",)),
         ("hola", ()),
@@ -34,6 +34,11 @@ def _said(text: str, start: int = 0) -> tuple[str, ...]:
 )
 def test_a_short_form_is_found_as_a_whole_word(text: str, said: tuple[str, ...]) -> None:
     assert _said(text) == said
+
+
+def test_a_single_capital_letter_is_short_for_a_word_only_where_a_sentence_begins() -> None:
+    assert _said("plan Q", 5) == ()
+    assert _said("Hola. ¿Q tal?", 7) == ("que",)
 
 
 def test_where_it_ends_and_whether_with_a_point_is_told() -> None:

@@ -26,6 +26,8 @@ def _only(translator: Translator, text: str) -> Sentence:
         ("La niña bebe leche.", "NIÑA BEBER LECHE"),
         ("Quiero ver a Ana", "QUERER VER A-N-A"),
         ("QUIERO VER A ANA", "QUERER VER A-N-A"),
+        ("mi nombre rosa", "MI NOMBRE R-O-S-A"),
+        ("quiero una rosa", "QUERER ROSA"),
         ("Vivo en Madrid", "VIVIR MADRID"),
         ("Quiero ver a Xandro Gil", "QUERER VER X-A-N-D-R-O G-I-L"),
         ("Veo treinta y dos gatos", "VER 32 GATO"),
