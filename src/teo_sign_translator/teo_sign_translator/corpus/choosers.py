@@ -106,11 +106,12 @@ class ExampleChooser:
         return self._wanted(f"{path}.digits") is None
 
     def _wanted(self, path: str) -> str | None:
-        for key, choice in self.fixed.items():
-            if path == key or path.endswith("." + key):
-                self.used.add(key)
-                return choice
-        return None
+        ends = [key for key in self.fixed if path == key or path.endswith("." + key)]
+        if not ends:
+            return None
+        key = max(ends, key=len)
+        self.used.add(key)
+        return self.fixed[key]
 
     @staticmethod
     def _named(path: str, wanted: str, items: Mapping[str, _Item]) -> _Item:

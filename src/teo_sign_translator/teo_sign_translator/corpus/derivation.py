@@ -16,7 +16,9 @@ from teo_sign_translator.corpus.words import Pool, Word, WordLists
 from teo_sign_translator.errors import TranslationError
 
 #: Handed down to all that is inside, unless the rule says otherwise.
-_INHERITED = ("mood", "shapes", "who", "time", "pol", "says", "person", "number", "gender")
+_INHERITED = ("mood", "shapes", "who", "time", "pol", "says")
+#: Shapes of the present that speak of what is to come.
+_PLANS = ("present", "must", "want", "can", "want_enclitic", "can_enclitic", "need", "should", "subjunctive")
 _TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
 
 
@@ -92,6 +94,12 @@ class Derivation:
         phrase = self._phrase(rule, {}, "", spread)
         stressed = frozenset(self.grammar.word_lists.get("stressed_a", ()))
         text, places = write(phrase.tokens, stressed)
+        lost = [sign.gloss for sign in phrase.signs if any(id(token) not in places for token in sign.sources)]
+        if lost:
+            raise TranslationError(
+                "invalid_grammar",
+                f"{rule.where}: expected the words of {lost} in '{text}': they are not said",
+            )
         alignment = tuple(
             tuple(sorted({places[id(token)] for token in sign.sources})) for sign in phrase.signs
         )
@@ -122,7 +130,8 @@ class Derivation:
         head = slots.get(rule.head)
         taken = {**(head.features if head else {})}
         for key, value in rule.features:
-            taken[key] = _looked_up(value, features, slots)
+            if looked_up := _looked_up(value, features, slots):
+                taken[key] = looked_up
         if taken.get("clitic") == "dative":
             taken["clitic"] = "les" if taken.get("number") == "p" else "le"
         verb = next((phrase.verb for phrase in slots.values() if phrase.verb), None)
@@ -147,7 +156,10 @@ class Derivation:
     ) -> Rule:
         rules = self.grammar.categories[category]
         if fixed is not None:
-            return next(each for each in rules if each.name == fixed)
+            chosen = next(each for each in rules if each.name == fixed)
+            if not _fits(chosen, arguments):
+                raise NoFillerError(f"{rule.where}: {fixed} does not fit")
+            return chosen
         fitting = [each for each in rules if _fits(each, arguments)]
         if not fitting:
             raise TranslationError(
@@ -232,7 +244,7 @@ class Derivation:
                 if shape.mood == mood
                 and (not only or shape.name in names)
                 and (shape.kind != "event" or kind == "event")
-                and _time_fits(says, shape)
+                and _time_fits(says, shape, kind)
             )
         return self._shapes[key]
 
@@ -370,10 +382,14 @@ def _fits(rule: Rule, features: Mapping[str, str]) -> bool:
     return True
 
 
-def _time_fits(says: str, shape: Shape) -> bool:
-    """Whether a tense goes with a time word: "mañana" goes with the present too."""
+def _time_fits(says: str, shape: Shape, kind: str) -> bool:
+    """Whether a tense goes with a time word: "mañana" goes with the present of events too ("mañana voy")."""
     if says in ("", "any"):
         return True
+    if says == "past":
+        return shape.time == "past" and shape.dated
     if says == "future":
-        return shape.time == "future" or (shape.time == "present" and shape.kind != "event")
+        return shape.time == "future" or (
+            shape.time == "present" and shape.name in _PLANS and kind == "event"
+        )
     return shape.time == says

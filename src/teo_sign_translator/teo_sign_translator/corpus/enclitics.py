@@ -26,7 +26,7 @@ def in_order(clitics: Sequence[str]) -> tuple[str, ...]:
 
 
 def attach(form: str, clitics: Sequence[str]) -> str:
-    """Verb form and clitics in one word: `"da"` with me, lo is `"dámelo"`, `"levantad"` with os `"levantaos"`."""
+    """Verb form and clitics in one word: `"da"` with me, lo is `"dámelo"`."""
     if not clitics:
         return form
     if clitics[0] == "os" and form.endswith("d") and form != "id":

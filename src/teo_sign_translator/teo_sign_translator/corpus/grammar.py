@@ -102,6 +102,7 @@ class Shape:
         time: past, present or future.
         mark: Whether PASADO or FUTURO is said where no time word says it.
         kind: "event": only of verbs that are events; else empty.
+        dated: Whether it is said with a past date: not the perfect ("ayer he ido").
         parts: Words.
         glosses: `*` the main verb, else gloss and lemma of the auxiliary that says it.
     """
@@ -112,6 +113,7 @@ class Shape:
     time: str
     mark: bool
     kind: str
+    dated: bool
     parts: tuple[ShapePart, ...]
     glosses: tuple[tuple[str, str], ...]
 

@@ -32,7 +32,7 @@ from teo_sign_translator.errors import TranslationError
 
 _SECTIONS = ("families", "categories", "shapes", "paradigms", "word_lists", "held_out")
 _RULE_KEYS = ("weight", "when", "pick", "es", "lse", "set", "head", "example")
-_SHAPE_KEYS = ("weight", "mood", "time", "mark", "kind", "es", "lse")
+_SHAPE_KEYS = ("weight", "mood", "time", "mark", "kind", "dated", "es", "lse")
 _MOODS = ("ind", "sub", "sub_past", "inf", "imp", "neg_imp", "ger")
 _TIMES = ("past", "present", "future")
 _PART = re.compile(r"(?P<lemma>\w*)(?P<main>\*?)/(?P<tag>[\w:]+)(?P<enclitic>\+?)")
@@ -222,6 +222,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
         time,
         bool(body.get("mark", time != "present")),
         _text(where, body.get("kind", "")),
+        bool(body.get("dated", True)),
         tuple(parts),
         tuple(glosses),
     )
@@ -240,6 +241,12 @@ def _check_links(grammar: Grammar) -> None:
                 if value.startswith("$") and dot and name not in earlier:
                     _fail(rule.where, f"a slot filled before '{slot.name}', got '{value}'")
             earlier.add(slot.name)
+        said = {item.slot for item in rule.spanish}
+        for slot in rule.slots:
+            silent = all(not each.spanish for each in grammar.categories.get(slot.category, ()))
+            signed = any(item.slot == slot.name for item in rule.glosses)
+            if signed and slot.name not in said and (slot.category in LEXICAL or not silent):
+                _fail(rule.where, f"slot '{slot.name}' in 'es' since it is in 'lse'")
 
 
 def _four(where: str, name: str, forms: Any) -> tuple[str, str, str, str]:
@@ -250,8 +257,11 @@ def _four(where: str, name: str, forms: Any) -> tuple[str, str, str, str]:
 
 
 def _mapping(where: str, name: str, value: Any) -> list[tuple[str, Any]]:
-    if not isinstance(value, dict) or not all(isinstance(key, str) for key in value):
-        _fail(f"{where}: {name}", "a mapping with names in quotes where YAML needs them")
+    if not isinstance(value, dict):
+        _fail(f"{where}: {name}", f"a mapping, got {type(value).__name__}")
+    for key in value:
+        if not isinstance(key, str):
+            _fail(f"{where}: {name}", f"names in quotes where YAML needs them, got {key!r}")
     return list(value.items())
 
 

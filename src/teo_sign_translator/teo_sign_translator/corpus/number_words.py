@@ -6,8 +6,8 @@ from teo_sign_translator.tables import words_of
 
 _UNITS = words_of(
     "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciséis "
-    "diecisiete dieciocho diecinueve veinte veintiuno veintidós veintitrés veinticuatro veinticinco veintiséis "
-    "veintisiete veintiocho veintinueve"
+    "diecisiete dieciocho diecinueve veinte veintiuno veintidós veintitrés veinticuatro veinticinco "
+    "veintiséis veintisiete veintiocho veintinueve"
 )
 _TENS = words_of("treinta cuarenta cincuenta sesenta setenta ochenta noventa")
 _HUNDREDS = words_of(

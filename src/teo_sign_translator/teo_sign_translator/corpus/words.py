@@ -160,7 +160,10 @@ class WordLists:
                 continue
             if not mass and arguments.get("count") == "no":
                 continue
+            wanted = arguments.get("gender", "")
             for each in _GENDERS[gender]:
+                if wanted and each != wanted:
+                    continue
                 written = "p" if only_plural else number
                 features = {
                     "gender": each,
@@ -192,9 +195,10 @@ class WordLists:
 
     def _verbs(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
         if "lemma" in arguments:
-            lemma = arguments["lemma"]
-            features = {"pronominal": "yes" if lemma.endswith("se") else "", "kind": "state"}
-            yield Word(lemma.removesuffix("se"), features), 1.0
+            for lemma in arguments["lemma"].split(","):
+                pronominal = lemma.endswith("se")
+                features = {"pronominal": "yes" if pronominal else "", "kind": "state"}
+                yield Word(lemma.removesuffix("se") if pronominal else lemma, features), 1.0
             return
         entries = [verb for verb in self.verbs if verb.features["frame"] == arguments["frame"]]
         if not entries:
