@@ -12,6 +12,7 @@ from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.conjugation_build import (
     Forms,
     conjugate_like,
+    correct,
     paradigm_lines,
     read_package,
 )
@@ -114,3 +115,23 @@ def test_another_file_than_the_package_is_refused(content: bytes, tmp_path: Path
 def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
     with pytest.raises(TranslationError, match="expected the wheel"):
         read_package(tmp_path / "nothing.whl")
+
+
+def corrected(tmp_path: Path, line: str) -> dict[str, Forms]:
+    path = tmp_path / "corrections.tsv"
+    path.write_text(line + "\n", encoding="utf-8")
+    verbs = read_package(package(tmp_path))
+    correct(verbs, path)
+    return verbs
+
+
+def test_corrections_replace_a_form_or_a_whole_verb(tmp_path: Path) -> None:
+    assert corrected(tmp_path, "cantar\tV:imp:2s\tcantá,canta")["cantar"]["V:imp:2s"] == ("cantá", "canta")
+    assert corrected(tmp_path, "pasar\tlike\tcantar")["pasar"]["V:ind:pret:3s"] == ("pasó",)
+
+
+@pytest.mark.parametrize("line", ["cantar\tV:nope\tx", "pasar\tV:inf\tpasar", "pasar\tlike\tpesar"])
+def test_a_correction_of_nothing_known_is_refused_with_its_place(line: str, tmp_path: Path) -> None:
+    with pytest.raises(TranslationError, match="line 1: expected") as caught:
+        corrected(tmp_path, line)
+    assert caught.value.code == "invalid_data"

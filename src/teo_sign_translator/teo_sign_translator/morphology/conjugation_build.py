@@ -130,13 +130,23 @@ def read_package(wheel: Path) -> dict[str, Forms]:
     return verbs
 
 
-def correct(verbs: dict[str, Forms]) -> None:
-    """Put the forms of corrections.tsv in the place of the package's."""
-    for _, (verb, what, forms) in read_rows(data_file("morphology/corrections.tsv"), 3):
-        if what == "like":
+def correct(verbs: dict[str, Forms], path: Path) -> None:
+    """Put the forms of corrections.tsv in the place of the package's.
+
+    Raises:
+        TranslationError: "invalid_data" if a line names an unknown tag, or a verb that is not there yet.
+    """
+    for number, (verb, what, forms) in read_rows(path, 3):
+        if what == "like" and forms in verbs:
             verbs[verb] = conjugate_like(verb, verbs[forms])
-        else:
+        elif what in VERB_TAGS and verb in verbs:
             verbs[verb] = {**verbs[verb], what: tuple(forms.split(","))}
+        else:
+            raise TranslationError(
+                "invalid_data",
+                f"{path}, line {number}: expected a known verb with a tag, or a verb, like and a known verb, "
+                f"got {verb}, {what}, {forms}",
+            )
 
 
 def conjugate_like(verb: str, model: Forms) -> Forms:
@@ -149,8 +159,12 @@ def conjugate_like(verb: str, model: Forms) -> Forms:
 
 def build(wheel: Annotated[Path, typer.Argument(help="The wheel of mlconjug3 3.7.22.")]) -> None:
     """Make data/morphology/conjugations.tsv anew."""
-    verbs = read_package(wheel)
-    correct(verbs)
+    try:
+        verbs = read_package(wheel)
+        correct(verbs, data_file("morphology/corrections.tsv"))
+    except TranslationError as error:
+        typer.echo(f"{error.code}: {error}", err=True)
+        raise typer.Exit(1) from None
     lines = paradigm_lines(verbs)
     path = data_file("morphology/conjugations.tsv")
     write_atomically(path, (_HEADER + "\n".join(lines) + "\n").encode())
