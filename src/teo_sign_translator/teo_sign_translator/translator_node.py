@@ -44,6 +44,8 @@ DIAGNOSTICS_PERIOD = 1.0
 # How long the end of the text that is being translated is awaited [s]; the longest text takes less.
 _STOP_TIMEOUT = 5.0
 
+_NOT_ACTIVE = "[not_active] the translator is being stopped: activate it, then send the text again"
+
 # A log line shows this much of a text [characters].
 _LOGGED_LENGTH = 80
 
@@ -122,12 +124,36 @@ class TranslatorNode(LifecycleNode):
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Listen no more; texts that still wait are refused."""
-        self.destroy_subscription(self._texts)
-        self._stop_worker()
+        self._stop_listening()
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
         """Let go of the model and of all that was made to use it."""
+        self._let_go()
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Finish the text at hand and let go of everything."""
+        self._stop_listening()
+        self._let_go()
+        return super().on_shutdown(state)
+
+    def destroy_node(self) -> None:
+        """Finish the text at hand, then end."""
+        self._stop_listening()
+        super().destroy_node()
+
+    def _stop_listening(self) -> None:
+        worker, self._worker = self._worker, None
+        if worker is None:
+            return
+        self.destroy_subscription(self._texts)
+        for item in worker.stop(_STOP_TIMEOUT):
+            self._refuse(item.text, _NOT_ACTIVE)
+
+    def _let_go(self) -> None:
+        if self._translator is None:
+            return
         for timer in self._timers:
             self.destroy_timer(timer)
         self.destroy_service(self._service)
@@ -135,21 +161,11 @@ class TranslatorNode(LifecycleNode):
         self.destroy_publisher(self._diagnostics)
         self.destroy_lifecycle_publisher(self._tokens)
         self._translator = self._signs = self._answer = None
-        return TransitionCallbackReturn.SUCCESS
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Finish the text at hand."""
-        self._stop_worker()
-        return super().on_shutdown(state)
-
-    def destroy_node(self) -> None:
-        """Finish the text at hand, then end."""
-        self._stop_worker()
-        super().destroy_node()
 
     def _on_text(self, message: String) -> None:
-        assert self._worker is not None
-        if not self._worker.offer(_Text(message.data, self.get_clock().now())):
+        if self._worker is None:  # taken from the topic just before the node was deactivated
+            self._refuse(message.data, _NOT_ACTIVE)
+        elif not self._worker.offer(_Text(message.data, self.get_clock().now())):
             self._refuse(
                 message.data, f"[queue_full] {self._worker.size} texts wait already: send fewer at a time"
             )
@@ -214,12 +230,6 @@ class TranslatorNode(LifecycleNode):
     def _refuse(self, text: str, reason: str) -> None:
         self._statistics.add_refused(reason)
         self.get_logger().warning(f"refused {_shown(text)}: {reason}")
-
-    def _stop_worker(self) -> None:
-        worker, self._worker = self._worker, None
-        if worker is not None:
-            for item in worker.stop(_STOP_TIMEOUT):
-                self._refuse(item.text, "[not_active] the translator was stopped")
 
     def _publish_diagnostics(self) -> None:
         assert self._translator is not None

@@ -239,6 +239,29 @@ def test_a_manager_can_stop_and_start_the_node(bench: Bench) -> None:
     assert [token.gloss for token in bench.wait_for(1)[0].tokens] == ["HOLA"]
 
 
+def test_a_node_that_was_shut_down_answers_nothing_and_stays(bench: Bench) -> None:
+    bench.change(Transition.TRANSITION_ACTIVE_SHUTDOWN)
+    bench.wait(lambda: bench.texts.get_subscription_count() == 0, "the text topic to go")
+    bench.wait(lambda: not bench.client.service_is_ready(), "the service to go")
+
+
+def test_texts_that_wait_when_the_node_is_deactivated_are_refused(bench: Bench) -> None:
+    held, translate = threading.Event(), bench.node._translator.translate
+
+    def slow(text: str, signs: object) -> object:
+        assert held.wait(PATIENCE)
+        return translate(text, signs)
+
+    bench.node._translator.translate = slow
+    bench.type("Hola", "Adiós")
+    bench.wait(lambda: bench.node._worker.waiting == 1, "the second text to wait")
+    threading.Timer(0.2, held.set).start()
+    bench.change(Transition.TRANSITION_DEACTIVATE)
+    assert bench.wait_for(1)[0].text == "Hola"
+    assert (bench.node._statistics.done, bench.node._statistics.refused) == (1, 1)
+    assert "not_active" in bench.node._statistics.last_refusal
+
+
 def test_diagnostics_say_what_was_done_and_refused(bench: Bench) -> None:
     seen: list[DiagnosticArray] = []
     bench.person.create_subscription(DiagnosticArray, "diagnostics", seen.append, 10)
