@@ -154,11 +154,12 @@ class WordLists:
             gender = word.features["gender"]
             only_plural = gender in ("mp", "fp")
             mass = self._is_mass(word)
+            either = word.lemma in self.lists["mass_or_not"]
             if only_plural and number == "p":
                 continue  # they are among the singulars, which their sense is
-            if mass and (number == "p" or arguments.get("count") == "yes"):
+            if mass and not either and (number == "p" or arguments.get("count") == "yes"):
                 continue
-            if not mass and arguments.get("count") == "no":
+            if not mass and not either and arguments.get("count") == "no":
                 continue
             wanted = arguments.get("gender", "")
             for each in _GENDERS[gender]:
