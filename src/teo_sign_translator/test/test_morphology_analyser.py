@@ -207,6 +207,8 @@ def test_derived_words_lead_to_their_base(word: str, lemma: str, tag: str) -> No
         ("zarzabuques", "zarzabuque X ~"),
         ("funeriaria", "funeriaria X ~"),
         ("zanahoriada", "zanahoriada X ~"),
+        ("estrépito", "estrépito X ~"),
+        ("sílfide", "sílfide X ~"),
         ("xyz", "xyz X ~"),
     ],
 )

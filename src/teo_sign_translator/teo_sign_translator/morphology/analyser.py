@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
-from teo_sign_translator.morphology.accents import accents_fit
+from teo_sign_translator.morphology.accents import accents_fit, unaccented
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.derivation import Derived, of_adverb, of_diminutive, of_superlative
 from teo_sign_translator.morphology.enclitics import attach_pronouns, detach_pronouns
@@ -149,7 +149,7 @@ class Morphology:
         """
         common = [*self._listed(form, folded, capital), *self._verbs(form, folded)]
         if not any(each.effort == _EXACT and each.reading.exact for each in common):
-            common += self._derived(folded)
+            common += self._derived(form, folded)
         common += self._adverbs(form, folded)
         likely = [each for each in common if each.effort != _RARE] or common
         fitting = [each for each in likely if each.effort != _ACCENTS_WRONG or each.source == _CLOSED]
@@ -164,7 +164,8 @@ class Morphology:
 
     def _verbs(self, form: str, folded: str) -> Iterator[_Candidate]:
         for verb, tag, written in self._conjugations.readings(folded):
-            yield self._verb(verb, tag, written, form, ())
+            if verb in self._everyday or accents_fit(written, form):  # tráfico is not the rare traficar
+                yield self._verb(verb, tag, written, form, ())
         for bare, pronouns in detach_pronouns(folded):
             for verb, tag, written in self._conjugations.readings(bare):
                 if tag in ("V:inf", "V:ger") or tag.startswith("V:imp"):
@@ -187,8 +188,8 @@ class Morphology:
                 yield _Candidate(effort, _LATE_ADVERB, Reading(adverb, "ADV:manner", exact=effort == _EXACT))
                 yield _Candidate(_DERIVED, _ADJECTIVE, Reading(lemma, tag, exact=effort == _EXACT))
 
-    def _derived(self, folded: str) -> Iterator[_Candidate]:
-        for derived in of_diminutive(folded):
+    def _derived(self, form: str, folded: str) -> Iterator[_Candidate]:
+        for derived in of_diminutive(folded) if unaccented(form) == form else ():  # mérito is no mere little
             yield from self._from_base(derived, ("N", "A", "ADV", "DET"))
         for derived in of_superlative(folded):
             yield from self._from_base(derived, ("A", "DET"))
