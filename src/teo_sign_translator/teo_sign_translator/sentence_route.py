@@ -2,42 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.drafts import PAUSE, Draft, name
+from teo_sign_translator.division import joined, parts, pieces
+from teo_sign_translator.drafts import PAUSE, Draft
 from teo_sign_translator.faithful import Faithful, as_said, faithful
 from teo_sign_translator.function_words import FunctionWords
-from teo_sign_translator.morphology import Morphology, Reading
+from teo_sign_translator.gloss_drafts import gloss_drafts
+from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.neural import Hypothesis, OutputGloss, SentenceModel
-from teo_sign_translator.neural.lexis import copied_gloss
-from teo_sign_translator.number_signs import number
+from teo_sign_translator.pairs import SLOTS
 from teo_sign_translator.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.reading import Clause
 from teo_sign_translator.route import DraftedSentence
 from teo_sign_translator.sentence_type import SentenceType
 from teo_sign_translator.spanish_words import SourceWord, words_of_clauses
-from teo_sign_translator.translation import Kind, Origin
 
 #: Translations that the model weighs against each other.
 DEFAULT_BEAM_WIDTH = 4
 
-#: Words of a sentence that are translated together; a longer one is divided. The model has seen no longer
-#: ones, and its time grows with their number.
-MOST_WORDS = 40
-
-# Tags of people's names; names of places have signs, or are spelled like any other word.
-_PEOPLE = ("NAME", "NAME:m", "NAME:f")
-
-# Behind it stands a name: "me llamo rosa" is MI NOMBRE R-O-S-A.
-_NAME_GLOSS = "NOMBRE"
-
 
 class _Sentence(NamedTuple):
-    """Clauses that are translated together, and the pattern that they are, if they were taught."""
+    """A sentence before it is translated.
+
+    Attributes:
+        clauses: At least one.
+        parts: Its words, divided if they are too many.
+        taught: The pattern that it is; None if it was not taught.
+    """
 
     clauses: Sequence[Clause]
+    parts: Sequence[Sequence[SourceWord]]
+    taught: Pattern | None
+
+
+class _Part(NamedTuple):
+    """Words that are translated together, and the pattern that they are, if they were taught."""
+
+    words: Sequence[SourceWord]
     taught: Pattern | None
 
 
@@ -77,18 +80,43 @@ class SentenceRoute:
     def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[DraftedSentence]]:
         """See `Route`; all sentences of all texts are given to the model together."""
         sentences = [self._sentences(clauses) for clauses in texts]
-        parts = [
-            _parts(words_of_clauses(sentence.clauses, self._morphology))
+        every = [
+            _Part(words, sentence.taught)
             for text in sentences
             for sentence in text
+            for words in sentence.parts
         ]
-        answers = iter(
-            self._model.translate_all([part for own in parts for part in own], beam=self._beam_width)
-        )
-        own_parts = iter(parts)
+        said = iter(self._say(every))
         return [
-            [self._drafted(sentence, next(own_parts), answers) for sentence in text] for text in sentences
+            [_drafted(sentence, [next(said) for _ in sentence.parts]) for sentence in text]
+            for text in sentences
         ]
+
+    def _say(self, every: Sequence[_Part]) -> list[Faithful]:
+        """Translate parts; those that lose words piece by piece, if that loses fewer."""
+        answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
+        result = [
+            as_said(_as_taught(hypotheses, part.taught))
+            if part.taught and hypotheses[0].glosses
+            else faithful(part.words, hypotheses, self._function_words)
+            for part, hypotheses in zip(every, answers, strict=True)
+        ]
+        lossy = [index for index, said in enumerate(result) if any(said.repaired)]
+        divided = {index: pieces(every[index].words) for index in lossy}
+        asked = [
+            every[index].words[piece.start : piece.stop]
+            for index, own in divided.items()
+            for piece in own
+            if len(own) > 1
+        ]
+        again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
+        for index, own in divided.items():
+            if len(own) > 1:
+                translated = [(piece, faithful(*next(again), self._function_words)) for piece in own]
+                together = joined(every[index].words, translated, self._function_words)
+                if sum(together.repaired) < sum(result[index].repaired):
+                    result[index] = together
+        return result
 
     def _sentences(self, clauses: Sequence[Clause]) -> list[_Sentence]:
         """The sentences of a text; two that were taught as one are one."""
@@ -97,12 +125,11 @@ class SentenceRoute:
         while single:
             both = [*single[0], *single[1]] if len(single) > 1 else []
             match = self._match(both) if both else None
-            if match is not None:
-                result.append(_Sentence(both, match.pattern))
-                del single[:2]
-            else:
-                match = self._match(single[0])
-                result.append(_Sentence(single.pop(0), match.pattern if match else None))
+            own = both if match else single[0]
+            del single[: 2 if match else 1]
+            match = match or self._match(own)
+            words = words_of_clauses(own, self._morphology)
+            result.append(_Sentence(own, parts(words), match.pattern if match else None))
         return result
 
     def _match(self, clauses: Sequence[Clause]) -> Match | None:
@@ -112,25 +139,18 @@ class SentenceRoute:
             crosses_pause=len(clauses) > 1,
         )
 
-    def _drafted(
-        self,
-        sentence: _Sentence,
-        parts: Sequence[Sequence[SourceWord]],
-        answers: Iterator[tuple[Hypothesis, ...]],
-    ) -> DraftedSentence:
-        drafts: list[Draft] = []
-        recognised = sentence.taught.type if sentence.taught else None
-        for part, hypotheses in zip(parts, answers, strict=False):  # the answers go on to other sentences
-            if sentence.taught and hypotheses[0].glosses:
-                said = as_said(hypotheses[0])
-            else:
-                said = faithful(part, hypotheses, self._function_words)
-            if drafts:
-                drafts.append(PAUSE)
-            drafts += _drafts(part, said, sentence.taught.glosses if sentence.taught else ())
-            if not sentence.taught and _asks(part, said.glosses):
-                recognised = SentenceType.WH_QUESTION
-        return DraftedSentence(sentence.clauses, drafts, recognised)
+
+def _drafted(sentence: _Sentence, translated: Sequence[Faithful]) -> DraftedSentence:
+    """A sentence from the translations of its parts."""
+    drafts: list[Draft] = []
+    recognised = sentence.taught.type if sentence.taught else None
+    for words, said in zip(sentence.parts, translated, strict=True):
+        if drafts:
+            drafts.append(PAUSE)
+        drafts += gloss_drafts(words, said, sentence.taught.glosses if sentence.taught else ())
+        if not sentence.taught and _asks(words, said.glosses):
+            recognised = SentenceType.WH_QUESTION
+    return DraftedSentence(sentence.clauses, drafts, recognised)
 
 
 def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
@@ -142,127 +162,15 @@ def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
     return [sentence for sentence in sentences if sentence]
 
 
-def _parts(words: Sequence[SourceWord]) -> list[Sequence[SourceWord]]:
-    """A sentence as it is, or divided, at marks where there are any; no part is marks alone."""
-    parts: list[Sequence[SourceWord]] = []
-    rest = words
-    while len(rest) > MOST_WORDS:
-        marks = [place for place in range(1, MOST_WORDS) if rest[place].is_mark]
-        size = marks[-1] + 1 if marks else MOST_WORDS
-        parts.append(rest[:size])
-        rest = rest[size:]
-    parts.append(rest)
-    return [part for part in parts if not all(word.is_mark for word in part)]
-
-
-def _drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection[str]) -> list[Draft]:
-    """Glosses as drafts; words that none stands for go with the next one, marks between them are pauses.
-
-    Args:
-        words: Of the sentence.
-        said: Its translation.
-        signed: Glosses that are no names whatever their words.
-    """
-    typed = _typed(words, [gloss.sources for gloss in said.glosses])
-    pauses = _pauses(words, said.glosses)
-    result: list[Draft] = []
-    for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
-        named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
-        origin = Origin.REPAIRED if repaired else Origin.MODEL
-        draft = _draft(words, gloss, origin, own, named=named)
-        result += [replace(each, is_name=False) for each in draft] if gloss.gloss in signed else draft
-        if place in pauses:
-            result.append(PAUSE)
-    return result
-
-
-def _draft(
-    words: Sequence[SourceWord],
-    gloss: OutputGloss,
-    origin: Origin,
-    typed: tuple[str, ...],
-    *,
-    named: bool,
-) -> list[Draft]:
-    """A gloss as a sign, a name or a number.
-
-    Args:
-        words: Of the sentence.
-        gloss: What is said.
-        origin: How it came about.
-        typed: The words that it stands for.
-        named: Whether it follows the sign for "name".
-    """
-    readings = [reading for source in gloss.sources for reading in words[source].readings]
-    meant = [reading for reading in readings if copied_gloss(reading) == gloss.gloss]
-    if gloss.gloss[0].isdigit():
-        return number(gloss.gloss, typed, gloss.probability)
-    if _is_name([words[source] for source in gloss.sources], meant, named=named):
-        return [name(gloss.gloss, typed, gloss.probability)]
-    return [
-        Draft(
-            signs=(gloss.gloss,),
-            kind=Kind.LEXICAL,
-            confidence=gloss.probability,
-            words=typed,
-            origin=origin,
-        )
-    ]
-
-
-def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bool) -> bool:
-    """Whether a gloss is somebody's name.
-
-    Args:
-        words: That it stands for.
-        meant: Their readings that have this gloss, the likeliest first.
-        named: Whether it follows the sign for "name"; then any word that may be a name is one.
-    """
-    if named and any(reading.tag in (*_PEOPLE, "X") for reading in meant):
-        return True
-    if not any(reading.tag in _PEOPLE for reading in meant):
-        return False
-    return meant[0].tag in _PEOPLE or any(word.capital for word in words)
-
-
-def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
-    """For each gloss the words it stands for, as typed, and those that go with it."""
-    own = [set(places) for places in sources]
-    owner = {place: gloss for gloss, places in reversed(list(enumerate(sources))) for place in places}
-    following = owner[max(owner)] if owner else len(sources) - 1
-    for place in reversed(range(len(words))):
-        following = owner.get(place, following)
-        if place not in owner and not words[place].is_mark:
-            own[following].add(place)
-    return [_texts(words, sorted(places)) for places in own]
-
-
-def _texts(words: Sequence[SourceWord], places: Sequence[int]) -> tuple[str, ...]:
-    """What was typed at some places, a short form of several words once."""
-    result: list[str] = []
-    before: SourceWord | None = None
-    for word in (words[place] for place in places if not words[place].is_mark):
-        if before is None or word.text != before.text or word.form == before.form:
-            result.append(word.text)
-        before = word
-    return tuple(result)
-
-
-def _pauses(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> set[int]:
-    """Glosses behind which a mark of the sentence falls: all before it come from words before the mark."""
-    result: set[int] = set()
-    highest: list[int] = []
-    lowest: list[int] = []
-    for gloss in glosses:
-        highest.append(max([*highest[-1:], *gloss.sources], default=-1))
-    for gloss in reversed(glosses):
-        lowest.insert(0, min([*lowest[:1], *gloss.sources], default=len(words)))
-    for mark in (place for place, word in enumerate(words) if word.is_mark):
-        for place in range(len(glosses) - 1):
-            if highest[place] < mark < lowest[place + 1] and highest[place] >= 0:
-                result.add(place)
-                break
-    return result
+def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Hypothesis:
+    """The translation that was taught, if the model thinks of it; else the one it likes best."""
+    for hypothesis in hypotheses:
+        if len(hypothesis.glosses) == len(taught.glosses) and all(
+            gloss.gloss == expected or expected in SLOTS
+            for gloss, expected in zip(hypothesis.glosses, taught.glosses, strict=True)
+        ):
+            return hypothesis
+    return hypotheses[0]
 
 
 def _asks(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> bool:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pytest
 from word_by_word_model import WordByWordModel, translator_with
 
+from teo_sign_translator.neural import Hypothesis
 from teo_sign_translator.sentence_type import SentenceType
-from teo_sign_translator.translation import Kind, Origin, Sentence
+from teo_sign_translator.spanish_words import SourceWord
+from teo_sign_translator.translation import Kind, Origin, Sentence, printed
 from teo_sign_translator.translator import MAX_SENTENCE_TOKENS, Translator
 
 
@@ -84,6 +88,22 @@ def test_a_word_that_the_model_loses_is_put_back_and_the_sentence_called_uncerta
     assert [token.origin for token in sentence.tokens] == [Origin.MODEL, Origin.MODEL, Origin.REPAIRED]
     assert sentence.uncertain
     assert not _only(lossy, "La niña bebe agua.").uncertain
+
+
+class ShortSighted(WordByWordModel):
+    """Loses everything behind the fourth word."""
+
+    def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
+        (whole,) = super().translate(words, beam=beam)
+        return (Hypothesis(tuple(gloss for gloss in whole.glosses if gloss.sources[0] < 4), -1.0),)
+
+
+def test_a_sentence_that_is_too_much_for_the_model_is_translated_piece_by_piece() -> None:
+    translator = translator_with(ShortSighted())
+    sentence = _only(translator, "Quiero comer pan y quiero beber agua, pero Ana duerme.")
+    assert printed(sentence.tokens) == "QUERER COMER PAN QUERER BEBER AGUA PERO A-N-A DORMIR"
+    assert all(token.origin is not Origin.REPAIRED for token in sentence.tokens)
+    assert sum(token.kind is Kind.PAUSE for token in sentence.tokens) == 1
 
 
 def test_what_the_paper_leaves_out_is_no_loss() -> None:
