@@ -96,6 +96,8 @@ def _source_word(word: Word, capital: bool, morphology: Morphology, *, shouted: 
     if word.kind is WordKind.NUMBER and not word.stands_for:
         return SourceWord(text, word.value, capital, (Reading(word.value, "NUM"),))
     form = word.lower
+    if form == "x":  # a number that is not said: "Yo tengo X años"
+        return SourceWord(text, form, capital, (Reading("X", "NUM"),))
     if not word.stands_for and is_drawn_out(form):
         form = _written(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them

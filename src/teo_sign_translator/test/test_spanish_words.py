@@ -83,6 +83,10 @@ def test_a_capital_inside_a_sentence_may_be_a_name_that_no_list_holds() -> None:
     assert all(not reading.tag.startswith("NAME") for reading in _read("quiero ver a xandrolf")[-1].readings)
 
 
+def test_x_is_a_number_that_is_not_said() -> None:
+    assert [(r.lemma, r.tag) for r in _read("Yo tengo X años")[2].readings] == [("X", "NUM")]
+
+
 def test_words_that_one_short_form_stands_for_share_what_was_typed() -> None:
     assert [(word.text, word.form) for word in _read("p. ej. ven, xfa")] == [
         ("p. ej.", "por"),
