@@ -33,7 +33,7 @@ class NetworkConfig:
     bidirectional: bool = False
     attention: bool = False
     copy: bool = False
-    hidden: int = 192
+    hidden: int = 160
     embedding: int = 96
 
     def __post_init__(self) -> None:

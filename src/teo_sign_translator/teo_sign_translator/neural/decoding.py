@@ -99,6 +99,7 @@ def search(
     ended = np.zeros((count, beam), np.bool_)
     said = np.full((count, beam), START_INDEX)
     choices: list[_Choice] = []
+    row = np.arange(count)[:, None]
     # Twice the words and some: plurals repeat a word, and pronoun, tense and question add glosses.
     for _ in range(2 * width + 8):
         step = model.step(memory, said.ravel(), states)
@@ -111,11 +112,11 @@ def search(
         total = (score[..., None] + following).reshape(count, beam * options)
         best = _best(total, following[:, 0].argmax(axis=1), beam)
         parent, slot = np.divmod(best, options)
-        score = np.take_along_axis(total, best, axis=1)
-        rows = parent + np.arange(count)[:, None] * beam
+        score = total[row, best]
+        rows = parent + row * beam
         attention = step.attention[rows]
         said = _said(slot, step.candidates[rows], memory, size) if model.config.copy else slot
-        probability = np.exp(np.take_along_axis(following.reshape(count, -1), best, axis=1))
+        probability = np.exp(following.reshape(count, -1)[row, best])
         choices.append(_Choice(parent, said, slot, probability, attention))
         states = tuple(state[rows.ravel()] for state in step.states)
         ended = slot == END_INDEX
@@ -128,20 +129,13 @@ def _best(total: Array, greedy: Ints, beam: int) -> Ints:
     """The best `beam` places of each row, the likeliest continuation of the first row of the beam first."""
     if beam == 1:
         return greedy[:, None]
-    order = (
-        np.argsort(-total, axis=1, kind="stable")[:, :beam] if total.shape[1] < 64 else _partial(total, beam)
-    )
+    row = np.arange(len(total))[:, None]
+    places = np.argpartition(total, -beam, axis=1)[:, -beam:]
+    order = places[row, np.argsort(-total[row, places], axis=1)]
     result: Ints = np.empty((len(total), beam), np.int64)
-    for row, first in enumerate(greedy):
-        others = [place for place in order[row] if place != first]
-        result[row] = [first, *others[: beam - 1]]
-    return result
-
-
-def _partial(total: Array, beam: int) -> Ints:
-    places = np.argpartition(-total, beam, axis=1)[:, :beam]
-    order = np.argsort(-np.take_along_axis(total, places, axis=1), axis=1, kind="stable")
-    result: Ints = np.take_along_axis(places, order, axis=1)
+    for index, first in enumerate(greedy):
+        others = [place for place in order[index] if place != first]
+        result[index] = [first, *others[: beam - 1]]
     return result
 
 
