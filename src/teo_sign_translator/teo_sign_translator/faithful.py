@@ -36,7 +36,7 @@ def as_said(hypothesis: Hypothesis) -> Faithful:
 def faithful(
     words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], function_words: FunctionWords
 ) -> Faithful:
-    """The best translation that loses no word; if all do, the best one with the lost words put back.
+    """The best translation that loses no word; if all do, that which loses fewest, with those put back.
 
     A word put back stands beside the gloss of the nearest word that has one. A sentence of nothing but
     function words has each of them signed, since it would be empty otherwise.
@@ -49,7 +49,7 @@ def faithful(
     for hypothesis in hypotheses:
         if hypothesis.glosses and not lost(words, hypothesis.glosses, function_words):
             return as_said(hypothesis)
-    best = hypotheses[0].glosses
+    best = min((each.glosses for each in hypotheses), key=lambda each: len(lost(words, each, function_words)))
     missing = {place: _meant(words[place], function_words) for place in lost(words, best, function_words)}
     if not best and not missing:
         missing = {place: word.readings[0] for place, word in enumerate(words) if not word.is_mark}
@@ -107,7 +107,10 @@ def _says_only_the_future(words: Sequence[SourceWord], place: int) -> bool:
 
 
 def _meant(word: SourceWord, function_words: FunctionWords) -> Reading:
-    return next((each for each in word.readings if not function_words.lists(each)), word.readings[0])
+    """The likeliest reading of a word that was left out: a name where a capital says so."""
+    names = (reading for reading in word.readings if word.capital and reading.tag.startswith("NAME"))
+    others = (reading for reading in word.readings if not function_words.lists(reading))
+    return next(names, None) or next(others, None) or word.readings[0]
 
 
 def _place_for(word: int, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int:

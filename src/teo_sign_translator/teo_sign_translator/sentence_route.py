@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from teo_sign_translator.division import joined, parts, pieces
@@ -10,9 +11,9 @@ from teo_sign_translator.drafts import PAUSE, Draft
 from teo_sign_translator.faithful import Faithful, as_said, faithful
 from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.gloss_drafts import gloss_drafts
-from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.neural import Hypothesis, OutputGloss, SentenceModel
-from teo_sign_translator.pairs import SLOTS
+from teo_sign_translator.pairs import NAME, SLOTS
 from teo_sign_translator.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.reading import Clause
 from teo_sign_translator.route import DraftedSentence
@@ -96,9 +97,7 @@ class SentenceRoute:
         """Translate parts; those that lose words piece by piece, if that loses fewer."""
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            as_said(_as_taught(hypotheses, part.taught))
-            if part.taught and hypotheses[0].glosses
-            else faithful(part.words, hypotheses, self._function_words)
+            _as_taught(hypotheses, part.taught) or faithful(part.words, hypotheses, self._function_words)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -129,6 +128,8 @@ class SentenceRoute:
             del single[: 2 if match else 1]
             match = match or self._match(own)
             words = words_of_clauses(own, self._morphology)
+            if match and NAME in match.pattern.tokens:
+                words = _with_names(words, match)
             result.append(_Sentence(own, parts(words), match.pattern if match else None))
         return result
 
@@ -162,15 +163,29 @@ def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
     return [sentence for sentence in sentences if sentence]
 
 
-def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Hypothesis:
-    """The translation that was taught, if the model thinks of it; else the one it likes best."""
+def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern | None) -> Faithful | None:
+    """The translation that was taught, if the model thinks of it: what it leaves out is no loss."""
+    if taught is None:
+        return None
     for hypothesis in hypotheses:
         if len(hypothesis.glosses) == len(taught.glosses) and all(
             gloss.gloss == expected or expected in SLOTS
             for gloss, expected in zip(hypothesis.glosses, taught.glosses, strict=True)
         ):
-            return hypothesis
-    return hypotheses[0]
+            return as_said(hypothesis)
+    return None
+
+
+def _with_names(words: Sequence[SourceWord], match: Match) -> tuple[SourceWord, ...]:
+    """The words of a sentence that was taught; in the place of a name they are names, whatever else."""
+    result = list(words)
+    place = 0
+    for token, own in zip(match.pattern.tokens, match.words, strict=True):
+        for index in range(place, place + len(own)):
+            if token == NAME:
+                result[index] = replace(result[index], readings=(Reading(result[index].text, "NAME"),))
+        place += len(own)
+    return tuple(result)
 
 
 def _asks(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> bool:

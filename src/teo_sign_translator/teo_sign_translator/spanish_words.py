@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from teo_sign_translator.morphology import Morphology, Reading
@@ -10,6 +10,8 @@ from teo_sign_translator.normalisation import clean, is_drawn_out, shortened
 from teo_sign_translator.numerals import roman_value
 from teo_sign_translator.reading import Clause, Word, WordKind, read
 
+#: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
+_TITLE_CASE_WORDS = 5
 #: Readings that a word has at most.
 _MOST_READINGS = 4
 
@@ -55,7 +57,7 @@ def source_words(sentence: str, morphology: Morphology) -> tuple[SourceWord, ...
 
 def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple[SourceWord, ...]:
     """The words and marks of a sentence that has been read."""
-    shouted = _is_shouted(word for clause in clauses for word in clause.words)
+    shouted = _capitals_mean_nothing([word for clause in clauses for word in clause.words])
     words: list[SourceWord] = []
     begins = True
     for clause in clauses:
@@ -82,10 +84,16 @@ def _asking_why(clause: Clause) -> Sequence[Word]:
 _MARKS = {mark: (Reading(mark, "MARK"),) for mark in (",", ".", "?", "!")}
 
 
-def _is_shouted(words: Iterable[Word]) -> bool:
-    """Whether a sentence is all in capitals; a single one-letter word says nothing."""
-    letters = "".join(part for word in words for part in word.parts if word.kind is WordKind.LETTERS)
-    return len(letters) > 1 and letters.isupper()
+def _capitals_mean_nothing(words: Sequence[Word]) -> bool:
+    """Whether a sentence is all in capitals, or Each Of Its Words Begins With One.
+
+    A single letter or a few names say nothing of the kind.
+    """
+    letters = [word for word in words if word.kind is WordKind.LETTERS]
+    if len(letters) >= _TITLE_CASE_WORDS and all(word.capitalised for word in letters):
+        return True
+    text = "".join(part for word in letters for part in word.parts)
+    return len(text) > 1 and text.isupper()
 
 
 def _source_word(word: Word, capital: bool, morphology: Morphology, *, shouted: bool) -> SourceWord:
