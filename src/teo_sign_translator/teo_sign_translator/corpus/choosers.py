@@ -68,7 +68,7 @@ class ExampleChooser:
     """Takes what an example fixes and the first of everything else.
 
     Attributes:
-        fixed: Choice by slot path or the path's end.
+        fixed: Choice by path (`S.P.n`), or by a slot's name alone, wherever it is.
         used: Paths that were asked for.
     """
 
@@ -106,12 +106,12 @@ class ExampleChooser:
         return self._wanted(f"{path}.digits") is None
 
     def _wanted(self, path: str) -> str | None:
-        ends = [key for key in self.fixed if path == key or path.endswith("." + key)]
-        if not ends:
-            return None
-        key = max(ends, key=len)
-        self.used.add(key)
-        return self.fixed[key]
+        end = path.rpartition(".")[2] if not path.endswith((".shape", ".digits")) else ""
+        for key in (path, end):
+            if key in self.fixed:
+                self.used.add(key)
+                return self.fixed[key]
+        return None
 
     @staticmethod
     def _named(path: str, wanted: str, items: Mapping[str, _Item]) -> _Item:

@@ -16,7 +16,7 @@ from teo_sign_translator.corpus.words import Pool, Word, WordLists
 from teo_sign_translator.errors import TranslationError
 
 #: Handed down to all that is inside, unless the rule says otherwise.
-_INHERITED = ("mood", "shapes", "who", "time", "pol", "says")
+_INHERITED = ("mood", "shapes", "who", "time", "pol", "says", "self")
 #: Shapes of the present that speak of what is to come.
 _PLANS = ("present", "must", "want", "can", "want_enclitic", "can_enclitic", "need", "should", "subjunctive")
 _TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
@@ -145,7 +145,9 @@ class Derivation:
             arguments = {}
         for key, value in slot.arguments:
             looked_up = _looked_up(value, features, slots)
-            if looked_up:
+            if key == "shapes" and looked_up and "shapes" in arguments:
+                arguments[key] += f"&{looked_up}"  # what the clause allows and what the verb does
+            elif looked_up:
                 arguments[key] = looked_up
             else:
                 arguments.pop(key, None)
@@ -213,7 +215,7 @@ class Derivation:
         return Phrase(features, [token], [Sign(str(value), [token])], token)
 
     def _verb(self, arguments: Mapping[str, str], path: str, rule: Rule) -> Phrase:
-        chosen = {key: arguments[key] for key in ("frame", "lemma") if key in arguments}
+        chosen = {key: arguments[key] for key in ("frame", "lemma", "self") if key in arguments}
         try:
             word = self.chooser.word(path, self.words.pool("verb", chosen))
         except (TranslationError, KeyError) as error:
@@ -237,12 +239,17 @@ class Derivation:
     def _fitting_shapes(self, mood: str, says: str, kind: str, only: str) -> tuple[Shape, ...]:
         key = (mood, says, kind, only)
         if key not in self._shapes:
-            names = {name for each in only.split(",") for name in self.grammar.word_lists.get(each, (each,))}
+            lists = self.grammar.word_lists
+            allowed = [
+                {name for each in part.split(",") for name in lists.get(each, (each,))}
+                for part in only.split("&")
+                if part
+            ]
             self._shapes[key] = tuple(
                 shape
                 for shape in self.grammar.shapes
                 if shape.mood == mood
-                and (not only or shape.name in names)
+                and all(shape.name in names for names in allowed)
                 and (shape.kind != "event" or kind == "event")
                 and _time_fits(says, shape, kind)
             )

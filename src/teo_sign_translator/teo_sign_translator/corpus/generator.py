@@ -16,6 +16,7 @@ from teo_sign_translator.corpus.grammar_file import load_grammar
 from teo_sign_translator.corpus.pairs_file import Pair
 from teo_sign_translator.corpus.templates import Template, templates
 from teo_sign_translator.corpus.words import WordLists, is_held_out
+from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.normalisation import strip_marks
 
@@ -50,6 +51,11 @@ class Generator:
             TranslationError: "invalid_grammar" or "invalid_data".
         """
         grammar = load_grammar(grammar_folder)
+        unknown = sorted(grammar.held_out - {template.name for template in templates(grammar)})
+        if unknown:
+            raise TranslationError(
+                "invalid_grammar", f"{grammar_folder}: held_out: expected names of templates, got {unknown}"
+            )
         words = WordLists.load(grammar_folder, morphology, grammar.word_lists)
         words.held_out = held_out_words(grammar, words)
         return cls(grammar, words, frozenset(word.lower() for word in words.held_out))

@@ -36,8 +36,8 @@ class Example:
     Attributes:
         spanish: The sentence.
         glosses: Its translation.
-        fixed: Choice by slot path (`O.n`, or its end): name of an alternative or a lemma. All else takes the
-            first there is.
+        fixed: Choice by path (`S.P.n`), or by a slot's name alone, wherever it is: name of an alternative or a
+            lemma. All else takes the first there is.
     """
 
     spanish: str
