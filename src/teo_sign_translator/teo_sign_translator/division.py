@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.faithful import REPAIRED_CONFIDENCE, Faithful
-from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.neural import OutputGloss
 from teo_sign_translator.neural.lexis import copied_gloss
 from teo_sign_translator.spanish_words import SourceWord
@@ -73,7 +73,7 @@ def pieces(words: Sequence[SourceWord]) -> list[Piece]:
 def joined(
     words: Sequence[SourceWord],
     translated: Sequence[tuple[Piece, Faithful]],
-    function_words: FunctionWords,
+    coverage: Coverage,
 ) -> Faithful:
     """The translation of a sentence from those of its pieces, one after the other.
 
@@ -83,7 +83,7 @@ def joined(
     glosses: list[OutputGloss] = []
     repaired: list[bool] = []
     for piece, said in translated:
-        if piece.joint is not None and not function_words.may_be_left_out(words[piece.joint]):
+        if piece.joint is not None and not coverage.function_words.may_be_left_out(words[piece.joint]):
             gloss = copied_gloss(words[piece.joint].readings[0])
             glosses.append(OutputGloss(gloss, (piece.joint,), REPAIRED_CONFIDENCE, copied=True))
             repaired.append(False)

@@ -247,7 +247,7 @@ def _stands_alone(text: str, index: int) -> bool:
 
 def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
     """Make one word of words that say one number."""
-    folded = [word.fold if word.kind is WordKind.LETTERS else "" for word in words]
+    folded = [word.fold if word.kind is WordKind.LETTERS and word.lower != "díez" else "" for word in words]
     result: list[Word] = []
     index = 0
     while index < len(words):

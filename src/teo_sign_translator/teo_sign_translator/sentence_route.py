@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.division import joined, parts, pieces
 from teo_sign_translator.drafts import PAUSE, Draft
 from teo_sign_translator.faithful import Faithful, as_said, faithful
-from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.gloss_drafts import gloss_drafts
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.neural import Hypothesis, OutputGloss, SentenceModel
@@ -52,7 +52,7 @@ class SentenceRoute:
         self,
         model: SentenceModel,
         morphology: Morphology,
-        function_words: FunctionWords,
+        coverage: Coverage,
         taught: Phrasebook,
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
@@ -62,14 +62,14 @@ class SentenceRoute:
         Args:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
-            function_words: What a translation may leave out.
+            coverage: Finds words that a translation loses.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
             beam_width: Translations that the model weighs against each other, at least 1.
         """
         self._model = model
         self._morphology = morphology
-        self._function_words = function_words
+        self._coverage = coverage
         self._taught = taught
         self._beam_width = beam_width
 
@@ -97,7 +97,7 @@ class SentenceRoute:
         """Translate parts; those that lose words piece by piece, if that loses fewer."""
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            _as_taught(hypotheses, part.taught) or faithful(part.words, hypotheses, self._function_words)
+            _as_taught(hypotheses, part.taught) or faithful(part.words, hypotheses, self._coverage)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -111,8 +111,8 @@ class SentenceRoute:
         again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
         for index, own in divided.items():
             if len(own) > 1:
-                translated = [(piece, faithful(*next(again), self._function_words)) for piece in own]
-                together = joined(every[index].words, translated, self._function_words)
+                translated = [(piece, faithful(*next(again), self._coverage)) for piece in own]
+                together = joined(every[index].words, translated, self._coverage)
                 if sum(together.repaired) < sum(result[index].repaired):
                     result[index] = together
         return result

@@ -7,9 +7,9 @@ from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import NamedTuple
 
+from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.drafts import divide, hand_over, number_tokens
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.glosses import GlossList
 from teo_sign_translator.model_store import DEFAULT_MODEL, load_model
 from teo_sign_translator.morphology import Morphology
@@ -96,9 +96,7 @@ class Translator:
         if name in sentence_models(directory):
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
-            route: Route = SentenceRoute(
-                model, morphology, FunctionWords.load(), taught, beam_width=beam_width
-            )
+            route: Route = SentenceRoute(model, morphology, Coverage.load(), taught, beam_width=beam_width)
             return cls(route, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
         route = PhraseRoute(load_model(name, directory), taught, glosses, name=name)
         return cls(route, SignChooser(read_synonyms(), None), min_confidence=min_confidence)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from word_by_word_model import MORPHOLOGY, WordByWordModel
 
+from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.division import MOST_WORDS, joined, parts, pieces
 from teo_sign_translator.faithful import faithful
-from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.spanish_words import source_words
 
 
@@ -39,19 +39,19 @@ def test_no_part_is_longer_than_the_model_has_seen_and_none_is_lost(text: str) -
 
 def test_pieces_are_joined_with_their_places_and_conjunctions() -> None:
     words = source_words("Como pan, bebo agua y duermo, pero sueño", MORPHOLOGY)
-    model, function_words = WordByWordModel(), FunctionWords.load()
+    model, coverage = WordByWordModel(), Coverage.load()
     translated = [
         (
             piece,
             faithful(
                 words[piece.start : piece.stop],
                 model.translate(words[piece.start : piece.stop]),
-                function_words,
+                coverage,
             ),
         )
         for piece in pieces(words)
     ]
-    whole = joined(words, translated, function_words)
+    whole = joined(words, translated, coverage)
     assert [(words[gloss.sources[0]].form, len(gloss.sources)) for gloss in whole.glosses] == [
         (form, 1) for form in ("como", "pan", "bebo", "agua", "duermo", "pero", "sueño")
     ]

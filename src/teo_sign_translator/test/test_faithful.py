@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from word_by_word_model import MORPHOLOGY
 
+from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.faithful import REPAIRED_CONFIDENCE, Faithful, faithful
-from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.neural import Hypothesis, OutputGloss
 from teo_sign_translator.spanish_words import source_words
 
@@ -18,7 +18,7 @@ def _hypothesis(*glosses: tuple[str, int]) -> Hypothesis:
 
 
 def _checked(*hypotheses: Hypothesis) -> Faithful:
-    return faithful(WORDS, hypotheses, FunctionWords.load())
+    return faithful(WORDS, hypotheses, Coverage.load())
 
 
 def _glosses(result: Faithful) -> str:
@@ -55,19 +55,19 @@ def test_lost_words_are_put_back_beside_their_neighbours(kept: list[tuple[str, i
     assert all(gloss.probability == REPAIRED_CONFIDENCE for gloss in back)
 
 
-def test_a_sentence_of_function_words_alone_has_them_all() -> None:
+def test_a_sentence_of_coverage_alone_has_them_all() -> None:
     words = source_words("de la", MORPHOLOGY)
-    result = faithful(words, [Hypothesis((), 0.0)], FunctionWords.load())
+    result = faithful(words, [Hypothesis((), 0.0)], Coverage.load())
     assert [gloss.sources for gloss in result.glosses] == [(0,), (1,)]
 
 
 def test_a_verb_that_only_says_the_future_may_be_left_out() -> None:
     words = source_words("Mañana voy a comer", MORPHOLOGY)
     said = _hypothesis(("MAÑANA", 0), ("COMER", 3))
-    assert faithful(words, [said], FunctionWords.load()).glosses == said.glosses
+    assert faithful(words, [said], Coverage.load()).glosses == said.glosses
     words = source_words("Mañana voy a Roma", MORPHOLOGY)
     said = _hypothesis(("MAÑANA", 0), ("ROMA", 3))
-    assert "IR" in _glosses(faithful(words, [said], FunctionWords.load()))
+    assert "IR" in _glosses(faithful(words, [said], Coverage.load()))
 
 
 def test_a_gloss_that_is_one_words_lemma_says_that_word_alone() -> None:
@@ -75,9 +75,15 @@ def test_a_gloss_that_is_one_words_lemma_says_that_word_alone() -> None:
     assert _glosses(_checked(said)) == "LECHE FRÍO NIÑA BEBER"
 
 
-def test_a_name_or_number_is_said_by_nothing_else() -> None:
+def test_a_gloss_says_nothing_but_its_own_words_and_those_that_are_listed() -> None:
     words = source_words("Ana come 3 peras", MORPHOLOGY)
     said = Hypothesis(
         (OutputGloss("ALGUIEN", (0, 2, 3), 0.9, False), OutputGloss("COMER", (1,), 0.9, True)), -1
     )
-    assert _glosses(faithful(words, [said], FunctionWords.load())) == "ALGUIEN ANA COMER 3"
+    assert _glosses(faithful(words, [said], Coverage.load())) == "ALGUIEN ANA COMER 3 PERA"
+
+
+def test_a_question_word_is_put_back_at_the_end() -> None:
+    words = source_words("¿Cuándo come Ana?", MORPHOLOGY)
+    said = _hypothesis(("ANA", 2), ("COMER", 1))
+    assert _glosses(faithful(words, [said], Coverage.load())) == "ANA COMER CUÁNDO"

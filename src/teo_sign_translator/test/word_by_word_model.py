@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.function_words import FunctionWords
 from teo_sign_translator.glosses import GlossList
 from teo_sign_translator.morphology import Morphology
@@ -48,5 +49,5 @@ MORPHOLOGY = Morphology.load()
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
     taught = Phrasebook(training_pairs(), GlossList.load())
-    route = SentenceRoute(model, MORPHOLOGY, FunctionWords.load(), taught)
+    route = SentenceRoute(model, MORPHOLOGY, Coverage.load(), taught)
     return Translator(route, SignChooser(read_synonyms(), MORPHOLOGY))
