@@ -32,6 +32,9 @@ _HUNDRED |= {word.replace("ientos", "ientas"): value for word, value in _HUNDRED
 #: Words that numbers are made of, folded.
 NUMBER_WORDS = frozenset({*_SMALL, *_TEN, *_HUNDRED, "mil"})
 
+#: Those that are written with an accent.
+ACCENTED_NUMBER_WORDS = frozenset(words_of("dieciséis veintidós veintitrés veintiséis veintiún"))
+
 _ORDINALS = {
     str(value): word
     for value, word in enumerate(

@@ -10,7 +10,7 @@ from enum import Enum
 
 from teo_sign_translator.expressions import Expressions, Found
 from teo_sign_translator.normalisation import fold, strip_marks
-from teo_sign_translator.numerals import NUMBER_WORDS, match_digits, read_number_words
+from teo_sign_translator.numerals import ACCENTED_NUMBER_WORDS, NUMBER_WORDS, match_digits, read_number_words
 
 _LETTERS = re.compile(r"[^\W\d_]+")
 _PAUSES = ",;:()[]{}–—―"
@@ -247,7 +247,7 @@ def _stands_alone(text: str, index: int) -> bool:
 
 def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
     """Make one word of words that say one number."""
-    folded = [word.fold if word.kind is WordKind.LETTERS and word.lower != "díez" else "" for word in words]
+    folded = [_number_key(word) for word in words]
     result: list[Word] = []
     index = 0
     while index < len(words):
@@ -261,3 +261,9 @@ def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
             result.append(words[index])
             index += 1
     return tuple(result)
+
+
+def _number_key(word: Word) -> str:
+    """A word as numbers are looked up; empty if it can be part of none: "Díez" is a name, not ten."""
+    typed_right = word.fold == word.lower or word.lower in ACCENTED_NUMBER_WORDS
+    return word.fold if word.kind is WordKind.LETTERS and typed_right else ""

@@ -52,6 +52,7 @@ def _forms(sentence: str) -> list[str]:
         ("UC3M y 3m", "uc|3|m|y|3|metros"),
         ("el 3.er piso izda.", "el|tercero|piso|izquierda|."),
         ("ciento un días", "101|días"),
+        ("Julia Díez, veintidós, veintidos", "julia|díez|,|22|,|22"),
         ("ﬁn", "fin"),
         ("Me gusta 😀 mucho!!!", "me|gusta|mucho|!"),
         ("co\u200bmo e\u0301l", "como|él"),
