@@ -8,9 +8,11 @@ import simplemma
 from spoken_to_signed.text_to_gloss.simple import text_to_gloss
 
 # What LSE leaves out: articles, copulas and auxiliaries, prepositions, "y" (lemmas).
-_STOP_WORDS = frozenset(
-    "el la lo un uno ser estar haber a ante con de desde en entre hacia hasta para por según sin sobre del al y e".split()
-)
+_ARTICLES = ("el", "la", "lo", "un", "uno", "al", "del")
+_VERBS = ("ser", "estar", "haber")
+_TO_AND_FROM = ("a", "de", "desde", "en", "hacia", "hasta", "para", "por")
+_WITH_AND_OTHERS = ("ante", "con", "entre", "según", "sin", "sobre")
+_STOP_WORDS = frozenset((*_ARTICLES, *_VERBS, *_TO_AND_FROM, *_WITH_AND_OTHERS, "y", "e"))
 
 
 def lemmas_in_spanish_order(sentence: str) -> tuple[str, ...]:
@@ -20,7 +22,7 @@ def lemmas_in_spanish_order(sentence: str) -> tuple[str, ...]:
 
 
 def spoken_to_signed(sentence: str) -> tuple[str, ...]:
-    """The peer: spoken-to-signed-translation 0.4 with its only glosser that takes Spanish; marks left out, which it keeps."""
+    """The peer: spoken-to-signed 0.4 with its only glosser that takes Spanish, without the marks it keeps."""
     return tuple(
         item.gloss.upper()
         for glosses in text_to_gloss(sentence, language="es")
