@@ -69,9 +69,9 @@ class TrainingConfig:
         seed: Of initial weights, order, dropout and noise.
     """
 
-    epochs: int = 8
+    epochs: int = 5
     patience: int = 3
-    batch_size: int = 256
+    batch_size: int = 128
     learning_rate: float = 0.002
     dropout: float = 0.15
     rare_word: float = 30.0
