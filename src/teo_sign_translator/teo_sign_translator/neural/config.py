@@ -69,15 +69,15 @@ class TrainingConfig:
         seed: Of initial weights, order, dropout and noise.
     """
 
-    epochs: int = 5
+    epochs: int = 3
     patience: int = 3
     batch_size: int = 128
-    learning_rate: float = 0.002
+    learning_rate: float = 0.003
     dropout: float = 0.15
     rare_word: float = 30.0
     clean: float = 0.4
     attention_weight: float = 0.3
-    paper_repeats: int = 20
+    paper_repeats: int = 60
     seed: int = 2019
 
     def __post_init__(self) -> None:
