@@ -36,7 +36,7 @@ class Outcome:
     Attributes:
         pair: Spanish and the expected glosses.
         glosses: That came out.
-        probability: That the model gives them, 0 to 1.
+        log_probability: That the model gives them [nat].
     """
 
     pair: Pair

@@ -8,7 +8,6 @@ import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import torch
@@ -17,7 +16,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.neural import fit as fitting
-from teo_sign_translator.neural.by_heart import by_heart_pairs, unknown_by_heart
+from teo_sign_translator.neural.by_heart import ByHeart, by_heart_pairs, unknown_by_heart
 from teo_sign_translator.neural.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.neural.corpus_files import corpus_hash, read_splits, sample, without
 from teo_sign_translator.neural.decoding import ZooModel
@@ -43,7 +42,7 @@ class TrainingData:
 
     train: list[Pair]
     held_out: dict[str, list[Pair]]
-    by_heart: tuple[Any, ...]
+    by_heart: tuple[ByHeart, ...]
     corpus: Path
     sha256: str
 
