@@ -29,14 +29,13 @@ def attach(form: str, clitics: Sequence[str]) -> str:
     """Verb form and clitics in one word: `"da"` with me, lo is `"dámelo"`."""
     if not clitics:
         return form
-    if clitics[0] == "os" and form.endswith("d") and form != "id":
-        form = form[:-1]
-        if form.endswith("i"):  # vestid, vestíos
-            form = form[:-1] + "í"
-            return form + "".join(clitics)
-    if clitics[0] in ("nos", "se") and form.endswith("mos"):
-        form = form[:-1]
     stressed, place = _stress(form)
+    if clitics[0] == "os" and form.endswith("d") and form != "id":
+        if form.endswith("id"):  # vestid, vestíos
+            return form[:-2] + "íos"
+        form, stressed = form[:-1], stressed[:-1]
+    if clitics[0] in ("nos", "se") and form.endswith("mos"):
+        form, stressed = form[:-1], stressed[:-1]
     behind = len(syllables(form[place + 1 :])) + sum(len(syllables(clitic)) for clitic in clitics)
     hiatus = form[place] in "íú"
     plain = form if hiatus else stressed

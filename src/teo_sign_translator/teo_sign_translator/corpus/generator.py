@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import accumulate
@@ -143,7 +144,7 @@ def _bare(sentence: str) -> str:
 
 
 def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
-    """Content words that only tests see: by hash, except those that rules themselves name."""
+    """Content words that only tests see: by hash, except those that the grammar itself names."""
     named = {item.word for rule in _rules(grammar) for item in rule.spanish}
     named |= {
         value
@@ -153,13 +154,21 @@ def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
         for _, values in slot.arguments
         for value in values.split(",")
     }
+    named |= {word for words_ in grammar.word_lists.values() for word in words_}  # everyday words
     named |= {part.lemma for shape in grammar.shapes for part in shape.parts}
-    every = {
-        word.lemma.removesuffix("se") if word in words.verbs else word.lemma
-        for entries in (words.nouns, words.adjectives, words.names, words.verbs)
-        for word in entries
-    }
-    return frozenset(lemma for lemma in every if is_held_out(lemma) and lemma not in named)
+    every = sorted(
+        {
+            word.lemma.removesuffix("se") if word in words.verbs else word.lemma
+            for entries in (words.nouns, words.adjectives, words.names, words.verbs)
+            for word in entries
+        }
+    )
+    spellings = Counter(lemma.lower() for lemma in every)  # the surname Nieto is a grandson too
+    return frozenset(
+        lemma
+        for lemma in every
+        if is_held_out(lemma) and lemma not in named and spellings[lemma.lower()] == 1
+    )
 
 
 def _rules(grammar: Grammar) -> list[Rule]:

@@ -36,8 +36,8 @@ class Example:
     Attributes:
         spanish: The sentence.
         glosses: Its translation.
-        fixed: Choice by path (`S.P.n`), or by a slot's name alone, wherever it is: name of an alternative or a
-            lemma. All else takes the first there is.
+        fixed: Choice by path (`S.P.n`), or by a slot's name alone, wherever it is: name of an alternative or
+            a lemma. All else takes the first there is.
     """
 
     spanish: str
@@ -104,7 +104,8 @@ class Shape:
         kind: "event": only of verbs that are events; else empty.
         dated: Whether it is said with a past date: not the perfect ("ayer he ido").
         parts: Words.
-        glosses: `*` the main verb, else gloss and lemma of the auxiliary that says it.
+        glosses: `*` the main verb, with the lemma of an auxiliary that says it too or none; else gloss and
+            lemma of the auxiliary that says it.
     """
 
     name: str

@@ -212,7 +212,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
     glosses: list[tuple[str, str]] = []
     for written in _text(where, body["lse"]).split():
         gloss, _, source = written.partition("=")
-        if gloss != "*" and source not in known:
+        if source not in known and not (gloss == "*" and not source):
             _fail(where, f"* or GLOSS=auxiliary, got '{written}'")
         glosses.append((gloss, source))
     return Shape(

@@ -82,10 +82,11 @@ def say_verb(
 
 def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase) -> list[Sign]:
     """The glosses of a verb and of what its shape adds."""
-    return [
-        Sign(lemma.upper(), [phrase.main]) if gloss == "*" else Sign(gloss, [phrase.parts[source]])
-        for gloss, source in shape.glosses
-    ]
+    signs: list[Sign] = []
+    for gloss, source in shape.glosses:
+        said = [phrase.parts[source]] if source else []
+        signs.append(Sign(lemma.upper(), [*said, phrase.main]) if gloss == "*" else Sign(gloss, said))
+    return signs
 
 
 def _carriers(
