@@ -67,8 +67,8 @@ class TrainingConfig:
             every fifth time, a function word hardly ever.
         clean: Part of the pairs that is shown as written; the others with typing noise (`noise.py`).
         attention_weight: Weight of the loss by which attention follows the pairs' alignment.
-        paper_repeats: How often a pass shows each pair of the paper and the project, which must be known by
-            heart. About one pair in twenty is then one of these.
+        by_heart: Part of a pass that is pairs of the paper and the project, each repeated equally often:
+            they are few, must be known by heart, and are exceptions to the grammar of the others.
         seed: Of initial weights, order, dropout and noise.
     """
 
@@ -80,7 +80,7 @@ class TrainingConfig:
     rare_word: float = 30.0
     clean: float = 0.4
     attention_weight: float = 0.3
-    paper_repeats: int = 60
+    by_heart: float = 0.05
     seed: int = 2019
 
     def __post_init__(self) -> None:
@@ -92,8 +92,9 @@ class TrainingConfig:
             "learning_rate in (0, 1)" if not 0 < self.learning_rate < 1 else "",
             "dropout in [0, 1)" if not 0 <= self.dropout < 1 else "",
             "clean in [0, 1]" if not 0 <= self.clean <= 1 else "",
-            "rare_word, attention_weight and paper_repeats of at least 0"
-            if not min(self.rare_word, self.attention_weight, self.paper_repeats) >= 0
+            "by_heart in [0, 1)" if not 0 <= self.by_heart < 1 else "",
+            "rare_word and attention_weight of at least 0"
+            if not min(self.rare_word, self.attention_weight) >= 0
             else "",
         ]
         _refuse(problems, self)

@@ -109,7 +109,7 @@ def fit(
     Args:
         train: Pairs to learn from.
         dev: Pairs that say when to stop; if empty, the last epoch's weights are kept.
-        by_heart: Pairs that each pass shows `paper_repeats` times.
+        by_heart: Pairs that each pass repeats, see `TrainingConfig`.
         read: How sentences become words.
         network_config: What is trained.
         config: How.
@@ -131,9 +131,8 @@ def fit(
     numbers = WordNumbers.of(table, lexis, pairs)
     closed = numbers.glosses >= 0
     lost = unsayable(pairs, table, closed, network_config.copy)
-    chosen = np.concatenate(
-        [np.arange(len(train)), np.repeat(np.arange(len(train), len(pairs)), config.paper_repeats)]
-    )
+    repeats = _repeats(len(train), len(by_heart), config.by_heart)
+    chosen = np.concatenate([np.arange(len(train)), np.repeat(np.arange(len(train), len(pairs)), repeats)])
     learned = pairs.take(chosen[~lost[chosen]])
     measured = np.flatnonzero(~unsayable(development, table, closed, network_config.copy))
     development = development.take(measured)
@@ -239,6 +238,11 @@ def make_lexis(pairs: Examples, table: WordTable, by_heart: int, *, copy: bool) 
         _frequent(tags, 1),
         sorted(table.glosses[gloss] for gloss in np.flatnonzero(said >= least)),
     )
+
+
+def _repeats(others: int, by_heart: int, part: float) -> int:
+    """How often each pair that must be known by heart makes them that part of a pass; at least once."""
+    return max(1, round(part / (1 - part) * others / max(1, by_heart)))
 
 
 def _frequent(counts: Counter[str], least: int) -> list[str]:
