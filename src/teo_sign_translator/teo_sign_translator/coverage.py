@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,7 +39,7 @@ class Coverage:
 
     def lost(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """Places of the words that must not be left out and that no gloss says."""
-        said = {place for gloss in glosses for place in self.says(words, gloss)}
+        said = {place for places in self.said(words, glosses) for place in places}
         exclaims = bool(words) and words[-1].form == "!"
         return [
             place
@@ -49,19 +50,31 @@ class Coverage:
             and not (exclaims and word.readings[0].tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
         ]
 
-    def says(self, words: Sequence[SourceWord], gloss: OutputGloss) -> list[int]:
-        """Places of the words that a gloss says.
+    def said(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[list[int]]:
+        """For each gloss the places of the words that it says.
 
-        A gloss says the words that have it as their dictionary form, and those that the list names; of
-        several the ones that it stands for. What else the model has looked at is not said by it.
+        A gloss says one word that has it as its dictionary form, and those that the list names; of several
+        those that it stands for and that no gloss before it says. What else the model has looked at is not
+        said by it.
         """
-        own = [place for place, word in enumerate(words) if _is_own(word, gloss.gloss)]
-        lemmas = self.gloss_words.get(gloss.gloss, frozenset())
-        listed = [
-            place for place, word in enumerate(words) if any(each.lemma in lemmas for each in word.readings)
-        ]
-        meant = [place for place in own if place in gloss.sources] or own
-        return meant + [place for place in listed if place in gloss.sources or not own]
+        result: list[list[int]] = []
+        taken: set[int] = set()
+        own_places, lemma_places = _places(words)
+        for gloss in glosses:
+            own = sorted(
+                own_places.get(gloss.gloss, ()),
+                key=lambda place: (
+                    place in taken,
+                    place not in gloss.sources,
+                    _says_only_the_future(words, place),
+                ),
+            )
+            lemmas = self.gloss_words.get(gloss.gloss, frozenset())
+            listed = sorted({place for lemma in lemmas for place in lemma_places.get(lemma, ())})
+            meant = [place for place in listed if place in gloss.sources]
+            result.append([*own[:1], *(meant or ([] if own else listed))])
+            taken.update(own[:1])
+        return result
 
 
 def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
@@ -84,8 +97,17 @@ def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
     return result
 
 
-def _is_own(word: SourceWord, gloss: str) -> bool:
-    return not word.is_mark and any(copied_gloss(reading) == gloss for reading in word.readings)
+def _places(words: Sequence[SourceWord]) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
+    """Places of words by the glosses that they would be copied as, and by their lemmas."""
+    by_gloss: dict[str, list[int]] = defaultdict(list)
+    by_lemma: dict[str, list[int]] = defaultdict(list)
+    for place, word in enumerate(words):
+        if not word.is_mark:
+            for lemma in {reading.lemma for reading in word.readings}:
+                by_lemma[lemma].append(place)
+            for gloss in {copied_gloss(reading) for reading in word.readings}:
+                by_gloss[gloss].append(place)
+    return by_gloss, by_lemma
 
 
 def _says_only_the_future(words: Sequence[SourceWord], place: int) -> bool:

@@ -79,8 +79,8 @@ def _beside(
 ) -> int:
     """Where the gloss of a word belongs: beside that of the nearest word, of two the one before."""
     best, index = float("inf"), len(glosses)
-    for place, gloss in enumerate(glosses):
-        for source in coverage.says(words, gloss):
+    for place, said in enumerate(coverage.said(words, glosses)):
+        for source in said:
             distance = 2 * abs(source - word) - (source < word)
             if distance < best or (distance == best and source < word):
                 best, index = distance, place + (source < word)

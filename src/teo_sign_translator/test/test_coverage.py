@@ -32,6 +32,8 @@ def _lost(sentence: str, *glosses: tuple[str, tuple[int, ...]]) -> list[str]:
         ("Bebo leche.", [("YO", (0,)), ("LECHE", (1,)), ("BEBER", ())], []),
         ("¿Cuántos años tienes?", [("EDAD", (1,)), ("CUÁNTOS", (0,))], []),
         ("Como porque quiero", [("YO", (0,)), ("COMER", (0,)), ("MOTIVO", (1,)), ("QUERER", (2,))], []),
+        ("Gato, gato, gato", [("GATO", (0, 2, 4))], ["gato", "gato"]),
+        ("Gatos", [("GATO", (0,)), ("GATO", (0,))], []),
         ("¡Qué bonito!", [("BONITO", (1,))], []),
         ("¿Qué comes?", [("COMER", (1,))], ["qué"]),
         ("Mañana voy a comer", [("MAÑANA", (0,)), ("COMER", (3,))], []),
