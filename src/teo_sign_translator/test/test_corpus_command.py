@@ -14,3 +14,11 @@ def test_the_command_writes_a_corpus_without_the_sentences_of_a_test(tmp_path, c
     run(out=tmp_path, pairs=300, seed=1, leave_out=tmp_path / "test.txt")
     second = {pair.spanish for pair in read_pairs(tmp_path / FILE_NAME)}
     assert not second & set(unwanted)
+
+
+def test_the_grammar_does_not_contradict_the_papers_sentences(tmp_path):
+    run(out=tmp_path, pairs=3000, seed=2)
+    made = {}
+    for pair in read_pairs(tmp_path / FILE_NAME):
+        bare = pair.spanish.lower().strip("¿¡.?!…")
+        assert made.setdefault(bare, pair.rule == "paper") == (pair.rule == "paper"), pair.spanish
