@@ -101,20 +101,16 @@ class SentenceRoute:
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
-        divided = {index: pieces(every[index].words) for index in lossy}
+        divided = {index: own for index in lossy if len(own := pieces(every[index].words)) > 1}
         asked = [
-            every[index].words[piece.start : piece.stop]
-            for index, own in divided.items()
-            for piece in own
-            if len(own) > 1
+            every[index].words[piece.start : piece.stop] for index, own in divided.items() for piece in own
         ]
         again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
         for index, own in divided.items():
-            if len(own) > 1:
-                translated = [(piece, faithful(*next(again), self._coverage)) for piece in own]
-                together = joined(every[index].words, translated, self._coverage)
-                if sum(together.repaired) < sum(result[index].repaired):
-                    result[index] = together
+            translated = [(piece, faithful(*next(again), self._coverage)) for piece in own]
+            together = joined(every[index].words, translated, self._coverage)
+            if sum(together.repaired) < sum(result[index].repaired):
+                result[index] = together
         return result
 
     def _sentences(self, clauses: Sequence[Clause]) -> list[_Sentence]:

@@ -17,15 +17,16 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.task import Future
 from rclpy.time import Time
 from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence
-from teo_sign_msgs.srv import ListSigns, Translate
+from teo_sign_msgs.srv import Translate
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.messages import lexical_glosses, to_diagnostics, to_messages
+from teo_sign_translator.log_text import quoted, short
+from teo_sign_translator.messages import to_diagnostics, to_messages
 from teo_sign_translator.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
+from teo_sign_translator.sign_inventory import SignInventory
 from teo_sign_translator.signs import read_signs
 from teo_sign_translator.text_statistics import Statistics
 from teo_sign_translator.text_worker import TextWorker
@@ -35,9 +36,6 @@ from teo_sign_translator.translator import Translator
 #: that is full first, and that says so.
 TEXT_DEPTH = 1000
 
-#: How often the executor is asked for its signs [s]: a new sign is used before anyone has typed a sentence.
-SIGNS_PERIOD = 2.0
-
 #: How often the state is published [s], as diagnostics are by custom.
 DIAGNOSTICS_PERIOD = 1.0
 
@@ -45,9 +43,6 @@ DIAGNOSTICS_PERIOD = 1.0
 _STOP_TIMEOUT = 5.0
 
 _NOT_ACTIVE = "[not_active] the translator is being stopped: activate it, then send the text again"
-
-# A log line shows this much of a text [characters].
-_LOGGED_LENGTH = 80
 
 
 class _Text(NamedTuple):
@@ -78,8 +73,7 @@ class TranslatorNode(LifecycleNode):
             self.declare_parameter(parameter.name, parameter.default, parameter.descriptor())
         self._translator: Translator | None = None
         self._next_translator: Translator | None = None
-        self._signs: frozenset[str] | None = None
-        self._answer: Future | None = None
+        self._inventory: SignInventory | None = None
         self._worker: TextWorker[_Text] | None = None
         self._translating = threading.Lock()
         self._statistics = Statistics()
@@ -94,8 +88,8 @@ class TranslatorNode(LifecycleNode):
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
         """Load the model; serve `translate` and say how things are."""
         try:
-            self._translator = self._load({})
-            self._signs = self._listed_signs(self._value("signs_file"))
+            translator = self._load({})
+            listed = _listed_signs(self._value("signs_file"))
         except TranslationError as error:
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
             return TransitionCallbackReturn.FAILURE
@@ -105,11 +99,9 @@ class TranslatorNode(LifecycleNode):
         )
         self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
         self._service = self.create_service(Translate, "translate", self._on_translate)
-        self._list_signs = self.create_client(ListSigns, "list_signs")
-        self._timers = [
-            self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics),
-            self.create_timer(SIGNS_PERIOD, self._ask_for_signs),
-        ]
+        self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)
+        self._inventory = SignInventory(self, listed)
+        self._translator = translator
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -154,13 +146,13 @@ class TranslatorNode(LifecycleNode):
     def _let_go(self) -> None:
         if self._translator is None:
             return
-        for timer in self._timers:
-            self.destroy_timer(timer)
+        assert self._inventory is not None
+        self._inventory.close()
+        self.destroy_timer(self._timer)
         self.destroy_service(self._service)
-        self.destroy_client(self._list_signs)
         self.destroy_publisher(self._diagnostics)
         self.destroy_lifecycle_publisher(self._tokens)
-        self._translator = self._signs = self._answer = None
+        self._translator = self._inventory = None
 
     def _on_text(self, message: String) -> None:
         if self._worker is None:  # taken from the topic just before the node was deactivated
@@ -179,7 +171,7 @@ class TranslatorNode(LifecycleNode):
             return
         except Exception as error:  # a fault of ours with one text must not keep the node from the next
             self._statistics.add_refused(f"[internal_error] {error!r}")
-            self.get_logger().error(f"failed on {_shown(item.text)}:\n{traceback.format_exc()}")
+            self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
             return
         for sentence in sentences:
             self._tokens.publish(sentence)
@@ -196,7 +188,7 @@ class TranslatorNode(LifecycleNode):
             response.message = str(error)
         except Exception as error:  # likewise
             self._statistics.add_refused(f"[internal_error] {error!r}")
-            self.get_logger().error(f"failed on {_shown(request.text)}:\n{traceback.format_exc()}")
+            self.get_logger().error(f"failed on {quoted(request.text)}:\n{traceback.format_exc()}")
             response.code = "internal_error"
             response.message = f"the translator failed on this text: {error!r}; its log says more"
         return response
@@ -210,7 +202,8 @@ class TranslatorNode(LifecycleNode):
         # The service and the worker share one model, which need not stand two callers at a time.
         with self._translating:
             assert self._translator is not None
-            translation = self._translator.translate(item.text, self._signs)
+            assert self._inventory is not None
+            translation = self._translator.translate(item.text, self._inventory.signs)
         most = self._value("max_sentences")
         if len(translation.sentences) > most:
             raise TranslationError(
@@ -220,45 +213,31 @@ class TranslatorNode(LifecycleNode):
             )
         elapsed = (self.get_clock().now() - item.received).nanoseconds * 1e-9
         self._statistics.add_done(elapsed)
-        self.get_logger().info(f"{_shown(item.text)}: {_short(str(translation))} ({elapsed * 1000:.1f} ms)")
+        self.get_logger().info(f"{quoted(item.text)}: {short(str(translation))} ({elapsed * 1000:.1f} ms)")
         if translation.ignored:
             self.get_logger().warning(
-                f"nothing stands for {_short(' '.join(map(ascii, translation.ignored)))}"
+                f"nothing stands for {short(' '.join(map(ascii, translation.ignored)))}"
             )
         return to_messages(translation, stamp=item.received.to_msg(), utterance_id=str(uuid.uuid4()))
 
     def _refuse(self, text: str, reason: str) -> None:
         self._statistics.add_refused(reason)
-        self.get_logger().warning(f"refused {_shown(text)}: {reason}")
+        self.get_logger().warning(f"refused {quoted(text)}: {reason}")
 
     def _publish_diagnostics(self) -> None:
         assert self._translator is not None
+        assert self._inventory is not None
+        signs = self._inventory.signs
         self._diagnostics.publish(
             to_diagnostics(
                 self._statistics,
                 model=self._translator.name,
                 active=self._worker is not None,
                 waiting=self._worker.waiting if self._worker is not None else 0,
-                signs=None if self._signs is None else len(self._signs),
+                signs=None if signs is None else len(signs),
                 stamp=self.get_clock().now().to_msg(),
             )
         )
-
-    def _ask_for_signs(self) -> None:
-        """Ask the executor anew, if it is there; an answer that has not come by now never will."""
-        if self._answer is not None:
-            self._list_signs.remove_pending_request(self._answer)
-        self._answer = None
-        if self._list_signs.service_is_ready():
-            self._answer = self._list_signs.call_async(ListSigns.Request())
-            self._answer.add_done_callback(self._take_signs)
-
-    def _take_signs(self, answer: Future) -> None:
-        self._answer = None
-        signs = lexical_glosses(answer.result())
-        if signs != self._signs:
-            self._signs = signs
-            self.get_logger().info(f"{len(signs)} glosses have signs")
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         """Load what the new values ask for, so that a model which cannot be used is refused."""
@@ -267,7 +246,7 @@ class TranslatorNode(LifecycleNode):
             if {"model", "beam_width"} & asked.keys():
                 self._next_translator = self._load(asked)
             if "signs_file" in asked:
-                self._listed_signs(asked["signs_file"])
+                _listed_signs(asked["signs_file"])
         except TranslationError as error:
             return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
         return SetParametersResult(successful=True)
@@ -283,8 +262,8 @@ class TranslatorNode(LifecycleNode):
             self._translator.min_confidence = asked["min_confidence"]
         if "queue_size" in asked and self._worker is not None:
             self._worker.size = asked["queue_size"]
-        if "signs_file" in asked and not self._list_signs.service_is_ready():
-            self._signs = self._listed_signs(asked["signs_file"])
+        if "signs_file" in asked and self._inventory is not None:
+            self._inventory.list(_listed_signs(asked["signs_file"]))
 
     def _load(self, asked: dict[str, Any]) -> Translator:
         """A translator of the parameters' values, those asked for before those set."""
@@ -293,20 +272,13 @@ class TranslatorNode(LifecycleNode):
             values["model"], beam_width=values["beam_width"], min_confidence=values["min_confidence"]
         )
 
-    def _listed_signs(self, file: str) -> frozenset[str] | None:
-        return read_signs(Path(file)) if file else None
-
     def _value(self, name: str) -> Any:
         return self.get_parameter(name).value
 
 
-def _shown(text: str) -> str:
-    """A text in quotes, with characters that could upset a terminal escaped."""
-    return _short(repr(text))
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= _LOGGED_LENGTH else text[: _LOGGED_LENGTH - 1] + "…"
+def _listed_signs(file: str) -> frozenset[str] | None:
+    """The glosses of a file; None if there is no file."""
+    return read_signs(Path(file)) if file else None
 
 
 def main(args: list[str] | None = None) -> None:

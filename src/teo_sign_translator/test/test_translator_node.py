@@ -289,14 +289,14 @@ def test_the_executors_signs_are_used_as_they_change(bench: Bench) -> None:
         return response
 
     bench.person.create_service(ListSigns, "list_signs", list_signs)
-    bench.wait(lambda: bench.node._signs == {"HOLA"}, "the signs")
+    bench.wait(lambda: bench.node._inventory.signs == {"HOLA"}, "the signs")
     bench.type("Hola", "Adiós")
     first, second = bench.wait_for(2)
     assert [token.kind for token in first.tokens] == [SignToken.KIND_LEXICAL]
     assert [token.gloss for token in second.tokens] == list("ADIOS")
     assert {token.origin for token in second.tokens} == {SignToken.ORIGIN_SPELLED}
     glosses.append("CHAO")
-    bench.wait(lambda: "CHAO" in bench.node._signs, "the new sign")
+    bench.wait(lambda: "CHAO" in (bench.node._inventory.signs or ()), "the new sign")
     (token,) = bench.ask("Adiós").sentences[0].tokens
     assert (token.gloss, token.origin) == ("CHAO", SignToken.ORIGIN_SYNONYM)
 
