@@ -86,9 +86,8 @@ def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bo
     """
     if named and any(reading.tag in (*_PEOPLE, "X") for reading in meant):
         return True
-    if not any(reading.tag in _PEOPLE for reading in meant):
-        return False
-    return meant[0].tag in _PEOPLE or any(word.capital for word in words)
+    listed = any(reading.tag in _PEOPLE and reading.exact for reading in meant)
+    return bool(meant) and (meant[0].tag in _PEOPLE or (listed and any(word.capital for word in words)))
 
 
 def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:

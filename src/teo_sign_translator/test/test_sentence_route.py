@@ -51,6 +51,7 @@ def test_glosses_become_signs_letters_and_digits(copying: Translator, text: str,
 def test_a_first_word_that_is_also_a_name_is_no_name(copying: Translator) -> None:
     assert str(copying.translate("Bueno, quiero comer")) == "BUENO QUERER COMER"
     assert str(copying.translate("Quiero ver a Rosa")) == "QUERER VER R-O-S-A"
+    assert str(copying.translate("Como en Navidad")) == "COMO NAVIDAD"
 
 
 def test_each_token_says_how_it_came_about_and_from_which_words(copying: Translator) -> None:
