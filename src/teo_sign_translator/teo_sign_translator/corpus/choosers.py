@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate
 from random import Random
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from teo_sign_translator.corpus.grammar import Rule, Shape
 from teo_sign_translator.corpus.words import Pool, Word
@@ -19,6 +19,25 @@ _Item = TypeVar("_Item")
 _HELD_SHARE = 0.5
 #: Numbers up to this are mostly written in words, as people do.
 _WORDS_UP_TO = 12
+
+
+class Chooser(Protocol):
+    """Chooses at each place of a sentence."""
+
+    def rule(self, path: str, rules: Sequence[Rule]) -> Rule:
+        """One of the alternatives, of which there is at least one."""
+
+    def word(self, path: str, pool: Pool) -> Word | None:
+        """One of the words; None if there is none."""
+
+    def shape(self, path: str, shapes: Sequence[Shape]) -> Shape:
+        """One of the verb shapes, of which there is at least one."""
+
+    def number(self, path: str, low: int, high: int, step: int) -> int:
+        """A number."""
+
+    def in_words(self, path: str, value: int) -> bool:
+        """Whether a number is written in words."""
 
 
 @dataclass

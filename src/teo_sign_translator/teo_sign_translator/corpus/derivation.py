@@ -2,47 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
-from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule, Shape, Slot
-from teo_sign_translator.corpus.number_words import LIMIT, number_words
+from teo_sign_translator.corpus.choosers import Chooser
+from teo_sign_translator.corpus.features import fits, looked_up
+from teo_sign_translator.corpus.fillers import can_be_in_words, number_phrase, word_phrase
+from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule, Slot
 from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem
 from teo_sign_translator.corpus.spanish_text import write
+from teo_sign_translator.corpus.tenses import Tenses
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
-from teo_sign_translator.corpus.verb_phrase import say_verb, verb_signs
-from teo_sign_translator.corpus.words import Pool, Word, WordLists
+from teo_sign_translator.corpus.verb_phrase import say_verb, tense_signs, verb_signs
+from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
 #: Handed down to all that is inside, unless the rule says otherwise.
 _INHERITED = ("mood", "shapes", "who", "time", "pol", "says", "self")
-#: Shapes of the present that speak of what is to come.
-_PLANS = ("present", "must", "want", "can", "want_enclitic", "can_enclitic", "need", "should", "subjunctive")
-_TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
 
 
 class NoFillerError(Exception):
     """Nothing fits a slot this time; another try may succeed."""
-
-
-class Chooser(Protocol):
-    """Chooses at each place of a sentence."""
-
-    def rule(self, path: str, rules: Sequence[Rule]) -> Rule:
-        """One of the alternatives, of which there is at least one."""
-
-    def word(self, path: str, pool: Pool) -> Word | None:
-        """One of the words; None if there is none."""
-
-    def shape(self, path: str, shapes: Sequence[Shape]) -> Shape:
-        """One of the verb shapes, of which there is at least one."""
-
-    def number(self, path: str, low: int, high: int, step: int) -> int:
-        """A number."""
-
-    def in_words(self, path: str, value: int) -> bool:
-        """Whether a number is written in words."""
 
 
 class Sentence(NamedTuple):
@@ -77,7 +58,9 @@ class Derivation:
     words: WordLists
     chooser: Chooser
     _lemmas: set[str] = field(default_factory=set)
-    _shapes: dict[tuple[str, ...], tuple[Shape, ...]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._tenses = Tenses(self.grammar.shapes, self.grammar.word_lists)
 
     def sentence(self, rule: Rule, spread: Mapping[str, str]) -> Sentence:
         """Make a sentence of a rule.
@@ -130,8 +113,8 @@ class Derivation:
         head = slots.get(rule.head)
         taken = {**(head.features if head else {})}
         for key, value in rule.features:
-            if looked_up := _looked_up(value, features, slots):
-                taken[key] = looked_up
+            if found := looked_up(value, features, slots):
+                taken[key] = found
         if taken.get("clitic") == "dative":
             taken["clitic"] = "les" if taken.get("number") == "p" else "le"
         verb = next((phrase.verb for phrase in slots.values() if phrase.verb), None)
@@ -144,11 +127,11 @@ class Derivation:
         if slot.category in LEXICAL and slot.category != "verb":
             arguments = {}
         for key, value in slot.arguments:
-            looked_up = _looked_up(value, features, slots)
-            if key == "shapes" and looked_up and "shapes" in arguments:
-                arguments[key] += f"&{looked_up}"  # what the clause allows and what the verb does
-            elif looked_up:
-                arguments[key] = looked_up
+            found = looked_up(value, features, slots)
+            if key == "shapes" and found and "shapes" in arguments:
+                arguments[key] += f"&{found}"  # what the clause allows and what the verb does
+            elif found:
+                arguments[key] = found
             else:
                 arguments.pop(key, None)
         return arguments
@@ -159,10 +142,10 @@ class Derivation:
         rules = self.grammar.categories[category]
         if fixed is not None:
             chosen = next(each for each in rules if each.name == fixed)
-            if not _fits(chosen, arguments):
+            if not fits(chosen, arguments):
                 raise NoFillerError(f"{rule.where}: {fixed} does not fit")
             return chosen
-        fitting = [each for each in rules if _fits(each, arguments)]
+        fitting = [each for each in rules if fits(each, arguments)]
         if not fitting:
             raise TranslationError(
                 "invalid_grammar",
@@ -180,39 +163,14 @@ class Derivation:
         if word is None:
             raise NoFillerError(f"{rule.where}: no {category} for {dict(arguments)}")
         self._lemmas.add(word.lemma)
-        features = dict(word.features)
-        if category == "noun":
-            form = self._noun_form(word)
-        elif category == "adj":
-            gender, number = arguments.get("gender", "m"), arguments.get("number", "s")
-            form = self._adjective_form(word, gender, number)
-        else:
-            form = word.lemma
-        features["lemma"] = word.lemma
-        token = Token(form)
-        gloss = word.lemma.upper().replace(" ", "_")
-        return Phrase(features, [token], [Sign(gloss, [token])], token)
-
-    def _noun_form(self, word: Word) -> str:
-        return self.words.inflect(word.lemma, word.features["tag"])
-
-    def _adjective_form(self, word: Word, gender: str, number: str) -> str:
-        column = word.features["gender"]
-        letter = {"m+f": gender, "mf": "c"}.get(column)
-        tag = f"A:{letter}{number}" if letter else "A:cn"
-        return self.words.inflect(word.lemma, tag)
+        return word_phrase(self.words, category, word, arguments)
 
     def _number(self, arguments: Mapping[str, str], path: str) -> Phrase:
         low, high = int(arguments.get("min", 2)), int(arguments.get("max", 20))
         value = self.chooser.number(path, low, high, int(arguments.get("step", 1)))
         gender = arguments.get("gender", "")
-        plain = value < LIMIT and (not gender or (value % 10 != 1 and value < 200) or value == 11)
-        text = str(value)
-        if plain and arguments.get("as") != "digits" and self.chooser.in_words(path, value):
-            text = number_words(value)
-        token = Token(text)
-        features = {"number": "s" if value == 1 else "p", "gender": gender or "m", "person": "3"}
-        return Phrase(features, [token], [Sign(str(value), [token])], token)
+        wordy = can_be_in_words(value, gender) and arguments.get("as") != "digits"
+        return number_phrase(value, gender, in_words=wordy and self.chooser.in_words(path, value))
 
     def _verb(self, arguments: Mapping[str, str], path: str, rule: Rule) -> Phrase:
         chosen = {key: arguments[key] for key in ("frame", "lemma", "self") if key in arguments}
@@ -224,7 +182,7 @@ class Derivation:
             raise NoFillerError(f"{rule.where}: no verb for {chosen}")
         if "frame" in chosen:
             self._lemmas.add(word.lemma)
-        shapes = self._fitting_shapes(
+        shapes = self._tenses.fitting(
             arguments.get("mood", "ind"),
             arguments.get("says", ""),
             arguments.get("kind", "") or word.features["kind"],
@@ -235,25 +193,6 @@ class Derivation:
         shape = self.chooser.shape(path, shapes)
         features = {**word.features, "lemma": word.lemma, "tense": shape.time, "shape": shape.name}
         return Phrase(features, [], [], verb=SaidVerb(word, shape))
-
-    def _fitting_shapes(self, mood: str, says: str, kind: str, only: str) -> tuple[Shape, ...]:
-        key = (mood, says, kind, only)
-        if key not in self._shapes:
-            lists = self.grammar.word_lists
-            allowed = [
-                {name for each in part.split(",") for name in lists.get(each, (each,))}
-                for part in only.split("&")
-                if part
-            ]
-            self._shapes[key] = tuple(
-                shape
-                for shape in self.grammar.shapes
-                if shape.mood == mood
-                and all(shape.name in names for names in allowed)
-                and (shape.kind != "event" or kind == "event")
-                and _time_fits(says, shape, kind)
-            )
-        return self._shapes[key]
 
     def _spanish(
         self,
@@ -330,7 +269,7 @@ class Derivation:
         literals: Mapping[str, Token],
     ) -> list[Sign]:
         if item.tense:
-            return _tense_signs(slots[item.tense].verb, slots.get(item.slot))
+            return tense_signs(slots[item.tense].verb, slots.get(item.slot))
         if item.slot:
             phrase = slots[item.slot]
             twice = (
@@ -354,49 +293,8 @@ class Derivation:
         return [sign]
 
 
-def _tense_signs(verb: SaidVerb | None, time: Phrase | None) -> list[Sign]:
-    said = time.signs if time else []
-    gloss = _TENSE_SIGNS.get(verb.shape.time) if verb and verb.shape.mark else None
-    if verb is None or gloss is None or (time and time.features.get("says")):
-        return said
-    sources = [verb.said.finite] if verb.said else []
-    return [Sign(gloss, sources), *said]
-
-
 def _resolve(phrase: Phrase, pending: str, token: Token) -> None:
     for sign in phrase.signs:
         if sign.pending == pending:
             sign.sources.append(token)
             sign.pending = ""
-
-
-def _looked_up(value: str, features: Mapping[str, str], slots: Mapping[str, Phrase]) -> str:
-    if not value.startswith("$"):
-        return value
-    name, dot, key = value[1:].partition(".")
-    return slots[name].features.get(key, "") if dot else features.get(name, "")
-
-
-def _fits(rule: Rule, features: Mapping[str, str]) -> bool:
-    for key, allowed in rule.when:
-        given = features.get(key, "-").split(",")
-        forbidden = [value[1:] for value in allowed if value.startswith("!")]
-        if forbidden:
-            if any(value in forbidden for value in given):
-                return False
-        elif not any(value in allowed for value in given):
-            return False
-    return True
-
-
-def _time_fits(says: str, shape: Shape, kind: str) -> bool:
-    """Whether a tense goes with a time word: "mañana" goes with the present of events too ("mañana voy")."""
-    if says in ("", "any"):
-        return True
-    if says == "past":
-        return shape.time == "past" and shape.dated
-    if says == "future":
-        return shape.time == "future" or (
-            shape.time == "present" and shape.name in _PLANS and kind == "event"
-        )
-    return shape.time == says

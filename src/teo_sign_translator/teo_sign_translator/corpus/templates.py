@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
+from teo_sign_translator.corpus.features import allows
 from teo_sign_translator.corpus.grammar import Grammar, Rule
 
 
@@ -69,9 +70,6 @@ def _possible(rule: Rule, arguments: tuple[tuple[str, str], ...]) -> bool:
     given = dict(arguments)
     for key, allowed in rule.when:
         value = given.get(key, "-")
-        if value.startswith("$"):
-            continue
-        forbidden = [each[1:] for each in allowed if each.startswith("!")]
-        if value in forbidden or (not forbidden and value not in allowed):
+        if not value.startswith("$") and not allows(allowed, [value]):
             return False
     return True

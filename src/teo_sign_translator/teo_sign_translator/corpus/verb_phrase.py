@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 from teo_sign_translator.corpus.enclitics import REFLEXIVES, attach, in_order
 from teo_sign_translator.corpus.grammar import Shape
-from teo_sign_translator.corpus.tokens import Sign, Token
+from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
 from teo_sign_translator.corpus.words import WordLists
 
+_TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
 
@@ -87,6 +88,16 @@ def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase) -> list[Sign]:
         said = [phrase.parts[source]] if source else []
         signs.append(Sign(lemma.upper(), [*said, phrase.main]) if gloss == "*" else Sign(gloss, said))
     return signs
+
+
+def tense_signs(verb: SaidVerb | None, time: Phrase | None) -> list[Sign]:
+    """The time expression, and before it the mark of tense unless the expression says it."""
+    said = time.signs if time else []
+    gloss = _TENSE_SIGNS.get(verb.shape.time) if verb and verb.shape.mark else None
+    if verb is None or gloss is None or (time and time.features.get("says")):
+        return said
+    sources = [verb.said.finite] if verb.said else []
+    return [Sign(gloss, sources), *said]
 
 
 def _carriers(
