@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 
-from teo_sign_translator.spelling import letters
+from teo_sign_translator.spelling import DIGITS, letters
 from teo_sign_translator.translation import Kind, Origin, Token
 
 
@@ -42,17 +43,24 @@ def carried(word: str, typed: tuple[str, ...]) -> Draft:
     return Draft(signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word)
 
 
-def spelled(word: str, typed: tuple[str, ...], confidence: float) -> Draft:
-    """A word in letters of the manual alphabet.
+def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[Draft]:
+    """A word in letters of the manual alphabet; digits in it ("UC3M") as numbers.
 
     Args:
         word: What is spelled.
         typed: Words of the text that it stands for.
         confidence: 0 to 1.
     """
-    return Draft(
-        signs=letters(word), kind=Kind.LETTER, confidence=confidence, words=typed, origin=Origin.SPELLED
-    )
+    result: list[Draft] = []
+    for is_number, run in groupby(word, key=lambda character: character in DIGITS):
+        text = "".join(run)
+        signs = tuple(text) if is_number else letters(text)
+        if signs:
+            kind = Kind.NUMBER if is_number else Kind.LETTER
+            result.append(
+                Draft(signs=signs, kind=kind, confidence=confidence, words=typed, origin=Origin.SPELLED)
+            )
+    return result
 
 
 def name(gloss: str, typed: tuple[str, ...], confidence: float) -> Draft:
@@ -75,7 +83,7 @@ def hand_over(drafts: Sequence[Draft], confidence: float) -> list[Draft]:
         confidence: Of words that are spelled for that reason.
     """
     if not any(draft.signs and draft.kind is not Kind.PAUSE for draft in drafts):
-        return [spelled(draft.said, draft.words, confidence) for draft in drafts if draft.said]
+        return [each for draft in drafts for each in spelled(draft.said, draft.words, confidence)]
     result: list[Draft] = []
     waiting: list[str] = []
     for draft in drafts:

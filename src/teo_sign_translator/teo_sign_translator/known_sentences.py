@@ -187,7 +187,7 @@ def _drafts(
             if word.kind is WordKind.NUMBER:
                 result += number(word.value, word.parts, confidence)
             else:
-                result.append(spelled(word.lower, word.parts, confidence))
+                result += spelled(word.lower, word.parts, confidence)
     return result
 
 

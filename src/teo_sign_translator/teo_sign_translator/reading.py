@@ -12,7 +12,7 @@ from teo_sign_translator.expressions import Expressions, Found
 from teo_sign_translator.normalisation import fold, strip_marks
 from teo_sign_translator.numerals import ACCENTED_NUMBER_WORDS, NUMBER_WORDS, match_digits, read_number_words
 
-_LETTERS = re.compile(r"[^\W\d_]+")
+_LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
 _PAUSES = ",;:()[]{}–—―"
 
 
@@ -116,7 +116,6 @@ class _Reader:
         self._words: list[Word] = []
         self._opening = ""
         self._start = 0
-        self._number_start = 0
 
     def read(self) -> Reading:
         index = 0
@@ -136,7 +135,7 @@ class _Reader:
         if found is not None and (found.expression.category != "unit" or self._after_number()):
             return self._expression(index, found)
         if _is_letter(character):
-            after = _letters_end(text, after)
+            after = _word_end(text, after)
             self._add(Word((text[index:after],), WordKind.LETTERS), index)
         elif character in "-−" and _is_minus(text, index):
             self._add(Word((character,), WordKind.LETTERS, stands_for="menos"), index)
@@ -161,7 +160,6 @@ class _Reader:
 
     def _digits(self, index: int) -> int:
         """Read a number, ordinal, time or date."""
-        self._number_start = index
         said = match_digits(self._text, index, self._words[-1].lower if self._words else "")
         for part in said:
             typed = (self._text[part.start : part.stop],)
@@ -181,10 +179,10 @@ class _Reader:
         return found.stop
 
     def _after_number(self) -> bool:
-        """Whether a unit may stand here: behind a number, but not in "UC3M"."""
-        if not self._words or self._words[-1].kind is not WordKind.NUMBER:
-            return bool(self._words) and self._words[-1].fold in NUMBER_WORDS
-        return not self._text[max(0, self._number_start - 1) : self._number_start].isalpha()
+        """Whether a unit may stand here."""
+        return bool(self._words) and (
+            self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
+        )
 
     def _points(self, start: int, stop: int) -> None:
         """One point or several: the end of the sentence, a pause, or part of an abbreviation or address."""
@@ -226,10 +224,10 @@ def _is_letter(character: str) -> bool:
     return unicodedata.category(character)[0] in "LN" and character not in "0123456789"
 
 
-def _letters_end(text: str, index: int) -> int:
-    """Where a word ends that has begun before an index: letters, and marks that combine with them."""
+def _word_end(text: str, index: int) -> int:
+    """Where a word ends that has begun before an index: letters, digits behind them ("UC3M"), and accents."""
     while True:
-        match = _LETTERS.match(text, index)
+        match = _LETTERS_AND_DIGITS.match(text, index)
         index = match.end() if match else index
         if index == len(text) or unicodedata.category(text[index])[0] != "M":
             return index

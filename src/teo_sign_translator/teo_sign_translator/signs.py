@@ -126,4 +126,4 @@ class SignChooser:
 
 def _letters(draft: Draft) -> list[Draft]:
     (gloss,) = draft.signs
-    return [spelled(part, draft.words, draft.confidence) for part in gloss.split("_") if part]
+    return [each for part in gloss.split("_") for each in spelled(part, draft.words, draft.confidence)]

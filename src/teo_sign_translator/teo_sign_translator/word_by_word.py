@@ -44,7 +44,7 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
         if found is None:
             likely_name = word.capitalised and not shouted
             confidence = NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE
-            result.append(spelled(word.lower, word.parts, confidence))
+            result += spelled(word.lower, word.parts, confidence)
             index += 1
             continue
         entry, size = found

@@ -33,6 +33,7 @@ def _only(translator: Translator, text: str) -> Sentence:
         ("mi nombre rosa", "MI NOMBRE R-O-S-A"),
         ("quiero una rosa", "QUERER ROSA"),
         ("Vivo en Madrid", "VIVIR MADRID"),
+        ("Estudio en la UC3M", "ESTUDIAR U-C 3 M"),
         ("Quiero ver a Xandro Gil", "QUERER VER X-A-N-D-R-O G-I-L"),
         ("Veo treinta y dos gatos", "VER 32 GATO"),
         ("Cuesta 3,5 €", "COSTAR 3 COMA 5 EURO"),

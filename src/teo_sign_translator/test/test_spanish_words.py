@@ -50,7 +50,7 @@ def _forms(sentence: str) -> list[str]:
         ("FELIPE VI", "felipe|vi"),
         ("Q tal? K haces? plan Q", "que|tal|?|que|haces|?|plan|q"),
         ("x la tarde, tengo x", "por|la|tarde|,|tengo|x"),
-        ("UC3M y 3m", "uc|3|m|y|3|metros"),
+        ("UC3M, mp3 y 3m", "uc3m|,|mp3|y|3|metros"),
         ("el 3.er piso izda.", "el|tercero|piso|izquierda|."),
         ("ciento un días", "101|días"),
         ("Julia Díez, veintidós, veintidos", "julia|díez|,|22|,|22"),
