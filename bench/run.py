@@ -8,10 +8,11 @@ import driver_rate
 import planning
 import robot_model
 import text_to_trajectory
+import translation
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = (robot_model, planning, driver_rate, text_to_trajectory)
+BENCHES = (robot_model, planning, driver_rate, text_to_trajectory, translation)
 
 
 def main() -> None:

@@ -13,7 +13,13 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
         ("share/teo_sign_translator/models", sorted(map(str, Path("models").glob("[!.]*")))),
-        ("share/teo_sign_translator/data", sorted(map(str, Path("data").glob("[!.]*")))),
+        *(
+            (
+                f"share/{PACKAGE}/{folder}",
+                sorted(str(path) for path in folder.glob("[!.]*") if path.is_file()),
+            )
+            for folder in (Path("data"), *sorted(path for path in Path("data").iterdir() if path.is_dir()))
+        ),
     ],
     install_requires=["setuptools"],
     zip_safe=False,
@@ -26,7 +32,11 @@ setup(
         "console_scripts": [
             "translator_node = teo_sign_translator.translator_node:main",
             "translate = teo_sign_translator.translate_cli:main",
+            "generate_corpus = teo_sign_translator.corpus.generate_cli:main",
+            "build_morphology = teo_sign_translator.morphology.conjugation_build:main",
             "train = teo_sign_translator.train:main",
+            "evaluate = teo_sign_translator.evaluate:main",
+            "compare = teo_sign_translator.compare:main",
             "reproduce_paper = teo_sign_translator.reproduce_paper:main",
         ],
     },

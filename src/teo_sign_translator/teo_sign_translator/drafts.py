@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 
-from teo_sign_translator.spelling import letters
+from teo_sign_translator.spelling import DIGITS, letters
 from teo_sign_translator.translation import Kind, Origin, Token
 
 
@@ -20,6 +21,8 @@ class Draft:
         confidence: 0 to 1.
         words: Words of the text, as typed, that it stands for.
         origin: Where it comes from.
+        is_name: Whether its one gloss is somebody's name, spelled unless it has a sign.
+        said: What a word without a sign of its own says; spelled if nothing else of its sentence is signed.
     """
 
     signs: tuple[str, ...]
@@ -27,21 +30,48 @@ class Draft:
     confidence: float
     words: tuple[str, ...]
     origin: Origin
+    is_name: bool = False
+    said: str = ""
 
 
 #: Hands held still between two clauses.
-PAUSE = Draft(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PUNCTUATION)
+PAUSE = Draft(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PAUSE)
 
 
-def carried(words: tuple[str, ...]) -> Draft:
-    """Words that go with the next draft that is signed."""
-    return Draft(signs=(), kind=Kind.LEXICAL, confidence=1.0, words=words, origin=Origin.WORD_LIST)
+def carried(word: str, typed: tuple[str, ...]) -> Draft:
+    """A word that goes with the next draft that is signed."""
+    return Draft(signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word)
 
 
-def spelled(word: str, confidence: float) -> Draft:
-    """A word in letters of the manual alphabet."""
+def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[Draft]:
+    """A word in letters of the manual alphabet; digits in it ("UC3M") as numbers.
+
+    Args:
+        word: What is spelled.
+        typed: Words of the text that it stands for.
+        confidence: 0 to 1.
+    """
+    result: list[Draft] = []
+    for is_number, run in groupby(word, key=lambda character: character in DIGITS):
+        text = "".join(run)
+        signs = tuple(text) if is_number else letters(text)
+        if signs:
+            kind = Kind.NUMBER if is_number else Kind.LETTER
+            result.append(
+                Draft(signs=signs, kind=kind, confidence=confidence, words=typed, origin=Origin.SPELLED)
+            )
+    return result
+
+
+def name(gloss: str, typed: tuple[str, ...], confidence: float) -> Draft:
+    """Somebody's name; its letters if it has no sign."""
     return Draft(
-        signs=letters(word), kind=Kind.LETTER, confidence=confidence, words=(word,), origin=Origin.SPELLING
+        signs=(gloss,),
+        kind=Kind.LEXICAL,
+        confidence=confidence,
+        words=typed,
+        origin=Origin.MODEL,
+        is_name=True,
     )
 
 
@@ -53,7 +83,7 @@ def hand_over(drafts: Sequence[Draft], confidence: float) -> list[Draft]:
         confidence: Of words that are spelled for that reason.
     """
     if not any(draft.signs and draft.kind is not Kind.PAUSE for draft in drafts):
-        return [spelled(word, confidence) for draft in drafts for word in draft.words]
+        return [each for draft in drafts for each in spelled(draft.said, draft.words, confidence)]
     result: list[Draft] = []
     waiting: list[str] = []
     for draft in drafts:

@@ -92,10 +92,6 @@ class GlossList:
                 return entry, size
         return None
 
-    def symbols(self) -> frozenset[str]:
-        """Listed characters that are neither letters nor digits, e.g. `€`."""
-        return frozenset(text for text in self._exact if len(text) == 1 and not text.isalnum())
-
     def glosses(self) -> frozenset[str]:
         """All glosses of the list."""
         return frozenset(entry.gloss for entry in self._exact.values() if entry.gloss)

@@ -7,37 +7,37 @@ from collections.abc import Iterable, Sequence
 from teo_sign_translator.drafts import Draft, carried, spelled
 from teo_sign_translator.glosses import GlossList
 from teo_sign_translator.normalisation import strip_marks
+from teo_sign_translator.number_signs import number
 from teo_sign_translator.pairs import NAME, NUMBER, SLOTS
 from teo_sign_translator.phrasebook import Match, Phrasebook
 from teo_sign_translator.reading import Clause, Word, WordKind
 from teo_sign_translator.seq2seq import Prediction, SequenceModel
 from teo_sign_translator.spanish_tokens import MARKS
 from teo_sign_translator.translation import Kind, Origin
-from teo_sign_translator.word_by_word import number
 
 #: Confidence in an answer to a sentence outside the training data, times the model's probability: a model
 #: that has learned a few sentences by heart is as sure of its mistakes as of them.
 UNSEEN_FACTOR = 0.7
 
+#: Probability below which a token of the model is not believed, and the sentence is signed word by word
+#: instead: the model would rather say something else.
+MIN_PROBABILITY = 0.5
+
 
 class KnownSentences:
     """Translates what the model can be asked for."""
 
-    def __init__(
-        self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList, *, min_confidence: float
-    ) -> None:
+    def __init__(self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
         """Take the parts together.
 
         Args:
             model: Whose words are those of the phrasebook's sentences.
             phrasebook: Which words a gloss can stand for.
             glosses: Which words have no sign of their own.
-            min_confidence: Probability below which a token is not believed, 0 to 1.
         """
         self._model = model
         self._phrasebook = phrasebook
         self._glosses = glosses
-        self._min_confidence = min_confidence
         self._inputs = {strip_marks(token): token for token in model.inputs.tokens if token not in SLOTS}
 
     def translate(self, match: Match, clauses: Sequence[Clause]) -> list[Draft] | None:
@@ -89,7 +89,7 @@ class KnownSentences:
         if not all(token in self._model.inputs for token in tokens):
             return None
         prediction = self._model.predict(tokens)
-        sure = prediction.complete and all(p >= self._min_confidence for p in prediction.probabilities)
+        sure = prediction.complete and all(p >= MIN_PROBABILITY for p in prediction.probabilities)
         return prediction if sure and prediction.tokens else None
 
     def _mark(self, end: str) -> list[str]:
@@ -182,13 +182,12 @@ def _drafts(
                 )
             )
             continue
-        if extra:
-            result.append(carried(_typed(words, extra)))
+        result += [carried(word.lower, word.parts) for place in extra for word in words[place]]
         for word in (word for place in own for word in words[place]):
             if word.kind is WordKind.NUMBER:
-                result += number(word, confidence)
+                result += number(word.value, word.parts, confidence)
             else:
-                result.append(spelled(word.parts[0], confidence))
+                result += spelled(word.lower, word.parts, confidence)
     return result
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from dataclasses import dataclass
 
@@ -32,6 +33,11 @@ _REPLACEMENTS = str.maketrans(
         "＄": "$",
     }
 )
+
+_DRAWN_OUT = re.compile(r"([^\W\d_])\1{2,}")
+
+# What Spanish keyboards give is in that form already; most texts are.
+_IN_ONE_FORM = re.compile("[ -_a-~áéíóúüñÁÉÍÓÚÜÑ¿¡ºª€…\n]*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +75,8 @@ def clean(text: str) -> CleanText:
             "broken_encoding",
             f"expected text in UTF-8, got U+{ord(broken):04X} instead: check the sender's encoding",
         )
+    if _IN_ONE_FORM.fullmatch(text):
+        return CleanText(text, ())
     kept: list[str] = []
     ignored: list[str] = []
     for character in unicodedata.normalize("NFC", text.replace("\r\n", "\n").translate(_REPLACEMENTS)):
@@ -99,6 +107,8 @@ def _plain(character: str) -> str:
 
 def fold(word: str) -> str:
     """Lower case without accents but with `ñ`: `"CÓMO"` is `"como"`, `"año"` is not `"ano"`."""
+    if word.isascii():
+        return word.lower()
     decomposed = unicodedata.normalize("NFD", word.lower())
     kept = [
         mark
@@ -111,3 +121,13 @@ def fold(word: str) -> str:
 def strip_marks(word: str) -> str:
     """Lower case without any mark: how a word comes from a keyboard without `ñ`."""
     return "".join(c for c in unicodedata.normalize("NFD", word.lower()) if unicodedata.category(c) != "Mn")
+
+
+def is_drawn_out(word: str) -> bool:
+    """Whether a letter stands three times in a row, as in `"holaaaa"`: no Spanish word is written so."""
+    return _DRAWN_OUT.search(word) is not None
+
+
+def shortened(word: str, times: int = 1) -> str:
+    """A drawn-out word with each such letter once, or twice: `"leeeer"` is `"ler"` or `"leer"`."""
+    return _DRAWN_OUT.sub(lambda match: match[1] * times, word)

@@ -160,6 +160,6 @@ def _pattern(pair: AlignedPair) -> Pattern:
         for words in pair.sources
     )
     # Slots are braces, which are marks to a reader; their places do not matter for the type.
-    clauses = read(re.sub(r"[{}]", "", pair.sentence), ()).clauses
+    clauses = read(re.sub(r"[{}]", "", pair.sentence)).clauses
     inner_stop = any(clause.closes for clause in clauses[:-1])
     return Pattern(tokens, pair.glosses, sources, sentence_type(clauses), inner_stop)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from teo_sign_translator.expressions import Expressions, Found
 from teo_sign_translator.normalisation import fold, strip_marks
-from teo_sign_translator.numerals import match_digits, read_number_words
-from teo_sign_translator.tables import words_of
+from teo_sign_translator.numerals import ACCENTED_NUMBER_WORDS, NUMBER_WORDS, match_digits, read_number_words
 
-# A point after one of these ends no sentence.
-_ABBREVIATIONS = frozenset(words_of("sr sra srta dr dra d dª dña ud uds vd vds prof avda núm pág tel ee uu"))
+_LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
 _PAUSES = ",;:()[]{}–—―"
 
 
@@ -21,7 +21,6 @@ class WordKind(Enum):
 
     LETTERS = "letters"
     NUMBER = "number"
-    SYMBOL = "symbol"
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,27 +30,35 @@ class Word:
     Attributes:
         parts: The words as typed; several only for a number in words (`treinta y cinco`).
         kind: What it is made of.
-        value: Digits of a number, with one `,` if it has decimals; else empty.
+        value: Digits of a number, with one `,` if it has decimals, or one `:` in a time of day; else empty.
+        stands_for: What a short form, symbol or ordinal says, in lower case; else empty. Words that one short
+            form stands for have the same `parts`.
     """
 
     parts: tuple[str, ...]
     kind: WordKind
     value: str = ""
+    stands_for: str = ""
+
+    @property
+    def text(self) -> str:
+        """As typed."""
+        return " ".join(self.parts)
 
     @property
     def lower(self) -> str:
-        """Lower case, with accents."""
-        return " ".join(self.parts).lower()
+        """What it says, in lower case, with accents."""
+        return self.stands_for or self.text.lower()
 
     @property
     def fold(self) -> str:
-        """Lower case, without accents."""
-        return fold(" ".join(self.parts))
+        """What it says, in lower case, without accents."""
+        return fold(self.lower)
 
     @property
     def key(self) -> str:
-        """Lower case, without any mark: equal for all ways of typing the word."""
-        return strip_marks(" ".join(self.parts))
+        """What it says, in lower case, without any mark: equal for all ways of typing the word."""
+        return strip_marks(self.lower)
 
     @property
     def capitalised(self) -> bool:
@@ -93,23 +100,17 @@ class Reading:
     ignored: tuple[str, ...]
 
 
-def read(text: str, symbols: Collection[str]) -> Reading:
-    """Split a clean text into clauses and words.
-
-    Args:
-        text: As `normalisation.clean` gives it.
-        symbols: Characters other than letters and digits that count as words, e.g. `"€"`. A minus sign or
-            hyphen counts as one before a number in any case.
-    """
-    return _Reader(text, symbols).read()
+def read(text: str) -> Reading:
+    """Split a clean text, as `normalisation.clean` gives it, into clauses and words."""
+    return _Reader(text, Expressions.load()).read()
 
 
 class _Reader:
     """Goes through a text once, from left to right."""
 
-    def __init__(self, text: str, symbols: Collection[str]) -> None:
+    def __init__(self, text: str, expressions: Expressions) -> None:
         self._text = text
-        self._symbols = symbols
+        self._expressions = expressions
         self._clauses: list[Clause] = []
         self._ignored: list[str] = []
         self._words: list[Word] = []
@@ -119,7 +120,7 @@ class _Reader:
     def read(self) -> Reading:
         index = 0
         while index < len(self._text):
-            index = self._step(index)
+            index = index + 1 if self._text[index] == " " else self._step(index)
         self._close("", closes=True, stop=len(self._text))
         return Reading(tuple(self._clauses), tuple(self._ignored))
 
@@ -130,12 +131,14 @@ class _Reader:
         after = index + 1
         if character in "0123456789":
             return self._digits(index)
+        found = self._expressions.match(text, index)
+        if found is not None and (found.expression.category != "unit" or self._after_number()):
+            return self._expression(index, found)
         if _is_letter(character):
-            while after < len(text) and (_is_letter(text[after]) or _is_mark(text[after])):
-                after += 1
+            after = _word_end(text, after)
             self._add(Word((text[index:after],), WordKind.LETTERS), index)
-        elif _is_minus(text, index) if character in "-−" else character in self._symbols:
-            self._add(Word((character,), WordKind.SYMBOL), index)
+        elif character in "-−" and _is_minus(text, index):
+            self._add(Word((character,), WordKind.LETTERS, stands_for="menos"), index)
         elif character in "?!":
             self._close(character, closes=True, stop=after)
         elif character in "¿¡":
@@ -156,12 +159,30 @@ class _Reader:
         return after
 
     def _digits(self, index: int) -> int:
-        """Read a number; an ordinal's `º` or `ª` goes with it."""
-        for start, stop, value in match_digits(self._text, index):
-            after = stop + 1 if self._text[stop : stop + 1] in ("º", "ª") else stop
-            self._add(Word((self._text[start:after],), WordKind.NUMBER, value), start)
-            index = after
-        return index
+        """Read a number, ordinal, time or date."""
+        said = match_digits(self._text, index, self._words[-1].lower if self._words else "")
+        for part in said:
+            typed = (self._text[part.start : part.stop],)
+            kind = WordKind.NUMBER if part.value else WordKind.LETTERS
+            self._add(Word(typed, kind, part.value, part.stands_for), part.start)
+        return said[-1].stop
+
+    def _expression(self, index: int, found: Found) -> int:
+        """Read a short form or symbol; its point may end the sentence too."""
+        typed = (self._text[index : found.stop],)
+        for word in found.expression.words:
+            self._add(Word(typed, WordKind.LETTERS, stands_for=word), index)
+        if found.pointed and found.expression.category != "title":
+            following = self._text[found.stop :].lstrip(" ")[:1]
+            if not following or following.isupper() or following in "¿¡\n":
+                self._close(".", closes=True, stop=found.stop)
+        return found.stop
+
+    def _after_number(self) -> bool:
+        """Whether a unit may stand here."""
+        return bool(self._words) and (
+            self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
+        )
 
     def _points(self, start: int, stop: int) -> None:
         """One point or several: the end of the sentence, a pause, or part of an abbreviation or address."""
@@ -172,9 +193,7 @@ class _Reader:
             self._close("." if closes else ",", closes=closes, stop=stop)
             return
         last = self._words[-1].parts[-1] if self._words and self._text[start - 1 : start].isalnum() else ""
-        if last and (
-            last.lower() in _ABBREVIATIONS or (len(last) == 1 and last.isupper() and last.isalpha())
-        ):
+        if len(last) == 1 and last.isupper():  # "J. Gil"
             return
         if last and (following.islower() or following.isdigit()):
             return
@@ -205,8 +224,14 @@ def _is_letter(character: str) -> bool:
     return unicodedata.category(character)[0] in "LN" and character not in "0123456789"
 
 
-def _is_mark(character: str) -> bool:
-    return unicodedata.category(character)[0] == "M"
+def _word_end(text: str, index: int) -> int:
+    """Where a word ends that has begun before an index: letters, digits behind them ("UC3M"), and accents."""
+    while True:
+        match = _LETTERS_AND_DIGITS.match(text, index)
+        index = match.end() if match else index
+        if index == len(text) or unicodedata.category(text[index])[0] != "M":
+            return index
+        index += 1
 
 
 def _is_minus(text: str, index: int) -> bool:
@@ -220,7 +245,7 @@ def _stands_alone(text: str, index: int) -> bool:
 
 def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
     """Make one word of words that say one number."""
-    folded = [word.fold if word.kind is WordKind.LETTERS else "" for word in words]
+    folded = [_number_key(word) for word in words]
     result: list[Word] = []
     index = 0
     while index < len(words):
@@ -234,3 +259,9 @@ def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
             result.append(words[index])
             index += 1
     return tuple(result)
+
+
+def _number_key(word: Word) -> str:
+    """A word as numbers are looked up; empty if it can be part of none: "Díez" is a name, not ten."""
+    typed_right = word.fold == word.lower or word.lower in ACCENTED_NUMBER_WORDS
+    return word.fold if word.kind is WordKind.LETTERS and typed_right else ""

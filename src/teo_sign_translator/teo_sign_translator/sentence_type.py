@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import IntEnum
 
+from teo_sign_translator.normalisation import shortened
 from teo_sign_translator.reading import Clause, Word
 from teo_sign_translator.tables import words_of
 
@@ -24,12 +25,13 @@ _INTERROGATIVES = frozenset(
 _FOLDED_INTERROGATIVES = frozenset(
     words_of("que quien quienes cual cuales como cuando cuanto cuanta cuantos cuantas donde adonde")
 )
-# Typed without accents and marks these begin a question far more often than a statement; "que" and "como"
-# only together with the word behind them.
+# Typed without accents and marks these begin a question far more often than a statement; "que", "como" and
+# "cuando" only together with the word behind them.
 _UNMARKED_STARTS = frozenset(words_of("quien quienes cual cuales cuanto cuanta cuantos cuantas donde adonde"))
 _UNMARKED_PAIRS = frozenset(
-    {("que", second) for second in words_of("tal hora dia haces quieres pasa")}
+    {("que", second) for second in words_of("tal hora dia haces quieres pasa prefieres significa")}
     | {("como", second) for second in words_of("te se estas esta estan estais es vas")}
+    | {("cuando", second) for second in words_of("vienes vas llegas sales es empieza")}
 )
 # Words that may stand before the question word: "¿Y tú de dónde eres?"
 _LEADING = frozenset(
@@ -59,7 +61,7 @@ def sentence_type(clauses: Sequence[Clause]) -> SentenceType:
 def is_negated(clauses: Sequence[Clause]) -> bool:
     """Whether a sentence holds a negative word, other than the tag "…, ¿no?" and the reply "de nada"."""
     for index, clause in enumerate(clauses):
-        words = [word.lower for word in clause.words]
+        words = [shortened(word.lower) for word in clause.words]
         if index and words == ["no"] and clause.end == "?":
             continue
         for place, word in enumerate(words):

@@ -7,6 +7,9 @@ import unicodedata
 #: The 30 signs of the LSE manual alphabet; CH, LL and RR are one sign each.
 ALPHABET = frozenset("ABCDEFGHIJKLMNÑOPQRSTUVWXYZ") | {"CH", "LL", "RR"}
 
+#: Signs of numbers, which may stand in a word ("UC3M").
+DIGITS = frozenset("0123456789")
+
 # Letters of other Latin alphabets that are no base letter with a mark, as Spanish texts transcribe them.
 _TRANSCRIPTION = {
     "ẞ": "SS", "Æ": "AE", "Œ": "OE", "Ø": "O", "Ł": "L", "Đ": "D", "Ð": "D", "Þ": "TH", "ª": "A", "º": "O",
@@ -44,5 +47,5 @@ def letters(word: str) -> tuple[str, ...]:
 
 
 def unsignable(word: str) -> tuple[str, ...]:
-    """Characters of a word that the LSE alphabet cannot spell, in order, without repetition."""
-    return tuple(dict.fromkeys(c for c in word if any(p not in ALPHABET for p in plain_letters(c))))
+    """Characters of a word that neither letters nor numbers can spell, in order, without repetition."""
+    return tuple(dict.fromkeys(c for c in word if any(p not in ALPHABET | DIGITS for p in plain_letters(c))))

@@ -4,15 +4,26 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator
-from typing import Annotated, Any
+from collections.abc import Iterable, Iterator, Sequence, Set
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+from typing import Annotated, Any, BinaryIO
 
 import typer
+from rich.console import Console
+from rich.progress import track
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_store import DEFAULT_MODEL, available_models
+from teo_sign_translator.sentence_route import DEFAULT_BEAM_WIDTH
+from teo_sign_translator.signs import read_signs
 from teo_sign_translator.translation import Translation
 from teo_sign_translator.translator import Translator
+
+#: Lines of a file that are translated together [lines]: more are no faster, and nothing is written until
+#: they are done.
+_TOGETHER = 256
 
 app = typer.Typer(add_completion=False)
 
@@ -23,14 +34,28 @@ def translate(
         str | None, typer.Argument(help="Spanish text; put a blank before one that begins with -.")
     ] = None,
     stdin: Annotated[
-        bool, typer.Option("--stdin", help="Read texts from standard input, one a line.")
+        bool,
+        typer.Option("--stdin", help="Read texts from standard input, one a line, and answer each at once."),
     ] = False,
+    file: Annotated[
+        Path | None,
+        typer.Option(
+            "--file", help="Read texts from a file, one a line; many are translated together.", dir_okay=False
+        ),
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Write everything, one JSON object a text.")
     ] = False,
     model: Annotated[
         str, typer.Option(help=f"Model to use, one of: {', '.join(available_models()) or 'none'}.")
     ] = DEFAULT_MODEL,
+    beam: Annotated[
+        int, typer.Option(min=1, max=16, help="Translations that the model weighs against each other.")
+    ] = DEFAULT_BEAM_WIDTH,
+    signs: Annotated[
+        Path | None,
+        typer.Option(help="File with the glosses that have signs, one a line; what has none is spelled."),
+    ] = None,
     list_models: Annotated[
         bool, typer.Option("--list-models", help="Write the models' names and stop.")
     ] = False,
@@ -45,50 +70,97 @@ def translate(
     if list_models:
         print(*available_models(), sep="\n")
         return
-    if stdin == (text is not None):
-        raise typer.BadParameter("expected either a text or --stdin")
+    if (text is not None) + stdin + (file is not None) != 1:
+        raise typer.BadParameter("expected either a text, --stdin or --file")
     try:
-        translator = Translator.load(model)
+        writer = _Writer(
+            Translator.load(model, beam_width=beam), read_signs(signs) if signs else None, as_json=as_json
+        )
     except TranslationError as error:
         _complain("", error)
         raise typer.Exit(1) from None
-    failed = False
-    for number, line in _lines() if stdin else _single(text or ""):
-        failed |= not _answer(translator, line, place=f"line {number}: " if stdin else "", as_json=as_json)
-    raise typer.Exit(int(failed))
-
-
-def _answer(translator: Translator, text: str, *, place: str, as_json: bool) -> bool:
-    """Write the translation of one text; return whether there is one, or nothing to translate."""
-    result: Translation | None = None
-    problem: TranslationError | None = None
-    blank = bool(place) and not text.strip()
-    if not blank:
+    if text is not None:
+        writer.write_text(text)
+    elif file is None:
+        for number, line in enumerate(_lines(sys.stdin.buffer), start=1):
+            writer.write_lines(number, [line])
+    else:
         try:
-            result = translator.translate(text)
-        except TranslationError as error:
-            problem = error
-            _complain(place, error)
-    if as_json:
+            with file.open("rb") as content:
+                lines = list(_lines(content))
+        except OSError as error:
+            _complain("", TranslationError("invalid_data", f"expected a readable file: {error}"))
+            raise typer.Exit(1) from None
+        for number, some in _progress(lines):
+            writer.write_lines(number, some)
+    raise typer.Exit(int(writer.failed))
+
+
+@dataclass
+class _Writer:
+    """Translates texts and writes the answers.
+
+    Attributes:
+        translator: Translates.
+        signs: Glosses that have signs; None if that is not known.
+        as_json: Whether everything is written.
+        failed: Whether a text could not be translated.
+    """
+
+    translator: Translator
+    signs: Set[str] | None
+    as_json: bool
+    failed: bool = False
+
+    def write_text(self, text: str) -> None:
+        """Write the translation of one text, or on standard error why there is none."""
+        (answer,) = self.translator.translate_all([text], self.signs)
+        if isinstance(answer, TranslationError):
+            self._complain("", answer)
+            if not self.as_json:
+                return
+        self._print(text, answer)
+
+    def write_lines(self, number: int, lines: Sequence[str]) -> None:
+        """Write a line for each line; the first has the given number, which a refusal names."""
+        answers = iter(self.translator.translate_all([line for line in lines if line.strip()], self.signs))
+        for place, line in enumerate(lines, start=number):
+            answer = next(answers) if line.strip() else None
+            if isinstance(answer, TranslationError):
+                self._complain(f"line {place}: ", answer)
+            self._print(line, answer)
+
+    def _print(self, text: str, answer: Translation | TranslationError | None) -> None:
+        if not self.as_json:
+            print(answer if isinstance(answer, Translation) else "", flush=True)
+            return
         content: dict[str, Any] = {"text": text, "glosses": "", "sentences": []}
-        if result is not None:
-            content = result.as_dict()
-        elif problem is not None:
-            content["error"] = {"code": problem.code, "message": str(problem)}
+        if isinstance(answer, Translation):
+            content = answer.as_dict()
+        elif answer is not None:
+            content["error"] = {"code": answer.code, "message": str(answer)}
         print(json.dumps(content, ensure_ascii=False), flush=True)
-    elif result is not None or place:
-        print(result or "", flush=True)
-    return problem is None
+
+    def _complain(self, place: str, error: TranslationError) -> None:
+        self.failed = True
+        _complain(place, error)
 
 
-def _single(text: str) -> Iterable[tuple[int, str]]:
-    return [(1, text)]
+def _lines(file: BinaryIO) -> Iterator[str]:
+    """Lines of a file; bytes that are no UTF-8 become lone surrogates, which are refused later."""
+    for line in file:
+        yield line.decode("utf-8", errors="surrogateescape").rstrip("\r\n")
 
 
-def _lines() -> Iterator[tuple[int, str]]:
-    """Lines of standard input; bytes that are no UTF-8 become lone surrogates, which are refused later."""
-    for number, line in enumerate(sys.stdin.buffer, start=1):
-        yield number, line.decode("utf-8", errors="surrogateescape").rstrip("\r\n")
+def _progress(lines: Sequence[str]) -> Iterable[tuple[int, Sequence[str]]]:
+    """Line numbers and lines, many at a time; with a bar if the translations do not go to the same screen."""
+    iterator = iter(lines)
+    batches = [list(islice(iterator, _TOGETHER)) for _ in range(0, len(lines), _TOGETHER)]
+    numbered = [(index * _TOGETHER + 1, batch) for index, batch in enumerate(batches)]
+    console = Console(stderr=True)
+    return track(
+        numbered, "translating", console=console, disable=sys.stdout.isatty() or not console.is_terminal
+    )
 
 
 def _complain(place: str, error: TranslationError) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import Enum, IntEnum
+from enum import IntEnum
 from itertools import groupby
 from typing import Any
 
@@ -20,14 +20,17 @@ class Kind(IntEnum):
     PAUSE = 3
 
 
-class Origin(Enum):
-    """Where a token comes from."""
+class Origin(IntEnum):
+    """How a token came about; values are those of `teo_sign_msgs/SignToken`."""
 
-    MODEL = "model"
-    WORD_LIST = "word list"
-    SPELLING = "spelling"
-    NUMBER = "number"
-    PUNCTUATION = "punctuation"
+    MODEL = 1
+    LEMMA = 2
+    SYNONYM = 3
+    SPELLED = 4
+    NUMBER = 5
+    REPAIRED = 6
+    WORD_LIST = 7
+    PAUSE = 8
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,7 +45,7 @@ class Token:
         word_index: Counts the words of the sentence's output from 0; letters of a spelled word and digits
             share it.
         source_words: Words of the text, as typed, that the token stands for.
-        origin: Where it comes from.
+        origin: How it came about.
     """
 
     gloss: str
@@ -63,12 +66,19 @@ class Sentence:
         type: Statement, question or exclamation.
         negated: Whether it holds a negation.
         tokens: At least one.
+        uncertain: Whether its confidence is below the threshold of the translator.
     """
 
     text: str
     type: SentenceType
     negated: bool
     tokens: tuple[Token, ...]
+    uncertain: bool
+
+    @property
+    def confidence(self) -> float:
+        """Of the sentence, 0 to 1: that of its least certain token."""
+        return min(token.confidence for token in self.tokens)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,6 +114,8 @@ class Translation:
                     "text": sentence.text,
                     "type": sentence.type.name.lower(),
                     "negated": sentence.negated,
+                    "confidence": round(sentence.confidence, 4),
+                    "uncertain": sentence.uncertain,
                     "tokens": [
                         {
                             "gloss": token.gloss,
@@ -112,7 +124,7 @@ class Translation:
                             "duration_scale": token.duration_scale,
                             "word_index": token.word_index,
                             "source_words": list(token.source_words),
-                            "origin": token.origin.value,
+                            "origin": token.origin.name.lower(),
                         }
                         for token in sentence.tokens
                     ],

@@ -2,76 +2,176 @@
 
 from __future__ import annotations
 
-import time
+import threading
 import traceback
 import uuid
 from collections.abc import Iterable, Sequence
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
-from rclpy.node import Node
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
 from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence
 from teo_sign_msgs.srv import Translate
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.messages import to_messages
+from teo_sign_translator.log_text import quoted, short
+from teo_sign_translator.messages import to_diagnostics, to_messages
 from teo_sign_translator.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
+from teo_sign_translator.sign_inventory import SignInventory
+from teo_sign_translator.signs import read_signs
+from teo_sign_translator.text_statistics import Statistics
+from teo_sign_translator.text_worker import TextWorker
 from teo_sign_translator.translator import Translator
 
-#: Texts that wait while one is translated; translating takes milliseconds, so this is many people typing at
-#: once.
-TEXT_DEPTH = 10
+#: Texts that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own queue
+#: that is full first, and that says so.
+TEXT_DEPTH = 1000
 
-# A log line shows this much of a text [characters].
-_LOGGED_LENGTH = 80
+#: How often the state is published [s], as diagnostics are by custom.
+DIAGNOSTICS_PERIOD = 1.0
+
+# How long the end of the text that is being translated is awaited [s]; the longest text takes less.
+_STOP_TIMEOUT = 5.0
+
+_NOT_ACTIVE = "[not_active] the translator is being stopped: activate it, then send the text again"
 
 
-class TranslatorNode(Node):
-    """Answers texts in the order in which they come. Owns no language logic: see `translator.Translator`."""
+class _Text(NamedTuple):
+    """A text and when it came."""
+
+    text: str
+    received: Time
+
+
+class TranslatorNode(LifecycleNode):
+    """Answers texts in the order in which they come. Owns no language logic: see `translator.Translator`.
+
+    Unconfigured: no model. Inactive: the model is loaded and the `translate` service answers. Active: texts
+    of the topic are answered too.
+    """
 
     def __init__(
         self, *, context: Context | None = None, parameter_overrides: Iterable[Parameter] = ()
     ) -> None:
-        """Load the model, then listen.
+        """Declare the parameters; the transitions do the rest.
 
         Args:
             context: The ROS context; the default one if None.
             parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
-
-        Raises:
-            TranslationError: If the model cannot be loaded.
         """
         super().__init__("translator", context=context, parameter_overrides=list(parameter_overrides))
         for parameter in PARAMETERS:
             self.declare_parameter(parameter.name, parameter.default, parameter.descriptor())
-        self._translator = self._load(self._value("model"), self._value("min_confidence"))
+        self._translator: Translator | None = None
         self._next_translator: Translator | None = None
+        self._inventory: SignInventory | None = None
+        self._worker: TextWorker[_Text] | None = None
+        self._translating = threading.Lock()
+        self._statistics = Statistics()
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
+
+    def start(self) -> bool:
+        """Configure and activate without a manager; tell whether both succeeded."""
+        success = TransitionCallbackReturn.SUCCESS
+        return bool(self.trigger_configure() == success and self.trigger_activate() == success)
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
+        """Load the model; serve `translate` and say how things are."""
+        try:
+            translator = self._load({})
+            listed = _listed_signs(self._value("signs_file"))
+        except TranslationError as error:
+            self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
+            return TransitionCallbackReturn.FAILURE
         reliable = ReliabilityPolicy.RELIABLE
-        self._tokens = self.create_publisher(
+        self._tokens = self.create_lifecycle_publisher(
             SignSentence, "sign_tokens", QoSProfile(depth=SIGN_TOKENS_DEPTH, reliability=reliable)
         )
-        self.create_subscription(
-            String, "text", self._on_text, QoSProfile(depth=TEXT_DEPTH, reliability=reliable)
-        )
-        self.create_service(Translate, "translate", self._on_translate)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
+        self._service = self.create_service(Translate, "translate", self._on_translate)
+        self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)
+        self._inventory = SignInventory(self, listed)
+        self._translator = translator
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Listen to `text`."""
+        result = super().on_activate(state)
+        self._worker = TextWorker(self._answer_text, size=self._value("queue_size"))
+        qos = QoSProfile(depth=TEXT_DEPTH, reliability=ReliabilityPolicy.RELIABLE)
+        self._texts = self.create_subscription(String, "text", self._on_text, qos)
+        assert self._translator is not None
         self.get_logger().info(f"ready, model {self._translator.name}")
+        return result
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Listen no more; texts that still wait are refused."""
+        self._stop_listening()
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
+        """Let go of the model and of all that was made to use it."""
+        self._let_go()
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Finish the text at hand and let go of everything."""
+        self._stop_listening()
+        self._let_go()
+        return super().on_shutdown(state)
+
+    def destroy_node(self) -> None:
+        """Finish the text at hand, then end."""
+        self._stop_listening()
+        super().destroy_node()
+
+    def _stop_listening(self) -> None:
+        worker, self._worker = self._worker, None
+        if worker is None:
+            return
+        self.destroy_subscription(self._texts)
+        for item in worker.stop(_STOP_TIMEOUT):
+            self._refuse(item.text, _NOT_ACTIVE)
+
+    def _let_go(self) -> None:
+        if self._translator is None:
+            return
+        assert self._inventory is not None
+        self._inventory.close()
+        self.destroy_timer(self._timer)
+        self.destroy_service(self._service)
+        self.destroy_publisher(self._diagnostics)
+        self.destroy_lifecycle_publisher(self._tokens)
+        self._translator = self._inventory = None
 
     def _on_text(self, message: String) -> None:
+        if self._worker is None:  # taken from the topic just before the node was deactivated
+            self._refuse(message.data, _NOT_ACTIVE)
+        elif not self._worker.offer(_Text(message.data, self.get_clock().now())):
+            self._refuse(
+                message.data, f"[queue_full] {self._worker.size} texts wait already: send fewer at a time"
+            )
+
+    def _answer_text(self, item: _Text) -> None:
+        """Translate and publish a text of the topic; in the worker's thread."""
         try:
-            sentences = self._translate(message.data)
+            sentences = self._translate(item)
         except TranslationError as error:
-            self.get_logger().warning(f"refused {_shown(message.data)}: [{error.code}] {error}")
+            self._refuse(item.text, f"[{error.code}] {error}")
             return
-        except Exception:  # a fault of ours with one text must not keep the node from the next
-            self.get_logger().error(f"failed on {_shown(message.data)}:\n{traceback.format_exc()}")
+        except Exception as error:  # a fault of ours with one text must not keep the node from the next
+            self._statistics.add_refused(f"[internal_error] {error!r}")
+            self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
             return
         for sentence in sentences:
             self._tokens.publish(sentence)
@@ -80,27 +180,30 @@ class TranslatorNode(Node):
 
     def _on_translate(self, request: Translate.Request, response: Translate.Response) -> Translate.Response:
         try:
-            response.sentences = self._translate(request.text)
+            response.sentences = self._translate(_Text(request.text, self.get_clock().now()))
             response.success = True
         except TranslationError as error:
+            self._statistics.add_refused(f"[{error.code}] {error}")
             response.code = error.code
             response.message = str(error)
         except Exception as error:  # likewise
-            self.get_logger().error(f"failed on {_shown(request.text)}:\n{traceback.format_exc()}")
+            self._statistics.add_refused(f"[internal_error] {error!r}")
+            self.get_logger().error(f"failed on {quoted(request.text)}:\n{traceback.format_exc()}")
             response.code = "internal_error"
             response.message = f"the translator failed on this text: {error!r}; its log says more"
         return response
 
-    def _translate(self, text: str) -> list[SignSentence]:
+    def _translate(self, item: _Text) -> list[SignSentence]:
         """A text as messages.
 
         Raises:
             TranslationError: If it cannot be translated, or has more than `max_sentences`.
         """
-        stamp = self.get_clock().now().to_msg()
-        started = time.perf_counter()
-        translation = self._translator.translate(text)
-        elapsed = time.perf_counter() - started
+        # The service and the worker share one model, which need not stand two callers at a time.
+        with self._translating:
+            assert self._translator is not None
+            assert self._inventory is not None
+            translation = self._translator.translate(item.text, self._inventory.signs)
         most = self._value("max_sentences")
         if len(translation.sentences) > most:
             raise TranslationError(
@@ -108,46 +211,74 @@ class TranslatorNode(Node):
                 f"expected at most {most} sentences in one text (parameter max_sentences), got "
                 f"{len(translation.sentences)}: send it in parts",
             )
-        self.get_logger().info(f"{_shown(text)}: {_short(str(translation))} ({elapsed * 1000:.1f} ms)")
+        elapsed = (self.get_clock().now() - item.received).nanoseconds * 1e-9
+        self._statistics.add_done(elapsed)
+        self.get_logger().info(f"{quoted(item.text)}: {short(str(translation))} ({elapsed * 1000:.1f} ms)")
         if translation.ignored:
             self.get_logger().warning(
-                f"nothing stands for {_short(' '.join(map(ascii, translation.ignored)))}"
+                f"nothing stands for {short(' '.join(map(ascii, translation.ignored)))}"
             )
-        return to_messages(translation, stamp=stamp, utterance_id=str(uuid.uuid4()))
+        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=str(uuid.uuid4()))
+
+    def _refuse(self, text: str, reason: str) -> None:
+        self._statistics.add_refused(reason)
+        self.get_logger().warning(f"refused {quoted(text)}: {reason}")
+
+    def _publish_diagnostics(self) -> None:
+        assert self._translator is not None
+        assert self._inventory is not None
+        signs = self._inventory.signs
+        self._diagnostics.publish(
+            to_diagnostics(
+                self._statistics,
+                model=self._translator.name,
+                active=self._worker is not None,
+                waiting=self._worker.waiting if self._worker is not None else 0,
+                signs=None if signs is None else len(signs),
+                stamp=self.get_clock().now().to_msg(),
+            )
+        )
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         """Load what the new values ask for, so that a model which cannot be used is refused."""
         asked = {parameter.name: parameter.value for parameter in parameters}
-        if not {"model", "min_confidence"} & asked.keys():
-            return SetParametersResult(successful=True)
         try:
-            self._next_translator = self._load(
-                asked.get("model", self._value("model")),
-                asked.get("min_confidence", self._value("min_confidence")),
-            )
+            if {"model", "beam_width"} & asked.keys():
+                self._next_translator = self._load(asked)
+            if "signs_file" in asked:
+                _listed_signs(asked["signs_file"])
         except TranslationError as error:
             return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
         return SetParametersResult(successful=True)
 
-    def _apply_parameters(self, _: Sequence[Parameter]) -> None:
-        if self._next_translator is not None:
+    def _apply_parameters(self, parameters: Sequence[Parameter]) -> None:
+        if self._translator is None:  # configuring reads them
+            return
+        asked = {parameter.name: parameter.value for parameter in parameters}
+        if {"model", "beam_width"} & asked.keys() and self._next_translator is not None:
             self._translator, self._next_translator = self._next_translator, None
             self.get_logger().info(f"model {self._translator.name}")
+        if "min_confidence" in asked:
+            self._translator.min_confidence = asked["min_confidence"]
+        if "queue_size" in asked and self._worker is not None:
+            self._worker.size = asked["queue_size"]
+        if "signs_file" in asked and self._inventory is not None:
+            self._inventory.list(_listed_signs(asked["signs_file"]))
 
-    def _load(self, model: str, min_confidence: float) -> Translator:
-        return Translator.load(model, min_confidence=min_confidence)
+    def _load(self, asked: dict[str, Any]) -> Translator:
+        """A translator of the parameters' values, those asked for before those set."""
+        values = {name: self._value(name) for name in ("model", "beam_width", "min_confidence")} | asked
+        return Translator.load(
+            values["model"], beam_width=values["beam_width"], min_confidence=values["min_confidence"]
+        )
 
     def _value(self, name: str) -> Any:
         return self.get_parameter(name).value
 
 
-def _shown(text: str) -> str:
-    """A text in quotes, with characters that could upset a terminal escaped."""
-    return _short(repr(text))
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= _LOGGED_LENGTH else text[: _LOGGED_LENGTH - 1] + "…"
+def _listed_signs(file: str) -> frozenset[str] | None:
+    """The glosses of a file; None if there is no file."""
+    return read_signs(Path(file)) if file else None
 
 
 def main(args: list[str] | None = None) -> None:
@@ -156,12 +287,11 @@ def main(args: list[str] | None = None) -> None:
     node: TranslatorNode | None = None
     try:
         node = TranslatorNode()
+        if node.get_parameter("autostart").value and not node.start():
+            raise SystemExit(1)
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except TranslationError as error:
-        rclpy.logging.get_logger("translator").fatal(f"[{error.code}] {error}")
-        raise SystemExit(1) from None
     finally:
         if node is not None:
             node.destroy_node()

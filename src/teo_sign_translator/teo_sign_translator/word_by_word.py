@@ -7,6 +7,7 @@ from itertools import takewhile
 
 from teo_sign_translator.drafts import Draft, carried, spelled
 from teo_sign_translator.glosses import GlossList
+from teo_sign_translator.number_signs import number
 from teo_sign_translator.reading import Word, WordKind
 from teo_sign_translator.translation import Kind, Origin
 
@@ -19,9 +20,6 @@ LISTED_CONFIDENCE = 0.5
 NAME_CONFIDENCE = 0.5
 #: Another word without a sign: spelling Spanish is the last resort.
 SPELLED_CONFIDENCE = 0.3
-
-# Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
-_DECIMAL_GLOSS = "COMA"
 
 
 def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
@@ -37,20 +35,22 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
     while index < len(words):
         word = words[index]
         if word.kind is WordKind.NUMBER:
-            result.extend(number(word, NAME_CONFIDENCE if len(content) > 1 else ALONE_CONFIDENCE))
+            confidence = NAME_CONFIDENCE if len(content) > 1 else ALONE_CONFIDENCE
+            result += number(word.value, word.parts, confidence)
             index += 1
             continue
         name = index > 0 and word.capitalised and not shouted and not _is_function(word, glosses)
         found = None if name else glosses.find_longest(_run(words, index, glosses.longest))
         if found is None:
             likely_name = word.capitalised and not shouted
-            result.append(spelled(word.parts[0], NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE))
+            confidence = NAME_CONFIDENCE if likely_name else SPELLED_CONFIDENCE
+            result += spelled(word.lower, word.parts, confidence)
             index += 1
             continue
         entry, size = found
         typed = tuple(part for w in words[index : index + size] for part in w.parts)
         if entry.function:
-            result.append(carried(typed))
+            result += [carried(w.lower, w.parts) for w in words[index : index + size]]
         else:
             alone = size == len(words)
             result.append(
@@ -63,32 +63,6 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
                 )
             )
         index += size
-    return result
-
-
-def number(word: Word, confidence: float) -> list[Draft]:
-    """A number as the signs of its digits; a decimal comma is a word between them."""
-    result: list[Draft] = []
-    for index, digits in enumerate(word.value.split(",")):
-        if index:
-            result.append(
-                Draft(
-                    signs=(_DECIMAL_GLOSS,),
-                    kind=Kind.LEXICAL,
-                    confidence=confidence,
-                    words=word.parts,
-                    origin=Origin.NUMBER,
-                )
-            )
-        result.append(
-            Draft(
-                signs=tuple(digits),
-                kind=Kind.NUMBER,
-                confidence=confidence,
-                words=word.parts,
-                origin=Origin.NUMBER,
-            )
-        )
     return result
 
 

@@ -19,7 +19,7 @@ from teo_sign_translator.pairs import (
     training_pairs,
 )
 from teo_sign_translator.resources import data_file
-from teo_sign_translator.train import shipped_examples
+from teo_sign_translator.train_published import shipped_examples
 from teo_sign_translator.translation import Kind
 from teo_sign_translator.translator import Translator
 

@@ -6,9 +6,11 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.glosses import GlossList
 from teo_sign_translator.normalisation import MAX_TEXT_LENGTH
 from teo_sign_translator.pairs import training_pairs
+from teo_sign_translator.phrase_route import PhraseRoute
 from teo_sign_translator.phrasebook import Phrasebook
 from teo_sign_translator.sentence_type import SentenceType
 from teo_sign_translator.seq2seq import Prediction
+from teo_sign_translator.signs import SignChooser
 from teo_sign_translator.translation import Kind, Origin, Sentence, Token
 from teo_sign_translator.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.vocabulary import Vocabulary
@@ -156,7 +158,8 @@ class _Parrot:
 
 def _translator_with(model: _Parrot) -> Translator:
     glosses = GlossList.load()
-    return Translator(model, Phrasebook(training_pairs(), glosses), glosses, name="parrot")
+    route = PhraseRoute(model, Phrasebook(training_pairs(), glosses), glosses, name="parrot")
+    return Translator(route, SignChooser({}, None))
 
 
 @pytest.mark.parametrize(
@@ -281,5 +284,5 @@ def test_the_translation_can_be_written_as_json(translator: Translator) -> None:
         "duration_scale": 1.0,
         "word_index": 2,
         "source_words": ["Ana"],
-        "origin": "spelling",
+        "origin": "spelled",
     }

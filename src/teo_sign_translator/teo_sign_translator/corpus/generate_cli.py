@@ -1,0 +1,63 @@
+"""`generate_corpus`: writes the pairs that the translator is trained and tested on."""
+
+from __future__ import annotations
+
+import time
+from itertools import chain
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import track
+
+from teo_sign_translator.corpus.generator import Generator
+from teo_sign_translator.corpus.pairs_file import SPLITS, write_pairs
+from teo_sign_translator.corpus.paper import own_pairs
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.resources import data_file
+
+FILE_NAME = "pairs.tsv"
+
+
+def run(
+    out: Annotated[Path, typer.Option(help="Folder for pairs.tsv.")] = Path("out/corpus"),
+    pairs: Annotated[int, typer.Option(min=100, help="How many, about.")] = 300_000,
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same pairs.")] = 1,
+    leave_out: Annotated[
+        Path | None, typer.Option(help="File of sentences, one a line, that must not occur: of a test.")
+    ] = None,
+) -> None:
+    """Write sentence pairs of the grammar in data/grammar, and the paper's own, to DIR/pairs.tsv."""
+    console = Console(stderr=True)
+    started = time.monotonic()
+    morphology = Morphology.load()
+    generator = Generator.load(data_file("grammar"), morphology)
+    own = list(own_pairs(morphology))
+    unwanted = leave_out.read_text(encoding="utf-8").splitlines() if leave_out else []
+    # The grammar would translate some of the paper's sentences otherwise than the paper does.
+    made = generator.pairs(pairs, seed, [*unwanted, *(pair.spanish for pair in own)])
+    every = chain(own, made)
+    written = list(track(every, description="generating", total=pairs, console=console))
+    write_pairs(out / FILE_NAME, written)
+    counts = {split: sum(pair.split == split for pair in written) for split in SPLITS}
+    rules = len({pair.rule for pair in written})
+    seconds = time.monotonic() - started
+    console.print(
+        f"{out / FILE_NAME}: {len(written)} pairs of {rules} templates in {seconds:.0f} s: "
+        + ", ".join(f"{split} {count}" for split, count in counts.items())
+    )
+
+
+def main() -> None:
+    """Run the command line."""
+    try:
+        typer.run(run)
+    except TranslationError as error:
+        Console(stderr=True).print(f"{error.code}: {error}", markup=False)
+        raise SystemExit(1) from None
+
+
+if __name__ == "__main__":
+    main()

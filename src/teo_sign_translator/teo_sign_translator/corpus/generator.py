@@ -1,0 +1,177 @@
+"""Makes corpora: distinct pairs by the hundred thousand, the same ones for the same seed."""
+
+from __future__ import annotations
+
+from bisect import bisect
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import accumulate
+from pathlib import Path
+from random import Random
+
+from teo_sign_translator.corpus.choosers import RandomChooser
+from teo_sign_translator.corpus.derivation import Derivation, NoFillerError, Sentence
+from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule
+from teo_sign_translator.corpus.grammar_file import load_grammar
+from teo_sign_translator.corpus.pairs_file import Pair
+from teo_sign_translator.corpus.templates import Template, templates
+from teo_sign_translator.corpus.words import WordLists, is_held_out
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.normalisation import strip_marks
+
+#: Share of each split.
+SHARES = {"train": 0.93, "dev": 0.02, "test_words": 0.02, "test_templates": 0.02, "test_both": 0.01}
+#: No template gives more than this share of the pairs.
+LARGEST_SHARE = 0.03
+#: A template that gives nothing new this often in a row has given all it has.
+_EXHAUSTED_AFTER = 60
+#: Longest sentence [words and marks].
+_LONGEST = 24
+
+
+@dataclass
+class Generator:
+    """A grammar with its words, ready to make pairs.
+
+    Attributes:
+        grammar: Rules.
+        words: Word lists, with the held-out words named.
+    """
+
+    grammar: Grammar
+    words: WordLists
+    held_forms: frozenset[str] = field(default_factory=frozenset)
+
+    @classmethod
+    def load(cls, grammar_folder: Path, morphology: Morphology) -> Generator:
+        """Read a grammar, and the word lists of the `lexicon` folder beside it.
+
+        Raises:
+            TranslationError: "invalid_grammar" or "invalid_data".
+        """
+        grammar = load_grammar(grammar_folder)
+        unknown = sorted(grammar.held_out - {template.name for template in templates(grammar)})
+        if unknown:
+            raise TranslationError(
+                "invalid_grammar", f"{grammar_folder}: held_out: expected names of templates, got {unknown}"
+            )
+        words = WordLists.load(grammar_folder, morphology, grammar.word_lists)
+        words.held_out = held_out_words(grammar, words)
+        return cls(grammar, words, frozenset(word.lower() for word in words.held_out))
+
+    def pairs(self, count: int, seed: int, leave_out: Iterable[str] = ()) -> Iterator[Pair]:
+        """Yield pairs, all of them different sentences, split by split.
+
+        Args:
+            count: About how many; a little fewer if the grammar has no more.
+            seed: The same seed gives the same pairs.
+            leave_out: Sentences that must not occur, in whatever accents, marks and capitals.
+        """
+        every = templates(self.grammar)
+        seen_templates = [each for each in every if each.name not in self.grammar.held_out]
+        new_templates = [each for each in every if each.name in self.grammar.held_out]
+        seen = _Seen(leave_out)
+        for index, (split, share) in enumerate(SHARES.items()):
+            chosen = new_templates if split in ("test_templates", "test_both") else seen_templates
+            if chosen:
+                random = Random(seed * len(SHARES) + index)
+                held = split in ("test_words", "test_both")
+                yield from self._split(split, round(count * share), chosen, random, seen, held=held)
+
+    def _split(
+        self, split: str, count: int, chosen: list[Template], random: Random, seen: _Seen, *, held: bool
+    ) -> Iterator[Pair]:
+        chooser = RandomChooser(random, held)
+        derivation = Derivation(self.grammar, self.words, chooser)
+        left = list(chosen)
+        made = [0] * len(chosen)
+        places = list(range(len(chosen)))
+        largest = max(int(LARGEST_SHARE * count), 1) if len(chosen) * LARGEST_SHARE > 1 else count
+        total = 0
+        while total < count and left:
+            bounds = list(accumulate(template.weight for template in left))
+            spent: int | None = None
+            while total < count and spent is None:
+                place = bisect(bounds, random.random() * bounds[-1])
+                sentence = self._new(derivation, left[place], seen, held=held)
+                if sentence is None:
+                    spent = place
+                    continue
+                seen.add(sentence.spanish)
+                total += 1
+                made[places[place]] += 1
+                yield Pair(sentence.spanish, sentence.glosses, sentence.alignment, left[place].name, split)
+                if made[places[place]] >= largest:
+                    spent = place
+            if spent is not None:
+                del left[spent], places[spent]
+
+    def _new(self, derivation: Derivation, template: Template, seen: _Seen, *, held: bool) -> Sentence | None:
+        for _ in range(_EXHAUSTED_AFTER):
+            try:
+                sentence = derivation.sentence(template.rule, template.spread)
+            except NoFillerError:
+                continue
+            if sentence.spanish in seen or len(sentence.words) > _LONGEST or not sentence.glosses:
+                continue
+            if held != bool(sentence.lemmas & self.words.held_out):
+                continue
+            if not held and any(word in self.held_forms for word in sentence.words):
+                continue
+            return sentence
+        return None
+
+
+class _Seen:
+    """Sentences that must not come (again)."""
+
+    def __init__(self, unwanted: Iterable[str]) -> None:
+        self._unwanted = frozenset(map(_bare, unwanted))
+        self._made: set[str] = set()
+
+    def add(self, sentence: str) -> None:
+        self._made.add(sentence)
+
+    def __contains__(self, sentence: str) -> bool:
+        return sentence in self._made or (bool(self._unwanted) and _bare(sentence) in self._unwanted)
+
+
+def _bare(sentence: str) -> str:
+    """Letters and digits alone."""
+    return "".join(letter for letter in strip_marks(sentence) if letter.isalnum())
+
+
+def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
+    """Content words that only tests see: by hash, except those that the grammar itself names."""
+    named = {item.word for rule in _rules(grammar) for item in rule.spanish}
+    named |= {
+        value
+        for rule in _rules(grammar)
+        for slot in rule.slots
+        if slot.category in LEXICAL
+        for _, values in slot.arguments
+        for value in values.split(",")
+    }
+    named |= {word for words_ in grammar.word_lists.values() for word in words_}  # everyday words
+    named |= {part.lemma for shape in grammar.shapes for part in shape.parts}
+    every = sorted(
+        {
+            word.lemma.removesuffix("se") if word in words.verbs else word.lemma
+            for entries in (words.nouns, words.adjectives, words.names, words.verbs)
+            for word in entries
+        }
+    )
+    spellings = Counter(lemma.lower() for lemma in every)  # the surname Nieto is a grandson too
+    return frozenset(
+        lemma
+        for lemma in every
+        if is_held_out(lemma) and lemma not in named and spellings[lemma.lower()] == 1
+    )
+
+
+def _rules(grammar: Grammar) -> list[Rule]:
+    return [rule for family in grammar.families for rule in family.rules] + [
+        rule for alternatives in grammar.categories.values() for rule in alternatives
+    ]

@@ -1,0 +1,97 @@
+"""The corpus file: one pair of Spanish and LSE a line, with its alignment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.tables import write_atomically
+
+COLUMNS = ("spanish", "glosses", "alignment", "rule", "split")
+
+#: `test_words`: known templates with words that train never has; `test_templates`: known words in templates
+#: that train never has; `test_both`: neither was seen.
+SPLITS = ("train", "dev", "test_words", "test_templates", "test_both")
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A Spanish sentence and its translation.
+
+    Attributes:
+        spanish: As people write it, with accents and marks.
+        glosses: In signing order; upper case with accents, `_` for spaces, numbers in digits.
+        alignment: For each gloss the indices into `source_words(spanish)` that it stands for; empty for none.
+        rule: Name of the template it was made from, `family.rule` and what fills the rule; `paper` for the
+            paper's and the project's own pairs.
+        split: One of `SPLITS`.
+    """
+
+    spanish: str
+    glosses: tuple[str, ...]
+    alignment: tuple[tuple[int, ...], ...]
+    rule: str
+    split: str
+
+
+def write_pairs(path: Path, pairs: Iterable[Pair]) -> None:
+    """Write a corpus file; whoever reads it meanwhile finds the old one or the whole new one."""
+    lines = ["\t".join(COLUMNS)]
+    lines += (
+        "\t".join(
+            (
+                pair.spanish,
+                " ".join(pair.glosses),
+                " ".join(",".join(map(str, places)) or "-" for places in pair.alignment),
+                pair.rule,
+                pair.split,
+            )
+        )
+        for pair in pairs
+    )
+    write_atomically(path, ("\n".join(lines) + "\n").encode())
+
+
+def read_pairs(path: Path) -> Iterator[Pair]:
+    """Yield the pairs of a corpus file.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line, if a line is not what `write_pairs` writes.
+    """
+    try:
+        with path.open(encoding="utf-8") as file:
+            for number, line in enumerate(file, start=1):
+                fields = line.rstrip("\n").split("\t")
+                if number == 1:
+                    if tuple(fields) != COLUMNS:
+                        raise _invalid(path, number, f"the header {COLUMNS}", line)
+                    continue
+                yield _pair(path, number, fields)
+    except (OSError, UnicodeDecodeError) as error:
+        raise TranslationError("invalid_data", f"{path}: expected a readable UTF-8 file: {error}") from error
+
+
+def _pair(path: Path, number: int, fields: list[str]) -> Pair:
+    if len(fields) != len(COLUMNS):
+        raise _invalid(path, number, f"{len(COLUMNS)} columns", f"{len(fields)}")
+    spanish, glosses, alignment, rule, split = fields
+    if split not in SPLITS:
+        raise _invalid(path, number, f"one of {SPLITS}", split)
+    try:
+        places = tuple(
+            () if entry == "-" else tuple(map(int, entry.split(","))) for entry in alignment.split()
+        )
+    except ValueError:
+        raise _invalid(path, number, "word numbers or '-'", alignment) from None
+    pair = Pair(spanish, tuple(glosses.split()), places, rule, split)
+    if len(pair.alignment) != len(pair.glosses):
+        raise _invalid(path, number, f"{len(pair.glosses)} alignments, one a gloss", f"{len(places)}")
+    return pair
+
+
+def _invalid(path: Path, number: int, expected: str, got: str) -> TranslationError:
+    return TranslationError(
+        "invalid_data", f"{path}, line {number}: expected {expected}, got '{got.strip()}'"
+    )

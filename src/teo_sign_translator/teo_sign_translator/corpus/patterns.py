@@ -1,0 +1,105 @@
+"""The two linked right-hand sides of a rule, as written in the grammar files and as parsed.
+
+Spanish: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
+`un~n` the paradigm word "un" agreeing with slot n.
+
+LSE: `{X}` the glosses of slot X, `{n*}` the same twice where slot n is plural, `{T/V}` the time expression T
+and, unless it says the tense, PASADO or FUTURO by verb V; `{/V}` the latter alone. `GLOSS` is a gloss that no
+word says, `GLOSS=word+word` one that those words of the Spanish side say (`word#2` the second of them, `{X}`
+the head of a slot), `GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a clitic pronoun says.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from teo_sign_translator.errors import TranslationError
+
+_SLOT = re.compile(r"\{(?P<slot>\w+)(?::(?P<agree>\w+))?\}")
+_AGREEING = re.compile(r"(?P<word>\w+)~(?P<agree>\w+)")
+_LITERAL = re.compile(r"\w+|[¿?¡!,.:]")
+_GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?P<twice>\*?)\}")
+_TENSE = re.compile(r"\{(?P<time>\w*)/(?P<verb>\w+)\}")
+_GLOSS = re.compile(r"(?P<gloss>[A-ZÁÉÍÓÚÜÑ0-9_]+)(?:=(?P<sources>\S+))?")
+
+#: Sources of a gloss that the verb's ending or a clitic says.
+VERB, CLITIC = "^", "@"
+
+
+@dataclass(frozen=True, slots=True)
+class SpanishItem:
+    """One item of the Spanish side: a slot, an agreeing paradigm word or a literal.
+
+    Attributes:
+        slot: Name of the slot; empty for a word.
+        word: The word or mark; empty for a slot.
+        agree: Slot that it agrees with; empty if with none.
+    """
+
+    slot: str
+    word: str
+    agree: str
+
+
+@dataclass(frozen=True, slots=True)
+class GlossItem:
+    """One item of the LSE side: a slot, a tense or a gloss.
+
+    Attributes:
+        slot: Name of the slot; of the time slot for a tense; else empty.
+        twice: Whether the slot's glosses are said twice where it is plural.
+        tense: Verb slot whose tense is said; else empty.
+        gloss: The gloss; empty for slot and tense.
+        sources: Words of the Spanish side, `{slot}`s, `VERB` or `CLITIC`.
+    """
+
+    slot: str = ""
+    twice: bool = False
+    tense: str = ""
+    gloss: str = ""
+    sources: tuple[str, ...] = ()
+
+
+def parse_spanish(text: str) -> tuple[SpanishItem, ...]:
+    """Parse a Spanish side.
+
+    Raises:
+        TranslationError: "invalid_grammar" naming the item.
+    """
+    items: list[SpanishItem] = []
+    for written in text.split():
+        if match := _SLOT.fullmatch(written):
+            items.append(SpanishItem(match["slot"], "", match["agree"] or ""))
+        elif match := _AGREEING.fullmatch(written):
+            items.append(SpanishItem("", match["word"], match["agree"]))
+        elif _LITERAL.fullmatch(written):
+            items.append(SpanishItem("", written, ""))
+        else:
+            raise TranslationError(
+                "invalid_grammar",
+                f"expected a word, a mark, {{slot}}, {{verb:subject}} or word~slot, got '{written}'",
+            )
+    return tuple(items)
+
+
+def parse_glosses(text: str) -> tuple[GlossItem, ...]:
+    """Parse an LSE side.
+
+    Raises:
+        TranslationError: "invalid_grammar" naming the item.
+    """
+    items: list[GlossItem] = []
+    for written in text.split():
+        if match := _GLOSS_SLOT.fullmatch(written):
+            items.append(GlossItem(slot=match["slot"], twice=bool(match["twice"])))
+        elif match := _TENSE.fullmatch(written):
+            items.append(GlossItem(slot=match["time"], tense=match["verb"]))
+        elif match := _GLOSS.fullmatch(written):
+            sources = tuple(match["sources"].split("+")) if match["sources"] else ()
+            items.append(GlossItem(gloss=match["gloss"], sources=sources))
+        else:
+            raise TranslationError(
+                "invalid_grammar", f"expected GLOSS, GLOSS=word, {{slot}} or {{time/verb}}, got '{written}'"
+            )
+    return tuple(items)

@@ -1,0 +1,74 @@
+"""Which tenses and modals a verb may be said in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from teo_sign_translator.corpus.grammar import Shape
+
+#: Shapes of the present that speak of what is to come ("mañana voy").
+_PLANS = (
+    "present",
+    "must",
+    "want",
+    "can",
+    "want_enclitic",
+    "can_enclitic",
+    "need",
+    "should",
+    "subjunctive",
+)
+
+
+@dataclass
+class Tenses:
+    """The shapes of a grammar, by what they suit.
+
+    Attributes:
+        shapes: All of them.
+        lists: Names of several shapes.
+    """
+
+    shapes: Sequence[Shape]
+    lists: Mapping[str, tuple[str, ...]]
+    _found: dict[tuple[str, ...], tuple[Shape, ...]] = field(default_factory=dict)
+
+    def fitting(self, mood: str, says: str, kind: str, only: str) -> tuple[Shape, ...]:
+        """The shapes that suit a place.
+
+        Args:
+            mood: Of the clause.
+            says: Time that a time word says; empty or "any" for none.
+            kind: "event" or "state".
+            only: Shapes or lists of them, separated by commas; groups joined by `&` must all allow a shape.
+        """
+        key = (mood, says, kind, only)
+        if key not in self._found:
+            allowed = [
+                {name for each in part.split(",") for name in self.lists.get(each, (each,))}
+                for part in only.split("&")
+                if part
+            ]
+            self._found[key] = tuple(
+                shape
+                for shape in self.shapes
+                if shape.mood == mood
+                and all(shape.name in names for names in allowed)
+                and (shape.kind != "event" or kind == "event")
+                and _time_fits(says, shape, kind)
+            )
+        return self._found[key]
+
+
+def _time_fits(says: str, shape: Shape, kind: str) -> bool:
+    """Whether a tense goes with a time word."""
+    if says in ("", "any"):
+        return True
+    if says == "past":
+        return shape.time == "past" and shape.dated
+    if says == "future":
+        return shape.time == "future" or (
+            shape.time == "present" and shape.name in _PLANS and kind == "event"
+        )
+    return shape.time == says

@@ -1,0 +1,113 @@
+"""A verb with its tense, auxiliaries and clitic pronouns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from teo_sign_translator.corpus.enclitics import REFLEXIVES, attach, in_order
+from teo_sign_translator.corpus.grammar import Shape
+from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
+from teo_sign_translator.corpus.words import WordLists
+
+_TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
+#: Tags that take the person behind them.
+_FINITE = ("ind:", "sub:", "cond", "imp")
+
+
+class VerbPhrase(NamedTuple):
+    """A verb as said.
+
+    Attributes:
+        tokens: Words in order, clitics among them.
+        finite: The word that shows person and tense.
+        main: The word of the main verb.
+        clitics: For each clitic, in the order given, the word that says it.
+        parts: Words of auxiliaries and literals by lemma.
+    """
+
+    tokens: list[Token]
+    finite: Token
+    main: Token
+    clitics: list[Token]
+    parts: dict[str, Token]
+
+
+def say_verb(
+    words: WordLists, lemma: str, shape: Shape, person: str, clitics: Sequence[str], *, pronominal: bool
+) -> VerbPhrase:
+    """Inflect a verb.
+
+    Args:
+        words: Inflects.
+        lemma: Infinitive without pronoun.
+        shape: Tense and auxiliaries.
+        person: `1s` to `3p`.
+        clitics: Object pronouns as if alone: `("lo", "le")`.
+        pronominal: Whether it takes a reflexive pronoun of its person.
+
+    Raises:
+        TranslationError: "no_form" if it has no such form.
+    """
+    pronouns = [*([REFLEXIVES[person]] if pronominal else []), *clitics]
+    ordered = in_order(pronouns)
+    tokens: list[Token] = []
+    parts: dict[str, Token] = {}
+    carriers: list[Token] = []
+    finite: Token | None = None
+    main: Token | None = None
+    for part in shape.parts:
+        if part.literal == "^":
+            carriers = [Token(clitic) for clitic in ordered]
+            tokens += carriers
+            continue
+        if part.literal:
+            token = Token(part.literal)
+        else:
+            tag = f"V:{part.tag}"
+            if part.tag.startswith(_FINITE):
+                tag += f":{person}"
+            form = words.inflect(part.lemma or lemma, tag)
+            token = Token(attach(form, ordered) if part.enclitic else form)
+            if part.enclitic:
+                carriers = [token] * len(ordered)
+            if not part.lemma:
+                main = token
+            if finite is None:
+                finite = token
+        parts.setdefault(part.lemma or part.literal, token)
+        tokens.append(token)
+    assert finite is not None and main is not None, shape.name
+    return VerbPhrase(tokens, finite, main, _carriers(pronouns, ordered, carriers, clitics), parts)
+
+
+def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase) -> list[Sign]:
+    """The glosses of a verb and of what its shape adds."""
+    signs: list[Sign] = []
+    for gloss, source in shape.glosses:
+        said = [phrase.parts[source]] if source else []
+        signs.append(Sign(lemma.upper(), [*said, phrase.main]) if gloss == "*" else Sign(gloss, said))
+    return signs
+
+
+def tense_signs(verb: SaidVerb | None, time: Phrase | None) -> list[Sign]:
+    """The time expression, and before it the mark of tense unless the expression says it."""
+    said = time.signs if time else []
+    gloss = _TENSE_SIGNS.get(verb.shape.time) if verb and verb.shape.mark else None
+    if verb is None or gloss is None or (time and time.features.get("says")):
+        return said
+    sources = [verb.said.finite] if verb.said else []
+    return [Sign(gloss, sources), *said]
+
+
+def _carriers(
+    pronouns: Sequence[str], ordered: Sequence[str], carriers: Sequence[Token], clitics: Sequence[str]
+) -> list[Token]:
+    """The word that says each of the clitics; "le" may have become "se"."""
+    own = len(pronouns) - len(clitics)
+    found: list[Token] = []
+    for clitic in clitics:
+        written = clitic if clitic in ordered[own:] or clitic in ordered else "se"
+        places = [place for place, each in enumerate(ordered) if each == written]
+        found.append(carriers[places[-1]])
+    return found

@@ -1,0 +1,199 @@
+"""The lists of data/lexicon, as rows and as the forms of their words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cache
+from typing import NamedTuple
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology.nominal import feminine, is_invariable, plural
+from teo_sign_translator.resources import data_file
+from teo_sign_translator.tables import read_rows, words_of
+
+ADVERB_TAGS = {
+    "time-past": "ADV:time:past",
+    "time-present": "ADV:time:present",
+    "time-future": "ADV:time:future",
+    "time-frequency": "ADV:time:frequency",
+    "time": "ADV:time",
+    "negative": "ADV:neg",
+    "manner": "ADV:manner",
+    "place": "ADV:place",
+    "degree": "ADV:degree",
+    "sentence": "ADV:sentence",
+}
+NAME_TAGS = {
+    "m": "NAME:m",
+    "f": "NAME:f",
+    "surname": "NAME",
+    "country": "NAME:place",
+    "continent": "NAME:place",
+    "region": "NAME:place",
+    "city": "NAME:place",
+}
+#: Semantic classes; the files' headers say what each holds.
+NOUN_CLASSES = words_of(
+    "person family profession animal food drink place building room object clothing furniture vehicle body "
+    "illness time event subject nature weather material abstract media money tool sport music group language "
+    "plant container document device game"
+)
+ADJECTIVE_CLASSES = words_of("size colour person feeling food object place quality weather nationality")
+_USES = ("ser", "estar", "both")
+_REFLEXIVE = ("no", "also", "mostly")
+
+#: What the gender column says, as the beginnings of tags: of the word itself and of its feminine.
+_GENDERS = {"m": "m", "f": "f", "mf": "c", "inv": "c", "m+f": "m", "mp": "m", "fp": "f"}
+
+
+class Form(NamedTuple):
+    """One form of a word as it is written."""
+
+    written: str
+    lemma: str
+    tag: str
+
+
+class Noun(NamedTuple):
+    """A row of nouns.tsv; `irregular` has the forms that rules do not give, by "p" and "f"."""
+
+    lemma: str
+    gender: str
+    classes: tuple[str, ...]
+    irregular: dict[str, str]
+
+
+class Adjective(NamedTuple):
+    """A row of adjectives.tsv; `use` is "ser", "estar" or "both"."""
+
+    lemma: str
+    gender: str
+    classes: tuple[str, ...]
+    use: str
+    irregular: dict[str, str]
+
+
+class Adverb(NamedTuple):
+    """A row of adverbs.tsv."""
+
+    lemma: str
+    kind: str
+
+
+class Verb(NamedTuple):
+    """A row of verbs.tsv; `reflexive` is "no", "also" or "mostly"."""
+
+    lemma: str
+    reflexive: str
+
+
+class Name(NamedTuple):
+    """A row of names.tsv; `kind` is "m", "f", "surname", "country", "continent", "region" or "city"."""
+
+    name: str
+    kind: str
+
+
+@cache
+def nouns() -> tuple[Noun, ...]:
+    """The common nouns."""
+    return tuple(
+        Noun(
+            lemma, _known(gender, _GENDERS, place), _classes(classes, NOUN_CLASSES, place), _irregular(forms)
+        )
+        for place, (lemma, gender, classes, forms) in _rows("nouns", 4)
+    )
+
+
+@cache
+def adjectives() -> tuple[Adjective, ...]:
+    """The common adjectives."""
+    return tuple(
+        Adjective(
+            lemma,
+            _known(gender, _GENDERS, place),
+            _classes(classes, ADJECTIVE_CLASSES, place),
+            _known(use, _USES, place),
+            _irregular(forms),
+        )
+        for place, (lemma, gender, classes, use, forms) in _rows("adjectives", 5)
+    )
+
+
+@cache
+def adverbs() -> tuple[Adverb, ...]:
+    """The common adverbs."""
+    return tuple(
+        Adverb(lemma, _known(kind, ADVERB_TAGS, place)) for place, (lemma, kind) in _rows("adverbs", 2)
+    )
+
+
+@cache
+def verbs() -> tuple[Verb, ...]:
+    """The verbs of everyday use."""
+    return tuple(
+        Verb(lemma, _known(reflexive, _REFLEXIVE, place)) for place, (lemma, reflexive) in _rows("verbs", 2)
+    )
+
+
+@cache
+def names() -> tuple[Name, ...]:
+    """Names of people and places."""
+    return tuple(Name(name, _known(kind, NAME_TAGS, place)) for place, (name, kind) in _rows("names", 2))
+
+
+def closed_class_forms() -> Iterator[Form]:
+    """The forms of closed_classes.tsv, of equals the likeliest first."""
+    for _, columns in _rows("closed_classes", 3):
+        yield Form(*columns)
+
+
+def preferences() -> dict[str, tuple[str, ...]]:
+    """For forms whose usual order of readings is not the likeliest: lemmas and tag classes in their order."""
+    return {form: tuple(order.split()) for _, (form, order) in _rows("preferences", 2)}
+
+
+def nominal_forms(word: Noun | Adjective) -> Iterator[Form]:
+    """All forms of a noun or adjective."""
+    kind = "N" if isinstance(word, Noun) else "A"
+    gender = _GENDERS[word.gender]
+    if word.gender in ("mp", "fp"):
+        yield Form(word.lemma, word.lemma, f"{kind}:{gender}p")
+        return
+    if word.gender == "inv":
+        yield Form(word.lemma, word.lemma, f"{kind}:{gender}n")
+        return
+    yield from _numbers(word.lemma, word.lemma, f"{kind}:{gender}", word.irregular.get("p"))
+    if word.gender == "m+f":
+        yield from _numbers(word.irregular.get("f") or feminine(word.lemma), word.lemma, f"{kind}:f", None)
+
+
+def _numbers(singular: str, lemma: str, tag: str, irregular: str | None) -> Iterator[Form]:
+    several = irregular or plural(singular)
+    if several == singular or (irregular is None and is_invariable(singular)):
+        yield Form(singular, lemma, tag + "n")
+    else:
+        yield Form(singular, lemma, tag + "s")
+        yield Form(several, lemma, tag + "p")
+
+
+def _rows(name: str, columns: int) -> Iterator[tuple[str, list[str]]]:
+    """The rows of a list, each with its place for messages."""
+    path = data_file(f"lexicon/{name}.tsv")
+    for number, row in read_rows(path, columns):
+        yield f"{path}, line {number}", row
+
+
+def _irregular(column: str) -> dict[str, str]:
+    """Forms written as `p=menús f=reina`; `-` is none."""
+    return dict(part.split("=", 1) for part in column.split() if "=" in part)
+
+
+def _classes(column: str, known: Iterable[str], place: str) -> tuple[str, ...]:
+    return tuple(_known(name, known, place) for name in column.split(","))
+
+
+def _known(value: str, known: Iterable[str], place: str) -> str:
+    if value not in known:
+        raise TranslationError("invalid_data", f"{place}: expected one of {', '.join(known)}, got {value!r}")
+    return value

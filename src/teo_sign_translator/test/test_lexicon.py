@@ -1,0 +1,155 @@
+"""The word lists: that a linguist's slip is found before it reaches a signer."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+import pytest
+import simplemma
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import TAGS, lexicon
+from teo_sign_translator.resources import data_file
+
+SPANISH_WORD = re.compile("[a-záéíóúüñ]+|mp3")
+SPANISH_NAME = re.compile("[A-ZÁÉÍÓÚÑ][a-záéíóúüñàèòçöüï]+")
+LEAST_PER_CLASS = 25
+
+
+@pytest.mark.parametrize(
+    ("rows", "least"),
+    [
+        (lexicon.nouns(), 2200),
+        (lexicon.adjectives(), 500),
+        (lexicon.adverbs(), 120),
+        (lexicon.verbs(), 700),
+    ],
+)
+def test_lists_are_long_spelled_in_spanish_and_without_duplicates(
+    rows: tuple[lexicon.Noun, ...], least: int
+) -> None:
+    lemmas = [row.lemma for row in rows]
+    assert len(lemmas) >= least
+    assert [lemma for lemma in lemmas if not SPANISH_WORD.fullmatch(lemma)] == []
+    assert [lemma for lemma, count in Counter(lemmas).items() if count > 1] == []
+
+
+def test_every_class_is_well_filled() -> None:
+    nouns = Counter(name for noun in lexicon.nouns() for name in noun.classes)
+    assert set(nouns) == set(lexicon.NOUN_CLASSES)
+    assert min(nouns.values()) >= LEAST_PER_CLASS
+    assert nouns["food"] >= 200
+    assert nouns["object"] >= 300
+    assert nouns["profession"] >= 120
+    adjectives = Counter(name for adjective in lexicon.adjectives() for name in adjective.classes)
+    assert set(adjectives) == set(lexicon.ADJECTIVE_CLASSES)
+    assert min(adjectives.values()) >= 14
+
+
+@pytest.mark.parametrize("name", ["nouns", "adjectives"])
+def test_every_class_is_explained_in_the_header(name: str) -> None:
+    known = lexicon.NOUN_CLASSES if name == "nouns" else lexicon.ADJECTIVE_CLASSES
+    lines = data_file(f"lexicon/{name}.tsv").read_text(encoding="utf-8").splitlines()
+    explained = {match[1] for line in lines if (match := re.match(r"# {10}(\w+): \S", line))}
+    assert explained == set(known)
+
+
+def test_names_are_many_and_capitalised() -> None:
+    kinds = Counter(name.kind for name in lexicon.names())
+    assert kinds["m"] + kinds["f"] >= 400
+    assert kinds["surname"] >= 150
+    assert sum(kinds[kind] for kind in ("country", "continent", "region", "city")) >= 200
+    assert [name for name in lexicon.names() if not SPANISH_NAME.fullmatch(name.name)] == []
+    assert [name for name, count in Counter(lexicon.names()).items() if count > 1] == []
+
+
+def test_tags_are_of_the_closed_list() -> None:
+    forms = [
+        form for word in (*lexicon.nouns(), *lexicon.adjectives()) for form in lexicon.nominal_forms(word)
+    ]
+    forms += lexicon.closed_class_forms()
+    assert {form.tag for form in forms} | set(lexicon.ADVERB_TAGS.values()) <= set(TAGS)
+
+
+def test_simplemma_knows_nearly_every_word() -> None:
+    """A word that a dictionary of 800,000 forms lacks is misspelled or very young; there are few of these."""
+    words = [row.lemma for rows in (lexicon.nouns(), lexicon.adjectives(), lexicon.verbs()) for row in rows]
+    unknown = [word for word in words if not simplemma.is_known(word, lang="es")]
+    assert len(unknown) / len(words) < 0.02, unknown
+
+
+def test_simplemma_leads_nearly_every_plural_to_its_noun() -> None:
+    pairs = [
+        (form.written, noun.lemma)
+        for noun in lexicon.nouns()
+        for form in lexicon.nominal_forms(noun)
+        if form.tag in ("N:mp", "N:fp", "N:cp") and noun.gender in ("m", "f", "mf")
+    ]
+    agreed = sum(simplemma.lemmatize(written, lang="es") == lemma for written, lemma in pairs)
+    assert agreed / len(pairs) > 0.93
+
+
+@pytest.mark.parametrize(
+    ("lemma", "gender", "kind"),
+    [
+        ("mano", "f", "body"),
+        ("día", "m", "time"),
+        ("problema", "m", "abstract"),
+        ("foto", "f", "object"),
+        ("agua", "f", "drink"),
+        ("mapa", "m", "object"),
+        ("estudiante", "mf", "person"),
+        ("profesor", "m+f", "profession"),
+        ("hermana", "f", "family"),
+        ("gafas", "fp", "object"),
+        ("leche", "f", "food"),
+        ("coche", "m", "vehicle"),
+        ("salud", "f", "abstract"),
+    ],
+)
+def test_well_known_nouns_have_their_gender_and_class(lemma: str, gender: str, kind: str) -> None:
+    noun = next(noun for noun in lexicon.nouns() if noun.lemma == lemma)
+    assert noun.gender == gender
+    assert kind in noun.classes
+
+
+@pytest.mark.parametrize(
+    ("lemma", "forms"),
+    [
+        ("carácter", {"carácter", "caracteres"}),
+        ("régimen", {"régimen", "regímenes"}),
+        ("menú", {"menú", "menús"}),
+        ("club", {"club", "clubes"}),
+        ("alcalde", {"alcalde", "alcaldes", "alcaldesa", "alcaldesas"}),
+        ("lunes", {"lunes"}),
+        ("tijeras", {"tijeras"}),
+        ("dentista", {"dentista", "dentistas"}),
+    ],
+)
+def test_irregular_nouns_have_their_forms(lemma: str, forms: set[str]) -> None:
+    noun = next(noun for noun in lexicon.nouns() if noun.lemma == lemma)
+    assert {form.written for form in lexicon.nominal_forms(noun)} == forms
+
+
+@pytest.mark.parametrize(
+    ("name", "row"),
+    [
+        ("nouns", "mesa\tx\tfurniture\t-"),
+        ("nouns", "mesa\tf\tfurnitur\t-"),
+        ("adjectives", "alto\tm+f\tperson\tnever\t-"),
+        ("adverbs", "ayer\tyesterday"),
+        ("verbs", "comer\tperhaps"),
+        ("names", "Ana\tw"),
+        ("nouns", "mesa\tf"),
+    ],
+)
+def test_a_slip_in_a_list_is_refused_with_its_place(
+    name: str, row: str, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path_factory.mktemp("lexicon") / f"{name}.tsv"
+    path.write_text("# header\n" + row + "\n", encoding="utf-8")
+    monkeypatch.setattr(lexicon, "data_file", lambda _: path)
+    with pytest.raises(TranslationError, match="line 2: expected") as caught:
+        getattr(lexicon, name).__wrapped__()
+    assert caught.value.code == "invalid_data"

@@ -1,0 +1,53 @@
+"""A sentence model that needs no training: each word by its likeliest reading, in Spanish order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from teo_sign_translator.coverage import Coverage
+from teo_sign_translator.function_words import FunctionWords
+from teo_sign_translator.glosses import GlossList
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.neural import Hypothesis, OutputGloss
+from teo_sign_translator.neural.lexis import copied_gloss
+from teo_sign_translator.pairs import training_pairs
+from teo_sign_translator.phrasebook import Phrasebook
+from teo_sign_translator.sentence_route import SentenceRoute
+from teo_sign_translator.signs import SignChooser, read_synonyms
+from teo_sign_translator.spanish_words import SourceWord
+from teo_sign_translator.translator import Translator
+
+
+class WordByWordModel:
+    """Copies words; leaves out those it is told to lose."""
+
+    name = "word by word"
+
+    def __init__(self, *, loses: Sequence[str] = (), reverse: bool = False, probability: float = 0.9) -> None:
+        self._loses = set(loses)
+        self._reverse = reverse
+        self._probability = probability
+        self._function_words = FunctionWords.load()
+
+    def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
+        kept = [
+            OutputGloss(copied_gloss(word.readings[0]), (place,), self._probability, True)
+            for place, word in enumerate(words)
+            if word.form not in self._loses and not self._function_words.may_be_left_out(word)
+        ]
+        return (Hypothesis(tuple(reversed(kept) if self._reverse else kept), -1.0),)[:beam]
+
+    def translate_all(
+        self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
+    ) -> tuple[tuple[Hypothesis, ...], ...]:
+        return tuple(self.translate(words, beam=beam) for words in sentences)
+
+
+MORPHOLOGY = Morphology.load()
+
+
+def translator_with(model: object) -> Translator:
+    """A translator with the package's data around a model."""
+    taught = Phrasebook(training_pairs(), GlossList.load())
+    route = SentenceRoute(model, MORPHOLOGY, Coverage.load(), taught)
+    return Translator(route, SignChooser(read_synonyms(), MORPHOLOGY))
