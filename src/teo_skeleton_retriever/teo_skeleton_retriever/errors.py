@@ -39,3 +39,11 @@ class LimbError(RetrieverError):
 
 class TrackingError(RetrieverError):
     """Settings or times with which nobody can be followed."""
+
+
+class ParameterError(RetrieverError):
+    """A parameter that is not of its kind or outside its range."""
+
+
+class FrameError(RetrieverError):
+    """An image whose parts do not fit together."""
