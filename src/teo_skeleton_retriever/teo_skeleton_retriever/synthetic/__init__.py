@@ -1,0 +1,8 @@
+"""A synthetic signer: rendered colour and depth of a person who signs, with the exact place of every keypoint."""
+
+from __future__ import annotations
+
+from teo_skeleton_retriever.synthetic.take import render_take
+from teo_skeleton_retriever.synthetic.truth import SyntheticFrame, Truth
+
+__all__ = ["SyntheticFrame", "Truth", "render_take"]
