@@ -47,3 +47,7 @@ class ParameterError(RetrieverError):
 
 class FrameError(RetrieverError):
     """An image whose parts do not fit together."""
+
+
+class DetectorError(RetrieverError):
+    """A detector that cannot be made, or an image that it cannot tell about."""
