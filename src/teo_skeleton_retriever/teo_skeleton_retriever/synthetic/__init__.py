@@ -1,4 +1,4 @@
-"""A synthetic signer: rendered colour and depth of a person who signs, with the exact place of every keypoint."""
+"""A synthetic signer: colour and depth of a person who signs, rendered, and the exact place of each keypoint."""
 
 from __future__ import annotations
 
