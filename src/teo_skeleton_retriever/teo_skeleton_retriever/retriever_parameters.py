@@ -28,7 +28,7 @@ class ParameterInfo(NamedTuple):
     choices: tuple[str, ...] = ()
 
 
-def _number(default: float, unit: str, lowest: float, highest: float, description: str) -> Any:
+def _number(default: float | int, unit: str, lowest: float, highest: float, description: str) -> Any:
     info = ParameterInfo(description, unit, lowest, highest)
     return dataclasses.field(default=default, metadata={"info": info})
 
@@ -81,6 +81,14 @@ class RetrieverParameters:
         0.0,
         10.0,
         "Strength of the smoothing over time; 0 is none, 1 balances delay of fast hands and noise.",
+    )
+    newcomer_images: int = _number(
+        3,
+        "",
+        1,
+        30,
+        "Images in which someone must be seen to become a person: flickers of the detector do not; 1 for a "
+        "single image.",
     )
     signer_rule: str = _choice(
         "nearest",

@@ -1,0 +1,61 @@
+"""From the skin, which a depth camera sees, to the centre of the joint behind it.
+
+A joint is taken for the axis of a round limb: the ray to the centre meets the skin earlier by the limb's
+radius, and by more where it runs along the limb. Radii are in proportion to the person's size.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.body_25 import BODY_25
+from teo_skeleton_retriever.hand_21 import HAND_21
+
+BODY_DEPTH: dict[str, float] = {
+    "Nose": 0.01,
+    "Neck": 0.06,
+    **dict.fromkeys(("RShoulder", "LShoulder"), 0.055),
+    **dict.fromkeys(("RElbow", "LElbow"), 0.035),
+    **dict.fromkeys(("RWrist", "LWrist"), 0.022),
+    **dict.fromkeys(("MidHip", "RHip", "LHip"), 0.09),
+    **dict.fromkeys(("RKnee", "LKnee"), 0.055),
+    **dict.fromkeys(("RAnkle", "LAnkle"), 0.04),
+    **dict.fromkeys(("REye", "LEye"), 0.01),
+    **dict.fromkeys(("REar", "LEar"), 0.01),
+    **dict.fromkeys(("LBigToe", "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel"), 0.02),
+}
+"""[m] From the skin to the joint, of an average adult, seen across the limb."""
+
+HAND_DEPTH: dict[str, float] = {
+    name: 0.014
+    if name == "Wrist"
+    else 0.013
+    if name.endswith(("CMC", "MCP"))
+    else 0.009
+    if name.endswith(("PIP", "DIP", "IP"))
+    else 0.007
+    for name in HAND_21.keypoints
+}
+"""[m] Likewise."""
+
+_LEAST_SINE = 0.5  # of the angle between ray and limb: a limb that points at the camera ends in its tip
+
+BODY_DEPTHS: FloatArray = np.array([BODY_DEPTH[name] for name in BODY_25.keypoints])
+HAND_DEPTHS: FloatArray = np.array([HAND_DEPTH[name] for name in HAND_21.keypoints])
+
+
+def along_ray(radius: FloatArray, axis: FloatArray, ray: FloatArray) -> FloatArray:
+    """Give how far behind the skin the axis of a limb lies, along the optical axis [m].
+
+    Args:
+        radius: of the limb [m]. Shape (n,).
+        axis: direction of the limb, of any length; NaN or zero if not known. Shape (n, 3).
+        ray: from the camera, of any length. Shape (n, 3).
+    """
+    crossed = np.linalg.norm(np.cross(axis, ray), axis=1)
+    lengths = np.linalg.norm(axis, axis=1) * np.linalg.norm(ray, axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        sine = np.where(lengths > 0.0, crossed / lengths, 1.0)
+    behind: FloatArray = radius / np.clip(np.nan_to_num(sine, nan=1.0), _LEAST_SINE, 1.0)
+    return behind
