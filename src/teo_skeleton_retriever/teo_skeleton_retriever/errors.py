@@ -51,3 +51,15 @@ class FrameError(RetrieverError):
 
 class DetectorError(RetrieverError):
     """A detector that cannot be made, or an image that it cannot tell about."""
+
+
+class ImageError(RetrieverError):
+    """A colour image that cannot be decoded."""
+
+
+class BagError(RetrieverError):
+    """A bag that cannot be opened, or in which the topics are not found."""
+
+
+class OutputError(RetrieverError):
+    """A result that cannot be written."""

@@ -1,0 +1,180 @@
+"""The parameters of `retriever_node`, in one table: its own, and those of the retriever."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+
+from teo_skeleton_retriever.detectors import DETECTORS
+from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.image_retriever import COMPAT_MODES
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
+
+Value = bool | int | float | str
+
+TRANSPORTS_COLOR = ("raw", "compressed")
+TRANSPORTS_DEPTH = ("raw", "compressedDepth")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParameterRow:
+    """One parameter as ROS shows it."""
+
+    name: str
+    default: Value
+    description: str
+    """Meaning, with the unit."""
+    low: float | None = None
+    high: float | None = None
+    """Range, both ends included; None for switches and text."""
+    choices: tuple[str, ...] = ()
+    """Allowed words; empty unless it is a choice."""
+    read_only: bool = False
+
+    def descriptor(self) -> ParameterDescriptor:
+        """What ROS checks a value against; choices it only shows."""
+        descriptor = ParameterDescriptor(description=self.description, read_only=self.read_only)
+        if self.choices:
+            descriptor.additional_constraints = f"one of {', '.join(map(repr, self.choices))}"
+        if self.low is not None and self.high is not None:
+            if isinstance(self.default, int):
+                whole = IntegerRange(from_value=int(self.low), to_value=int(self.high), step=1)
+                descriptor.integer_range = [whole]
+            else:
+                real = FloatingPointRange(from_value=float(self.low), to_value=float(self.high), step=0.0)
+                descriptor.floating_point_range = [real]
+        return descriptor
+
+
+_NODE = (
+    ParameterRow(
+        name="detector",
+        default="mediapipe",
+        choices=DETECTORS,
+        description="What finds people in the colour image.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="detector_options",
+        default="{}",
+        description="Options of the detector as a JSON object.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="compat",
+        default="",
+        choices=COMPAT_MODES,
+        description="Whose processing after the detector: ours if empty, or that of the original.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="color_transport",
+        default="raw",
+        choices=TRANSPORTS_COLOR,
+        description="Which form of the colour image is subscribed to.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="depth_transport",
+        default="raw",
+        choices=TRANSPORTS_DEPTH,
+        description="Which form of the depth image is subscribed to.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="rectified",
+        default=False,
+        description="Whether the images were rectified, and so have the projection of P and no distortion.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="slop",
+        default=0.016,
+        low=0.0,
+        high=1.0,
+        description="Greatest difference between the stamps of colour and depth [s]; with more than half the "
+        "time between images the depth of another image could be taken.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="queue_size",
+        default=5,
+        low=1,
+        high=100,
+        description="Images that wait for their depth: a sixth of a second at 30 Hz.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="period",
+        default=0.0,
+        low=0.0,
+        high=60.0,
+        description="Least time between images that are processed [s]; 0 takes every one.",
+    ),
+)
+
+
+def _retriever_rows() -> tuple[ParameterRow, ...]:
+    defaults = RetrieverParameters()
+    return tuple(
+        ParameterRow(
+            name=name,
+            default=getattr(defaults, name),
+            low=info.lowest,
+            high=info.highest,
+            choices=info.choices,
+            description=info.description + (f" [{info.unit}]" if info.unit else ""),
+        )
+        for name, info in parameter_info().items()
+    )
+
+
+PARAMETERS = (*_NODE, *_retriever_rows())
+
+
+def retriever_parameters_from(values: Mapping[str, Value]) -> RetrieverParameters:
+    """Give the retriever's parameters.
+
+    Args:
+        values: by name; others than the retriever's do not matter.
+
+    Raises:
+        ParameterError: a value is wrong, or two do not go together.
+    """
+    names = [field.name for field in dataclasses.fields(RetrieverParameters)]
+    chosen: dict[str, Value] = {name: values[name] for name in names}
+    return RetrieverParameters(**chosen)  # type: ignore[arg-type]  # checked by the class itself
+
+
+def check_choices(values: Mapping[str, Value]) -> None:
+    """Check what ROS does not: words among allowed ones.
+
+    Raises:
+        ParameterError: a word is none of those allowed.
+    """
+    for row in PARAMETERS:
+        if row.choices and values[row.name] not in row.choices:
+            raise ParameterError(
+                "unknown_choice", f"{row.name}: expected one of {row.choices}, got {values[row.name]!r}"
+            )
+
+
+def detector_options_from(text: str) -> dict[str, object]:
+    """Read the options of a detector.
+
+    Raises:
+        ParameterError: the text is not a JSON object.
+    """
+    try:
+        options = json.loads(text or "{}")
+    except json.JSONDecodeError as error:
+        raise ParameterError(
+            "bad_options", f"expected detector options as a JSON object, got {text!r:.80}: {error}"
+        ) from error
+    if not isinstance(options, dict):
+        raise ParameterError("bad_options", f"expected a JSON object of detector options, got {text!r:.80}")
+    return options

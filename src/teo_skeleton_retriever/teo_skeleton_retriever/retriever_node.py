@@ -1,0 +1,308 @@
+"""`retriever_node`: colour, depth and camera_info in, people in space out."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from array import array
+from collections.abc import Callable, Sequence
+from queue import Empty, SimpleQueue
+from typing import Any, NamedTuple
+
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+from std_msgs.msg import Header
+from teo_sign_msgs.msg import SkeletonArray
+from teo_sign_msgs.srv import LockSigner
+from visualization_msgs.msg import MarkerArray
+
+from teo_skeleton_retriever.color_image import ColorArray
+from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.image_messages import camera_of, color_of, depth_of, stamp_of
+from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved, make_retriever
+from teo_skeleton_retriever.markers import marker_array
+from teo_skeleton_retriever.messages import skeleton_array
+from teo_skeleton_retriever.newest_worker import NewestWorker
+from teo_skeleton_retriever.overlay import Overlay
+from teo_skeleton_retriever.parameters import (
+    PARAMETERS,
+    Value,
+    check_choices,
+    detector_options_from,
+    retriever_parameters_from,
+)
+from teo_skeleton_retriever.retriever_health import Level, Problem, assess
+from teo_skeleton_retriever.rgbd_image import RgbdImage
+from teo_skeleton_retriever.stream_stats import Result, StreamStats
+from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
+
+_COLOR, _DEPTH = "camera/color/image_raw", "camera/aligned_depth_to_color/image_raw"
+_CAMERA_INFO = "camera/color/camera_info"
+# Best effort: an image that was lost is not worth waiting for; two, so that one may come while one is taken.
+_SENSOR = QoSProfile(depth=2, reliability=ReliabilityPolicy.BEST_EFFORT)
+_DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
+_SAY_AGAIN = 5.0  # [s] after which a problem that goes on is logged again
+_SAME_CLOCK = (
+    60.0  # [s] An image that seems older, or younger, was stamped by another clock: a bag is played.
+)
+
+BUSY = "busy"
+"""Images whose turn never came: a newer one was there first."""
+NO_CAMERA_INFO = "no_camera_info"
+NOT_DUE = "not_due"
+"""Images left out because of the parameter `period`."""
+
+
+class _Job(NamedTuple):
+    pair: Pair
+    arrived: float
+
+
+class RetrieverNode(Node):
+    """Follows people before a depth camera. Owns no image processing: see `ImageRetriever`."""
+
+    def __init__(self, **node_arguments: Any) -> None:
+        """Make the detector and listen. The arguments are those of `rclpy.node.Node`, after its name.
+
+        Raises:
+            RetrieverError: the parameters do not go together, or the detector cannot be made.
+        """
+        super().__init__("skeleton_retriever", **node_arguments)
+        for row in PARAMETERS:
+            self.declare_parameter(row.name, row.default, row.descriptor())
+        values = self._values()
+        check_choices(values)
+        retriever = make_retriever(retriever_parameters_from(values), str(values["compat"]))
+        detector = make_detector(
+            str(values["detector"]), **detector_options_from(str(values["detector_options"]))
+        )
+        self._retriever = ImageRetriever(detector, retriever)
+        self._synchroniser = Synchroniser(
+            slop=round(float(values["slop"]) * 1e9), capacity=int(values["queue_size"])
+        )
+        self._stats = StreamStats(("color", "depth", "camera_info"), time.monotonic())
+        self._overlay = Overlay()
+        self._camera_info: CameraInfo | None = None
+        self._last_stamp: int | None = None
+        self._problem: Problem | None = None
+        self._said: dict[str, float] = {}
+        # What is asked of the retriever, which the worker alone may touch.
+        self._orders: SimpleQueue[Callable[[ImageRetriever], None]] = SimpleQueue()
+        self._worker = NewestWorker(self._process, "retriever")
+
+        self._skeletons = self.create_publisher(SkeletonArray, "skeletons", 10)
+        self._markers = self.create_publisher(MarkerArray, "skeleton_markers", 10)
+        self._pictures = self.create_publisher(Image, "overlay/image", 1)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
+        color = self._subscribe(_COLOR, str(values["color_transport"]), self._on_color)
+        depth = self._subscribe(_DEPTH, str(values["depth_transport"]), self._on_depth)
+        info = self.create_subscription(CameraInfo, _CAMERA_INFO, self._on_camera_info, _SENSOR)
+        self._topics = {"color": color, "depth": depth, "camera_info": info.topic_name}
+        self.create_service(LockSigner, "lock_signer", self._on_lock_signer)
+        self.create_timer(_DIAGNOSTICS_PERIOD, self._on_diagnostics)
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._apply_parameters)
+        self.get_logger().info(f"{detector.name} waits for {', '.join(self._topics.values())}")
+
+    def destroy_node(self) -> None:
+        """End the worker before the publishers that it uses."""
+        self._worker.close()
+        self._retriever.close()
+        super().destroy_node()
+
+    def _subscribe(self, topic: str, transport: str, callback: Callable[[Any], None]) -> str:
+        kind, name = (Image, topic) if transport == "raw" else (CompressedImage, f"{topic}/{transport}")
+        return str(self.create_subscription(kind, name, callback, _SENSOR).topic_name)
+
+    def _on_color(self, message: Image | CompressedImage) -> None:
+        self._stats.arrived("color", time.monotonic())
+        self._offer(self._synchroniser.add_color(stamp_of(message), message))
+
+    def _on_depth(self, message: Image | CompressedImage) -> None:
+        self._stats.arrived("depth", time.monotonic())
+        self._offer(self._synchroniser.add_depth(stamp_of(message), message))
+
+    def _on_camera_info(self, message: CameraInfo) -> None:
+        self._stats.arrived("camera_info", time.monotonic())
+        self._camera_info = message
+
+    def _offer(self, pairs: Sequence[Pair]) -> None:
+        for pair in pairs:
+            if not self._is_due(pair.stamp):
+                self._stats.drop(NOT_DUE)
+                continue
+            self._last_stamp = pair.stamp
+            if self._worker.submit(_Job(pair, time.monotonic())) is not None:
+                self._stats.drop(BUSY)
+
+    def _is_due(self, stamp: int) -> bool:
+        last = self._last_stamp
+        return last is None or stamp < last or stamp - last >= self._value("period") * 1e9
+
+    # In the worker's thread
+
+    def _process(self, job: _Job) -> None:
+        while True:
+            try:
+                self._orders.get_nowait()(self._retriever)
+            except Empty:
+                break
+        try:
+            self._retrieve(job)
+        except Exception as error:
+            # Whatever is in a message, the next image gets its chance.
+            problem = Problem.of(error)
+            self._stats.drop(problem.code)
+            self._report(problem, traceback.format_exc() if problem.code == "internal" else "")
+
+    def _retrieve(self, job: _Job) -> None:
+        info = self._camera_info
+        if info is None:
+            topic = self._topics["camera_info"]
+            self._stats.drop(NO_CAMERA_INFO)
+            self._report(Problem(NO_CAMERA_INFO, f"expected a camera_info on {topic}, got none so far"))
+            return
+        pair = job.pair
+        image = RgbdImage(
+            stamp=pair.stamp * 1e-9,
+            color=color_of(pair.color),
+            depth=depth_of(pair.depth),
+            camera=camera_of(info, rectified=self._value("rectified")),
+        )
+        result = self._retriever.process(image)
+        header = Header(
+            stamp=pair.color.header.stamp, frame_id=pair.color.header.frame_id or info.header.frame_id
+        )
+        self._skeletons.publish(skeleton_array(result.skeletons, header))
+        self._count(job, result)
+        if self._markers.get_subscription_count():
+            self._markers.publish(marker_array(result.skeletons, header))
+        if self._pictures.get_subscription_count():
+            self._pictures.publish(_image_message(self._overlay.draw(image, result), header))
+
+    def _count(self, job: _Job, result: Retrieved) -> None:
+        now = time.monotonic()
+        age = (self.get_clock().now().nanoseconds - job.pair.stamp) * 1e-9
+        self._stats.done(
+            Result(
+                now=now,
+                delay=now - job.arrived,
+                age=age if abs(age) < _SAME_CLOCK else float("nan"),
+                detector=result.detector_time,
+                own=result.own_time,
+                people=len(result.skeletons),
+                depth_share=result.depth_share,
+                signer=next((s.track_id for s in result.skeletons if s.is_signer), None),
+            )
+        )
+
+    # In the executor's thread again, but for _report
+
+    def _report(self, problem: Problem, details: str = "") -> None:
+        """Note a problem for the next diagnostics, and log it unless it was logged just now."""
+        self._problem = problem
+        now = time.monotonic()
+        if now - self._said.get(problem.code, -_SAY_AGAIN) >= _SAY_AGAIN:
+            self._said[problem.code] = now
+            log = self.get_logger().error if problem.code == "internal" else self.get_logger().warning
+            log(f"image left out, {problem.code}: {problem.sentence}{chr(10) if details else ''}{details}")
+
+    def _on_diagnostics(self) -> None:
+        self._note_unmatched()
+        problem, self._problem = self._problem, None
+        health = assess(self._stats.report(time.monotonic()), self._topics, problem)
+        status = DiagnosticStatus(
+            level=bytes([health.level]),
+            name=f"{self.get_name()}: images",
+            message=health.message,
+            hardware_id="none",
+            values=[KeyValue(key=key, value=value) for key, value in health.values.items()],
+        )
+        message = DiagnosticArray(status=[status])
+        message.header.stamp = self.get_clock().now().to_msg()
+        self._diagnostics.publish(message)
+        if health.level is not Level.OK and problem is None:
+            self.get_logger().warning(health.message, throttle_duration_sec=_SAY_AGAIN)
+
+    def _note_unmatched(self) -> None:
+        """Bring what the synchroniser dropped into the statistics."""
+        dropped = self._synchroniser.dropped
+        for reason, count in dropped.items():
+            self._stats.drop(reason, count)
+        dropped.clear()
+
+    def _on_lock_signer(
+        self, request: LockSigner.Request, response: LockSigner.Response
+    ) -> LockSigner.Response:
+        wanted = None if request.id == LockSigner.Request.NOBODY else request.id
+        known = self._retriever.known_ids
+        if wanted is not None and wanted not in known:
+            response.code = "unknown_id"
+            response.message = f"expected the id of a person in the last image {sorted(known)}, got {wanted}"
+            return response
+        self._orders.put(lambda retriever: retriever.lock_signer(wanted))
+        response.success = True
+        return response
+
+    def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
+        values = self._values() | {item.name: item.value for item in parameters}
+        try:
+            check_choices(values)
+            retriever_parameters_from(values)
+        except RetrieverError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _apply_parameters(self, parameters: Sequence[Parameter]) -> None:
+        if {item.name for item in parameters} == {"period"}:
+            return
+        values = self._values()
+        retriever = make_retriever(retriever_parameters_from(values), str(values["compat"]))
+        self._orders.put(lambda images: images.replace(retriever))
+
+    def _values(self) -> dict[str, Value]:
+        return {row.name: self._value(row.name) for row in PARAMETERS}
+
+    def _value(self, name: str) -> Any:
+        return self.get_parameter(name).value
+
+
+def _image_message(picture: ColorArray, header: Header) -> Image:
+    height, width = picture.shape[:2]
+    return Image(
+        header=header,
+        height=height,
+        width=width,
+        encoding="rgb8",
+        step=3 * width,
+        data=array("B", picture.tobytes()),
+    )
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the node until it is told to end."""
+    rclpy.init(args=arguments)
+    node = None
+    try:
+        node = RetrieverNode()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    except RetrieverError as error:
+        rclpy.logging.get_logger("skeleton_retriever").fatal(str(error))
+        raise SystemExit(1) from None
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()
