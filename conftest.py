@@ -10,6 +10,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+# Properties are about results, not about time, which a loaded machine stretches; and a failure must come again
+# when it is looked into.
+settings.register_profile(
+    "teo", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.load_profile("teo")
 
 # A shell starts background jobs with SIGINT ignored, and what they start inherits that: no process could be
 # stopped as Ctrl-C does.

@@ -199,7 +199,9 @@ def test_keys_pause_and_step(graph: Any, start: Any, tmp_path: Path) -> None:
     def step() -> list[str]:
         # A message that is played before the subscription is matched is lost: then one more.
         os.write(keys, b"\x1b[C")
-        time.sleep(0.2)
+        deadline = time.monotonic() + 2.0
+        while not came and time.monotonic() < deadline:
+            time.sleep(0.01)
         return came
 
     graph.wait_until(step, "a message came")
@@ -317,8 +319,16 @@ def test_topics_that_appear_and_publishers_that_differ_are_recorded(
         String, "text", QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
     )
     wait_recording(recorder, "/waiting")
-    graph.wait_until(lambda: weak.get_subscription_count() == 1, "the recorder took the weaker publisher")
-    graph.wait_until(lambda: first.get_subscription_count() == 1, "one subscription is left")
+
+    def reliabilities() -> list[ReliabilityPolicy]:
+        return [info.qos_profile.reliability for info in graph.node.get_subscriptions_info_by_topic("text")]
+
+    graph.wait_until(
+        lambda: reliabilities() == [ReliabilityPolicy.BEST_EFFORT], "the weaker subscription is the only one"
+    )
+    graph.wait_until(
+        lambda: weak.get_subscription_count() == first.get_subscription_count() == 1, "both are matched"
+    )
     for i in range(10):
         weak.publish(String(data=f"weak {i}"))
         first.publish(String(data=f"first {i}"))
