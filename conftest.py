@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-# Properties are about results, not about time, which a loaded machine stretches; and a failure must come again
-# when it is looked into.
+# Properties are about results, not about time, which a loaded machine stretches; and a failure must come
+# again when it is looked into.
 settings.register_profile(
     "teo", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
