@@ -1,39 +1,214 @@
-"""A take: one person, in one scene, plays one script before one sensor."""
+"""A take: one person, in one room, plays one script before one sensor."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
 
-from teo_skeleton_retriever.synthetic.truth import SyntheticFrame
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import DepthArray, FloatArray
+from teo_skeleton_retriever.camera_model import CameraModel
+from teo_skeleton_retriever.synthetic.depth_model import DepthModel
+from teo_skeleton_retriever.synthetic.errors import SyntheticError
+from teo_skeleton_retriever.synthetic.furniture import furnish
+from teo_skeleton_retriever.synthetic.motion import Motion
+from teo_skeleton_retriever.synthetic.painter import Painter
+from teo_skeleton_retriever.synthetic.ray_caster import RayCaster
+from teo_skeleton_retriever.synthetic.scripts import script as script_named
+from teo_skeleton_retriever.synthetic.sensors import sensor as sensor_named
+from teo_skeleton_retriever.synthetic.signer import Signer
+from teo_skeleton_retriever.synthetic.surface import vertex_normals
+from teo_skeleton_retriever.synthetic.truth import SyntheticFrame, Truth
+from teo_skeleton_retriever.synthetic.visibility import visible
+
+DISTANCES = (0.2, 6.0)
+"""Between camera and person [m]: nearer the camera is inside the person, farther behind the room."""
+_CHEST = 0.74
+"""Height that a camera looks at unless told otherwise, of the person's: the middle of where one signs."""
+_COLOR_NOISE = 0.008
+"""Standard deviation of the colour image's noise, of its range. Assumption: a sensor in room light."""
+_OUTLINE = 0.05
+"""Difference to a neighbour, of the range, from which a pixel is cast four times: it smooths edges."""
+_CORNERS = ((-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25))
 
 
-def render_take(
-    *,
-    script: str = "signing",
-    body: str = "woman_average",
-    scene: str = "office",
-    sensor: str = "d435",
-    distance: float = 1.5,
-    camera_height: float = 1.2,
-    camera_pitch: float = 0.0,
-    rate: float = 30.0,
-    seed: int = 0,
-) -> Iterator[SyntheticFrame]:
+@dataclass(frozen=True, kw_only=True)
+class TakeOptions:
+    """What is rendered.
+
+    Attributes:
+        script: one of `SCRIPTS`.
+        body: one of `BODIES`.
+        scene: one of `SCENES`.
+        sensor: one of `SENSORS`.
+        distance: from the camera to the person, along the floor [m].
+        camera_height: above the floor [m].
+        camera_pitch: of the camera downwards [rad]; None looks at the chest.
+        width: of the images [px].
+        height: likewise.
+        rate: frames per second [Hz].
+        seed: of everything random; the same gives the same frames.
+        perfect_depth: the sensor measures exactly, everywhere.
+    """
+
+    script: str = "signing"
+    body: str = "woman_average"
+    scene: str = "office"
+    sensor: str = "d435"
+    distance: float = 1.5
+    camera_height: float = 1.3
+    camera_pitch: float | None = None
+    width: int = 640
+    height: int = 480
+    rate: float = 30.0
+    seed: int = 0
+    perfect_depth: bool = False
+
+    def __post_init__(self) -> None:
+        if not DISTANCES[0] <= self.distance <= DISTANCES[1]:
+            raise SyntheticError(
+                "bad_distance", f"expected {DISTANCES[0]} to {DISTANCES[1]} m, got {self.distance}"
+            )
+        if not 0.0 < self.rate <= 120.0:
+            raise SyntheticError("bad_rate", f"expected a rate above 0, to 120 Hz, got {self.rate}")
+        if not 0.1 <= self.camera_height <= 2.7:
+            raise SyntheticError(
+                "bad_camera_height", f"expected 0.1 to 2.7 m, in the room, got {self.camera_height}"
+            )
+        if self.camera_pitch is not None and not abs(self.camera_pitch) < math.pi / 2.0:
+            raise SyntheticError("bad_camera_pitch", f"expected less than pi/2 rad, got {self.camera_pitch}")
+
+
+class Take:
+    """A take that frames can be asked of, in any order."""
+
+    def __init__(self, options: TakeOptions) -> None:
+        """Prepare body, room and camera.
+
+        Raises:
+            SyntheticError: a name that does not exist, or a number out of its range.
+        """
+        self._options = options
+        sensor = sensor_named(options.sensor)
+        self.camera: CameraModel = sensor.camera(options.width, options.height)
+        self.mono = sensor.mono
+        self._sensor = sensor
+        room, surface = furnish(options.scene)
+        keys = script_named(options.script)
+        self._signer = Signer(options.body)
+        self.motion = Motion(self._signer.poser, keys)
+        self._surface = self._signer.dress.surface.joined(surface)
+        self._rotation, self._position = self._camera_pose()
+        self._room = self._seen(room)
+        rows, columns = np.indices((options.height, options.width))
+        self._pixels = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.float64)
+        self._rays = self._directions(self._pixels)
+        # The room stands still.
+        self._room_normals = vertex_normals(self._room, surface.triangles)
+        self._body_triangles = self._signer.dress.surface.triangles
+
+    def __len__(self) -> int:
+        """Tell how many frames the take has."""
+        return int(self.motion.duration * self._options.rate) + 1
+
+    def frame(self, index: int) -> SyntheticFrame:
+        """Render one frame, the first is 0."""
+        options = self._options
+        stamp = index / options.rate
+        pose = self.motion.pose(stamp)
+        transforms = self._signer.poser.transforms(pose)
+        person = self._seen(self._signer.vertices(pose, transforms))
+        vertices = np.concatenate([person, self._room])
+        normals = np.concatenate([vertex_normals(person, self._body_triangles), self._room_normals])
+        caster = RayCaster(vertices[self._surface.triangles])
+        painter = Painter(self._surface, normals, self._rotation)
+        random = np.random.default_rng([options.seed, index])
+        color, depth = self._image(caster, painter, random)
+        parts = tuple(self._seen(part) for part in self._signer.keypoints(pose, transforms))
+        body, left, right, face = parts
+        seen = visible(caster, self._surface.bones, self.camera, (body, left, right, face))
+        truth = Truth(
+            body=body,
+            left_hand=left,
+            right_hand=right,
+            face=face,
+            body_visible=seen[0],
+            left_hand_visible=seen[1],
+            right_hand_visible=seen[2],
+            face_visible=seen[3],
+        )
+        return SyntheticFrame(stamp=stamp, color=color, depth=depth, camera=self.camera, truth=truth)
+
+    def _image(
+        self, caster: RayCaster, painter: Painter, random: np.random.Generator
+    ) -> tuple[NDArray[np.uint8], DepthArray]:
+        shape = (self.camera.height, self.camera.width)
+        hits = caster.cast(self._rays)
+        color, cosine = painter.paint(hits, self._rays)
+        rough = np.flatnonzero(_outlines(color.reshape(*shape, 3)))
+        if len(rough):
+            color[rough] = 0.0
+            for shift in _CORNERS:
+                rays = self._directions(self._pixels[rough] + shift)
+                color[rough] += painter.paint(caster.cast(rays), rays)[0] / len(_CORNERS)
+        if self.mono:
+            color[:] = color.mean(axis=1, keepdims=True)
+        color += random.normal(0.0, _COLOR_NOISE, color.shape).astype(np.float32)
+        image = np.clip(np.rint(color * 255.0), 0, 255).astype(np.uint8).reshape(*shape, 3)
+        depth = hits.distance.reshape(shape)
+        if self._options.perfect_depth:
+            return image, np.where(np.isfinite(depth), depth, np.nan).astype(np.float32)
+        model = DepthModel(self._sensor, self.camera, random)
+        return image, model.measure(depth, cosine.reshape(shape))
+
+    def _directions(self, pixels: FloatArray) -> NDArray[np.float32]:
+        return self.camera.rays(pixels).astype(np.float32)
+
+    def _camera_pose(self) -> tuple[FloatArray, FloatArray]:
+        """Give the rotation from the room's axes to the camera's, and where the camera is."""
+        options = self._options
+        pitch = options.camera_pitch
+        if pitch is None:
+            pitch = math.atan2(options.camera_height - _CHEST * self._signer.height, options.distance)
+        ahead = np.array([-math.cos(pitch), 0.0, -math.sin(pitch)])
+        right = np.array([0.0, 1.0, 0.0])
+        down = np.cross(ahead, right)
+        return np.stack([right, down, ahead]), np.array([options.distance, 0.0, options.camera_height])
+
+    def _seen(self, points: FloatArray) -> FloatArray:
+        seen: FloatArray = (points - self._position) @ self._rotation.T
+        return seen
+
+
+def _outlines(color: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Find pixels that differ from a neighbour. Shape (height * width,)."""
+    rough = np.zeros(color.shape[:2], dtype=bool)
+    across = np.abs(np.diff(color, axis=1)).max(axis=2) > _OUTLINE
+    down = np.abs(np.diff(color, axis=0)).max(axis=2) > _OUTLINE
+    rough[:, 1:] |= across
+    rough[:, :-1] |= across
+    rough[1:] |= down
+    rough[:-1] |= down
+    return rough.ravel()
+
+
+def render_take(*, frames: range | None = None, **options: Any) -> Iterator[SyntheticFrame]:
     """Render a take, frame by frame.
 
     Args:
-        script: what the person does.
-        body: who.
-        scene: what is around.
-        sensor: what measures.
-        distance: from the camera to the person, along the floor [m].
-        camera_height: above the floor [m].
-        camera_pitch: of the camera downwards [rad].
-        rate: frames per second [Hz].
-        seed: of everything that is random; the same gives the same frames.
+        frames: which, all if None.
+        options: as of `TakeOptions`.
 
     Yields:
         The frames, in order.
+
+    Raises:
+        SyntheticError: a name that does not exist, or a number out of its range.
     """
-    del script, body, scene, sensor, distance, camera_height, camera_pitch, rate, seed
-    return iter(())
+    take = Take(TakeOptions(**options))
+    for index in range(len(take)) if frames is None else frames:
+        yield take.frame(index)
