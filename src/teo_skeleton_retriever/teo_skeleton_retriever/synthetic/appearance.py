@@ -63,15 +63,16 @@ class Dress:
         _tint(colors, _mask("lips"), _LIPS, 0.75)
         _tint(colors, _mask("fingernails"), _NAILS, 0.5)
         covered = np.unique(worn)
-        colors[covered] = np.where((z[covered] > waist)[:, None], shape.shirt, shape.trousers)
-        colors[covered[z[covered] < rig.head("foot.R")[2] + 0.02]] = _SHOES
+        colors[covered] = shape.shirt
+        below = np.tile(shape.trousers, (len(z), 1))
+        below[z < rig.head("foot.R")[2] + 0.02] = _SHOES
         eyes = np.concatenate([groups["helper-l-eye"], groups["helper-r-eye"]])
         colors[np.unique(eyes)] = _EYE_WHITE
         _tint(colors, _brows(rig, body), shape.hair, 0.85)
-        patterns = rig.vertices.copy()
+        patterns = rig.vertices - [0.0, 0.0, waist]
         for side in ("R", "L"):
             chosen = np.unique(groups[f"helper-{side.lower()}-eye"])
-            patterns[chosen] -= rig.head(f"eye.{side}")
+            patterns[chosen] = rig.vertices[chosen] - rig.head(f"eye.{side}")
         parts = [
             (bare, Material.PLAIN),
             (eyes, Material.EYE),
@@ -89,6 +90,7 @@ class Dress:
             triangles,
             np.concatenate([colors, np.tile(shape.hair, (len(sources), 1))]),
             np.concatenate([patterns, cap_vertices]),
+            np.concatenate([below, np.tile(shape.hair, (len(sources), 1))]),
             np.concatenate([np.full(len(part), material, dtype=np.int8) for part, material in parts]),
             _strongest_bone(self.sources[triangles]),
         )

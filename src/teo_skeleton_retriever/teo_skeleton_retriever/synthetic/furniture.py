@@ -127,10 +127,12 @@ def furnish(name: str) -> tuple[FloatArray, Surface]:
     spans = np.array([[box.x, box.y, box.z] for box in boxes])
     vertices = np.concatenate([low_high[np.arange(3), _CORNERS[_SIDES.ravel()]] for low_high in spans])
     triangles = np.concatenate([_FACES + 24 * i for i in range(len(boxes))])
+    colors = np.repeat([box.color for box in boxes], 24, axis=0)
     surface = Surface(
         triangles,
-        np.repeat([box.color for box in boxes], 24, axis=0),
+        colors,
         vertices,
+        colors,
         np.repeat([box.material for box in boxes], len(_FACES)).astype(np.int8),
         np.full(len(triangles), -1, dtype=np.int16),
     )

@@ -22,8 +22,9 @@ _ARCH = dict(zip(FINGERS, (0.0, 0.0, 0.06, 0.14), strict=True))
 class Hand:
     """One hand of a rig.
 
-    Its axes are columns of `axes`: along the fingers, out of the palm, towards the thumb's side.
-    For both hands they are the same directions of the hand, so those of a left hand are left-handed.
+    Attributes:
+        axes: see `Rig.hand_axes`.
+        wrist: its centre at rest [m].
     """
 
     def __init__(self, rig: Rig, side: str) -> None:
@@ -31,10 +32,7 @@ class Hand:
         self._rig = rig
         self.side = side
         self.wrist = rig.head(f"wrist.{side}")
-        along = unit(rig.head(f"finger3-1.{side}") - self.wrist)
-        across = perpendicular(rig.head(f"finger2-1.{side}") - rig.head(f"finger5-1.{side}"), along)
-        palm = np.cross(across, along) if side == "R" else np.cross(along, across)
-        self.axes = np.column_stack([along, palm, across])
+        self.axes = rig.hand_axes(side)
 
     @cached_property
     def _thumb_bend(self) -> FloatArray:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.synthetic.body_data import load_body_data
 from teo_skeleton_retriever.synthetic.errors import unknown_name
 from teo_skeleton_retriever.synthetic.hand_shapes import hand_shape
 from teo_skeleton_retriever.synthetic.pose import ArmPose, Poser
@@ -19,6 +20,7 @@ Vector = tuple[float, float, float]
 
 _ARM_LENGTH = 0.53
 """Shoulder to wrist of the person for whom offsets are written [m]; others' are scaled by theirs."""
+_ARM_BONES = ("upperarm", "lowerarm", "wrist", "metacarpal", "finger")
 PLACES = ("shoulders", "sternum", "belly", "chin", "mouth", "nose", "forehead", "temple", "hip", "side")
 
 
@@ -80,6 +82,8 @@ class Places:
     """Where the places of a body are while it stands at rest."""
 
     def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+        self._skin = np.unique(load_body_data().groups["body"])
         right, left = rig.head("upperarm01.R"), rig.head("upperarm01.L")
         eyes = (rig.head("eye.R") + rig.head("eye.L")) / 2.0
         head = rig.tail("head")
@@ -87,9 +91,8 @@ class Places:
         shoulders = (right + left) / 2.0
         trunk = shoulders[2] - hips[2]
         face = head[2] - eyes[2]  # from the eyes to the crown, which is as far as from the eyes to the chin
-        self._half_shoulders = abs(float(right[1]))
+        self._half_hips = self._half_width(float(hips[2]))
         self._half_head = 0.55 * float(face)
-        self._rig = rig
         self.middle = {
             "shoulders": shoulders,
             "sternum": self._front(shoulders[2] - 0.22 * trunk),
@@ -105,16 +108,25 @@ class Places:
 
     def _front(self, height: float) -> FloatArray:
         """Find the foremost skin at a height, in the middle of the body."""
-        near = np.abs(self._rig.vertices - [0.0, 0.0, height])
-        chosen = self._rig.vertices[(near[:, 1] < 0.03) & (near[:, 2] < 0.012)]
+        skin = self._rig.vertices[self._skin]
+        near = np.abs(skin - [0.0, 0.0, height])
+        chosen = skin[(near[:, 1] < 0.03) & (near[:, 2] < 0.012)]
         return np.array([chosen[:, 0].max(), 0.0, height])
+
+    def _half_width(self, height: float) -> float:
+        """Measure the hips: half of how wide the body is at a height and a hand's breadth above [m]."""
+        skin = self._rig.vertices[self._skin]
+        arms = [i for i, name in enumerate(load_body_data().bones) if name.startswith(_ARM_BONES)]
+        trunk = self._rig.weights[self._skin][:, arms].sum(axis=1) < 0.1
+        near = trunk & (skin[:, 2] > height) & (skin[:, 2] < height + 0.1)
+        return float(np.abs(skin[near, 1]).max())
 
     def outwards(self, place: str) -> float:
         """Tell how far a place is from the body's middle, on the side of the hand [m]."""
         if place == "temple":
             return self._half_head
         if place == "side":
-            return self._half_shoulders
+            return self._half_hips
         return 0.0
 
 

@@ -10,15 +10,21 @@ from teo_skeleton_retriever.synthetic.ray_caster import Hits
 from teo_skeleton_retriever.synthetic.rotations import unit
 from teo_skeleton_retriever.synthetic.surface import Material, Surface
 
-_LAMP = unit(np.array([0.62, 0.38, 0.68]))  # from before, from the left and above
-_LAMP_STRENGTH, _SKY, _GROUND, _FILL = 0.62, 0.40, 0.16, 0.18
-_IRIS = np.array([0.20, 0.13, 0.08])
+Floats = NDArray[np.float32]
+
+# Strength of each light, chosen so that white paper that faces the lamp is just not burnt out.
+_LAMP = unit(np.array([0.62, 0.38, 0.68])).astype(np.float32)  # from before, from the left and above
+_LAMP_STRENGTH, _SKY, _GROUND, _FILL = 0.50, 0.34, 0.14, 0.14
+_WIDE = np.float32(0.25)
+"""How far the lamp reaches round edges: it is wide."""
+_IRIS = np.array([0.20, 0.13, 0.08], dtype=np.float32)
 _IRIS_ANGLE, _PUPIL_ANGLE = 0.52, 0.21
 """Half the angles that the iris and the pupil span, seen from the middle of the eye [rad]."""
+_GAMMA = np.float32(1.0 / 2.2)  # of displays
 
 
 class Painter:
-    """Paints one image.
+    """Paints one surface.
 
     Light comes from a lamp, from the ceiling, a little from the floor and from the camera. Nothing throws a
     shadow: detectors do not need it, and it would double the rays.
@@ -33,69 +39,73 @@ class Painter:
             upright: rotation from the room's axes to the camera's. Shape (3, 3).
         """
         self._surface = surface
-        self._normals = normals.astype(np.float32)
+        self._vertices = np.hstack([surface.colors, surface.patterns, normals]).astype(np.float32)
         self._room = upright.T.astype(np.float32)
 
-    def paint(
-        self, hits: Hits, directions: NDArray[np.float32]
-    ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Paint what rays see.
+    def paint(self, hits: Hits, directions: Floats) -> tuple[Floats, Floats]:
+        """Paint what rays hit; each must hit something.
 
         Returns:
             Colours, 0 to 1, as a display shows them, shape (n, 3); and the cosine between each ray and the
             surface it hits, shape (n,).
         """
-        color = np.full((len(directions), 3), 0.35, dtype=np.float32)
-        seen = np.flatnonzero(hits.triangle >= 0)
-        triangle = hits.triangle[seen]
-        shares = hits.shares[seen][:, :, None]
-        corners = self._surface.triangles[triangle]
-        albedo = (self._surface.colors[corners] * shares).sum(axis=1)
-        place = (self._surface.patterns[corners] * shares).sum(axis=1)
-        normal = (self._normals[corners] * shares).sum(axis=1)
-        normal /= np.linalg.norm(normal, axis=1, keepdims=True) + 1e-9
-        view = -directions[seen] / np.linalg.norm(directions[seen], axis=1, keepdims=True)
-        facing = (normal * view).sum(axis=1)
+        corners = self._surface.triangles[hits.triangle]
+        mixed: Floats = np.zeros((len(corners), 9), dtype=np.float32)
+        for i in range(3):
+            mixed += self._vertices[corners[:, i]] * hits.shares[:, i, None]
+        albedo, place, normal = mixed[:, :3], mixed[:, 3:6], mixed[:, 6:]
+        normal /= np.sqrt(np.einsum("ij,ij->i", normal, normal))[:, None] + np.float32(1e-9)
+        length = np.sqrt(np.einsum("ij,ij->i", directions, directions))
+        facing = -np.einsum("ij,ij->i", normal, directions) / length
         normal[facing < 0.0] *= -1.0
-        albedo = self._patterned(albedo, place, self._surface.materials[triangle])
-        light = self._light(normal @ self._room.T, np.abs(facing))
-        color[seen] = albedo * light[:, None]
-        cosine = np.zeros(len(directions), dtype=np.float32)
-        cosine[seen] = np.abs(facing)
-        return np.clip(color, 0.0, 1.0) ** np.float32(1.0 / 2.2), cosine
+        facing = np.abs(facing)
+        materials = self._surface.materials[hits.triangle]
+        below = (materials == Material.CLOTH) & (place[:, 2] < 0.0)
+        albedo[below] = self._surface.below[corners[below, 0]]
+        albedo = _patterned(albedo, place, materials)
+        color = albedo * self._light(normal, facing)[:, None]
+        return np.clip(color, 0.0, 1.0) ** _GAMMA, facing
 
-    @staticmethod
-    def _light(normal: NDArray[np.float32], facing: NDArray[np.float32]) -> NDArray[np.float32]:
-        lamp = np.clip((normal @ _LAMP + 0.25) / 1.25, 0.0, 1.0)  # a wide lamp reaches round edges
-        sky = _GROUND + (_SKY - _GROUND) * (0.5 + 0.5 * normal[:, 2])
-        light: NDArray[np.float32] = _LAMP_STRENGTH * lamp + sky + _FILL * facing
+    def _light(self, normal: Floats, facing: Floats) -> Floats:
+        lamp = np.clip((normal @ (_LAMP @ self._room) + _WIDE) / (1 + _WIDE), 0.0, 1.0)
+        up = normal @ self._room[2]
+        light: Floats = (
+            np.float32(_LAMP_STRENGTH) * lamp
+            + np.float32(_GROUND)
+            + np.float32((_SKY - _GROUND) / 2.0) * (1 + up)
+            + np.float32(_FILL) * facing
+        )
         return light
 
-    @staticmethod
-    def _patterned(albedo: FloatArray, place: FloatArray, material: NDArray[np.int8]) -> FloatArray:
-        x, y, z = place.T
-        factor = np.ones(len(place))
-        for kind in np.unique(material):
-            here = material == kind
-            a, b, c = x[here], y[here], z[here]
-            if kind == Material.CLOTH:
-                factor[here] = (
-                    1.0 + 0.05 * np.sin(900.0 * b) * np.sin(900.0 * c) + 0.04 * np.sin(37.0 * b + 23.0 * c)
-                )
-            elif kind == Material.HAIR:
-                factor[here] = 1.0 + 0.35 * np.sin(700.0 * b + 60.0 * a) * np.sin(31.0 * c + 90.0 * b)
-            elif kind == Material.WOOD:
-                factor[here] = 1.0 + 0.12 * np.sin(160.0 * c + 9.0 * np.sin(7.0 * b) + 11.0 * a)
-            elif kind == Material.TILES:
-                joint = (np.abs((a / 0.3) % 1.0 - 0.5) > 0.485) | (np.abs((b / 0.3) % 1.0 - 0.5) > 0.485)
-                factor[here] = np.where(joint, 0.6, 1.0 + 0.05 * np.sin(17.0 * a) * np.sin(13.0 * b))
-            elif kind == Material.PLASTER:
-                factor[here] = (
-                    1.0 + 0.03 * np.sin(5.0 * b + 3.0 * np.sin(4.0 * c)) + 0.015 * np.sin(43.0 * b + 61.0 * c)
-                )
-            elif kind == Material.EYE:
-                angle = np.arctan2(np.hypot(b, c), a)
-                albedo[here] = np.where((angle < _IRIS_ANGLE)[:, None], _IRIS, albedo[here])
-                albedo[here] = np.where((angle < _PUPIL_ANGLE)[:, None], 0.02, albedo[here])
-        patterned: FloatArray = albedo * factor[:, None]
-        return patterned
+
+def _patterned(albedo: Floats, place: Floats, materials: NDArray[np.int8]) -> Floats:
+    for kind in np.unique(materials):
+        if kind == Material.PLAIN:
+            continue
+        here = np.flatnonzero(materials == kind)
+        x, y, z = place[here].T
+        if kind == Material.EYE:
+            angle = np.arctan2(np.hypot(y, z), x)[:, None]
+            looking = np.where(angle < _IRIS_ANGLE, _IRIS, albedo[here])
+            albedo[here] = np.where(angle < _PUPIL_ANGLE, np.float32(0.02), looking)
+        else:
+            albedo[here] *= _shade(Material(kind), x, y, z)[:, None]
+    return albedo
+
+
+def _shade(kind: Material, x: Floats, y: Floats, z: Floats) -> Floats:
+    """Give how much lighter or darker a material is at places of its pattern."""
+    match kind:
+        case Material.CLOTH:
+            shade = 1 + 0.05 * np.sin(900 * y) * np.sin(900 * z) + 0.04 * np.sin(37 * y + 23 * z)
+        case Material.HAIR:
+            shade = 1 + 0.35 * np.sin(700 * y + 60 * x) * np.sin(31 * z + 90 * y)
+        case Material.WOOD:
+            shade = 1 + 0.12 * np.sin(160 * z + 9 * np.sin(7 * y) + 11 * x)
+        case Material.TILES:
+            joint = (np.abs((x / 0.3) % 1 - 0.5) > 0.485) | (np.abs((y / 0.3) % 1 - 0.5) > 0.485)
+            shade = np.where(joint, np.float32(0.6), 1 + 0.05 * np.sin(17 * x) * np.sin(13 * y))
+        case _:
+            shade = 1 + 0.03 * np.sin(5 * y + 3 * np.sin(4 * z)) + 0.015 * np.sin(43 * y + 61 * z)
+    result: Floats = shade.astype(np.float32)
+    return result

@@ -25,6 +25,10 @@ class Hits(NamedTuple):
     distance: NDArray[np.float32]
     shares: NDArray[np.float32]
 
+    def of(self, rays: NDArray[np.int64]) -> Hits:
+        """Give the hits of some of the rays."""
+        return Hits(self.triangle[rays], self.distance[rays], self.shares[rays])
+
 
 class RayCaster:
     """The triangles of one image, seen from the origin."""

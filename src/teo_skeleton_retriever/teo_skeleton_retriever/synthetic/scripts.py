@@ -11,7 +11,7 @@ from teo_skeleton_retriever.synthetic.keys import ArmKey, Key, Vector
 
 _HANGING = ArmKey(
     at="side",
-    offset=(0.04, 0.03, 0.02),
+    offset=(0.03, 0.035, 0.02),
     point="wrist",
     fingers=(0.15, 0.0, -1.0),
     palm=(-0.35, -1.0, 0.0),
@@ -73,7 +73,7 @@ def _spelled(shapes: Sequence[str]) -> list[Key]:
 
 _HELLO = _beaten(
     Key(
-        right=ArmKey(at="temple", offset=(0.10, 0.10, 0.03), fingers=_UP, palm=_TO_VIEWER, shape="open"),
+        right=ArmKey(at="temple", offset=(0.10, 0.10, -0.06), fingers=_UP, palm=_TO_VIEWER, shape="open"),
         face=_SMILE,
     ),
     2,

@@ -39,6 +39,7 @@ class Surface:
         triangles: indices of vertices. Shape (t, 3).
         colors: of each vertex, 0 to 1. Shape (n, 3).
         patterns: where each vertex is in its material's pattern [m]. Shape (n, 3).
+        below: colours of cloth where its pattern's z is below 0: trousers under a shirt. Shape (n, 3).
         materials: of each triangle, `Material`. Shape (t,).
         bones: index of the bone that moves each triangle most, -1 for furniture. Shape (t,).
     """
@@ -46,18 +47,9 @@ class Surface:
     triangles: IntArray
     colors: FloatArray
     patterns: FloatArray
+    below: FloatArray
     materials: NDArray[np.int8]
     bones: NDArray[np.int16]
-
-    def joined(self, other: Surface) -> Surface:
-        """Put another surface's triangles behind these; its vertices follow these."""
-        return Surface(
-            np.concatenate([self.triangles, other.triangles + len(self.colors)]),
-            np.concatenate([self.colors, other.colors]),
-            np.concatenate([self.patterns, other.patterns]),
-            np.concatenate([self.materials, other.materials]),
-            np.concatenate([self.bones, other.bones]),
-        )
 
 
 def vertex_normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:

@@ -16,12 +16,12 @@ from teo_skeleton_retriever.synthetic.depth_model import DepthModel
 from teo_skeleton_retriever.synthetic.errors import SyntheticError
 from teo_skeleton_retriever.synthetic.furniture import furnish
 from teo_skeleton_retriever.synthetic.motion import Motion
-from teo_skeleton_retriever.synthetic.painter import Painter
+from teo_skeleton_retriever.synthetic.pose import BodyPose
 from teo_skeleton_retriever.synthetic.ray_caster import RayCaster
+from teo_skeleton_retriever.synthetic.renderer import Rendered, Renderer
 from teo_skeleton_retriever.synthetic.scripts import script as script_named
 from teo_skeleton_retriever.synthetic.sensors import sensor as sensor_named
 from teo_skeleton_retriever.synthetic.signer import Signer
-from teo_skeleton_retriever.synthetic.surface import vertex_normals
 from teo_skeleton_retriever.synthetic.truth import SyntheticFrame, Truth
 from teo_skeleton_retriever.synthetic.visibility import visible
 
@@ -31,9 +31,6 @@ _CHEST = 0.74
 """Height that a camera looks at unless told otherwise, of the person's: the middle of where one signs."""
 _COLOR_NOISE = 0.008
 """Standard deviation of the colour image's noise, of its range. Assumption: a sensor in room light."""
-_OUTLINE = 0.05
-"""Difference to a neighbour, of the range, from which a pixel is cast four times: it smooths edges."""
-_CORNERS = ((-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,23 +90,15 @@ class Take:
             SyntheticError: a name that does not exist, or a number out of its range.
         """
         self._options = options
-        sensor = sensor_named(options.sensor)
-        self.camera: CameraModel = sensor.camera(options.width, options.height)
-        self.mono = sensor.mono
-        self._sensor = sensor
-        room, surface = furnish(options.scene)
+        self.sensor = sensor_named(options.sensor)
+        self.camera: CameraModel = self.sensor.camera(options.width, options.height)
+        vertices, room = furnish(options.scene)
         keys = script_named(options.script)
         self._signer = Signer(options.body)
         self.motion = Motion(self._signer.poser, keys)
-        self._surface = self._signer.dress.surface.joined(surface)
         self._rotation, self._position = self._camera_pose()
-        self._room = self._seen(room)
-        rows, columns = np.indices((options.height, options.width))
-        self._pixels = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.float64)
-        self._rays = self._directions(self._pixels)
-        # The room stands still.
-        self._room_normals = vertex_normals(self._room, surface.triangles)
-        self._body_triangles = self._signer.dress.surface.triangles
+        self._surface = self._signer.dress.surface
+        self._renderer = Renderer(self.camera, self._rotation, self._surface, room, self._seen(vertices))
 
     def __len__(self) -> int:
         """Tell how many frames the take has."""
@@ -121,17 +110,36 @@ class Take:
         stamp = index / options.rate
         pose = self.motion.pose(stamp)
         transforms = self._signer.poser.transforms(pose)
-        person = self._seen(self._signer.vertices(pose, transforms))
-        vertices = np.concatenate([person, self._room])
-        normals = np.concatenate([vertex_normals(person, self._body_triangles), self._room_normals])
-        caster = RayCaster(vertices[self._surface.triangles])
-        painter = Painter(self._surface, normals, self._rotation)
+        rendered = self._renderer.render(self._seen(self._signer.vertices(pose, transforms)))
         random = np.random.default_rng([options.seed, index])
-        color, depth = self._image(caster, painter, random)
-        parts = tuple(self._seen(part) for part in self._signer.keypoints(pose, transforms))
-        body, left, right, face = parts
-        seen = visible(caster, self._surface.bones, self.camera, (body, left, right, face))
-        truth = Truth(
+        return SyntheticFrame(
+            stamp=stamp,
+            color=self._color(rendered, random),
+            depth=self._depth(rendered, random),
+            camera=self.camera,
+            truth=self._truth(pose, transforms, rendered.person),
+        )
+
+    def _color(self, rendered: Rendered, random: np.random.Generator) -> NDArray[np.uint8]:
+        color = rendered.color
+        if self.sensor.mono:
+            color = np.repeat(color.mean(axis=2, keepdims=True), 3, axis=2)
+        noise = random.standard_normal(color.shape, dtype=np.float32)
+        steps = np.rint((color + _COLOR_NOISE * noise) * 255.0)
+        image: NDArray[np.uint8] = np.clip(steps, 0, 255).astype(np.uint8)
+        return image
+
+    def _depth(self, rendered: Rendered, random: np.random.Generator) -> DepthArray:
+        if self._options.perfect_depth:
+            return np.where(np.isfinite(rendered.distance), rendered.distance, np.float32(np.nan))
+        return DepthModel(self.sensor, self.camera, random).measure(rendered.distance, rendered.facing)
+
+    def _truth(self, pose: BodyPose, transforms: FloatArray, person: RayCaster) -> Truth:
+        body, left, right, face = (self._seen(part) for part in self._signer.keypoints(pose, transforms))
+        seen = visible(
+            person, self._renderer.room, self._surface.bones, self.camera, (body, left, right, face)
+        )
+        return Truth(
             body=body,
             left_hand=left,
             right_hand=right,
@@ -141,32 +149,6 @@ class Take:
             right_hand_visible=seen[2],
             face_visible=seen[3],
         )
-        return SyntheticFrame(stamp=stamp, color=color, depth=depth, camera=self.camera, truth=truth)
-
-    def _image(
-        self, caster: RayCaster, painter: Painter, random: np.random.Generator
-    ) -> tuple[NDArray[np.uint8], DepthArray]:
-        shape = (self.camera.height, self.camera.width)
-        hits = caster.cast(self._rays)
-        color, cosine = painter.paint(hits, self._rays)
-        rough = np.flatnonzero(_outlines(color.reshape(*shape, 3)))
-        if len(rough):
-            color[rough] = 0.0
-            for shift in _CORNERS:
-                rays = self._directions(self._pixels[rough] + shift)
-                color[rough] += painter.paint(caster.cast(rays), rays)[0] / len(_CORNERS)
-        if self.mono:
-            color[:] = color.mean(axis=1, keepdims=True)
-        color += random.normal(0.0, _COLOR_NOISE, color.shape).astype(np.float32)
-        image = np.clip(np.rint(color * 255.0), 0, 255).astype(np.uint8).reshape(*shape, 3)
-        depth = hits.distance.reshape(shape)
-        if self._options.perfect_depth:
-            return image, np.where(np.isfinite(depth), depth, np.nan).astype(np.float32)
-        model = DepthModel(self._sensor, self.camera, random)
-        return image, model.measure(depth, cosine.reshape(shape))
-
-    def _directions(self, pixels: FloatArray) -> NDArray[np.float32]:
-        return self.camera.rays(pixels).astype(np.float32)
 
     def _camera_pose(self) -> tuple[FloatArray, FloatArray]:
         """Give the rotation from the room's axes to the camera's, and where the camera is."""
@@ -182,18 +164,6 @@ class Take:
     def _seen(self, points: FloatArray) -> FloatArray:
         seen: FloatArray = (points - self._position) @ self._rotation.T
         return seen
-
-
-def _outlines(color: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """Find pixels that differ from a neighbour. Shape (height * width,)."""
-    rough = np.zeros(color.shape[:2], dtype=bool)
-    across = np.abs(np.diff(color, axis=1)).max(axis=2) > _OUTLINE
-    down = np.abs(np.diff(color, axis=0)).max(axis=2) > _OUTLINE
-    rough[:, 1:] |= across
-    rough[:, :-1] |= across
-    rough[1:] |= down
-    rough[:-1] |= down
-    return rough.ravel()
 
 
 def render_take(*, frames: range | None = None, **options: Any) -> Iterator[SyntheticFrame]:

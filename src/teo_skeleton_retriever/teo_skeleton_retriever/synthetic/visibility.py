@@ -81,7 +81,8 @@ def _face() -> tuple[_Own, ...]:
 
 
 def visible(
-    caster: RayCaster,
+    person: RayCaster,
+    room: RayCaster,
     bones: NDArray[np.int16],
     camera: CameraModel,
     parts: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
@@ -89,8 +90,9 @@ def visible(
     """Tell which keypoints are seen.
 
     Args:
-        caster: of the image, in the camera's axes.
-        bones: that move each of its triangles; -1 for furniture.
+        person: in the camera's axes.
+        room: likewise.
+        bones: that move each of the person's triangles.
         camera: of the image.
         parts: BODY_25, left hand, right hand and face, in the camera's axes [m].
     """
@@ -100,12 +102,13 @@ def visible(
     directions = np.where(
         front[:, None], points / np.where(front, points[:, 2], 1.0)[:, None], [0.0, 0.0, 1.0]
     )
-    hits = caster.cast(directions.astype(np.float32))
+    hits = person.cast(directions.astype(np.float32))
+    walls = room.cast(directions.astype(np.float32)).distance
     inside = np.zeros(len(points), dtype=bool)
     inside[front] = camera.contains(camera.project(points[front]))
     seen = np.zeros(len(points), dtype=bool)
     for i, (owner, triangle) in enumerate(zip(owners, hits.triangle, strict=True)):
-        if triangle < 0 or not inside[i] or bones[triangle] < 0:
+        if triangle < 0 or not inside[i] or walls[i] < hits.distance[i]:
             continue
         behind = points[i, 2] - hits.distance[i]
         seen[i] = owner.bones[bones[triangle]] and -_TOLERANCE <= behind <= owner.limit
