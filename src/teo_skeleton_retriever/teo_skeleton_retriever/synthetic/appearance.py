@@ -24,6 +24,7 @@ _NAILS = (0.80, 0.60, 0.54)
 # Thickness of what is worn over the skin [m]: cloth hangs a little off the body, hair stands off the scalp.
 _CLOTH_TRUNK, _CLOTH_LIMBS = 0.006, 0.003
 _HAIR_THICKNESS = 0.016
+_COLLAR_SLOPE = 0.35  # how much lower the collar is in front, of the way forwards
 
 
 class Dress:
@@ -47,8 +48,9 @@ class Dress:
         waist = hip + 0.16 * (shoulder - hip)
         z = rig.vertices[:, 2]
         body, tights = groups["body"], groups["helper-tights"]
-        collar = neck - 0.012
-        worn = tights[((along_arm[tights] < shape.sleeve) & (z[tights] < collar)).all(axis=1)]
+        # The collar is lower in front than at the nape.
+        collar = neck - 0.01 - _COLLAR_SLOPE * (rig.vertices[:, 0] - rig.head("neck01")[0])
+        worn = tights[((along_arm[tights] < shape.sleeve) & (z < collar + 0.05)[tights]).all(axis=1)]
         hidden = (along_arm < shape.sleeve - 0.12) & (z < collar - 0.035)
         hidden &= ~np.isin(np.arange(len(z)), np.unique(body[_moved_by(body, "neck", "head", "jaw")]))
         bare = body[~hidden[body].all(axis=1)]
@@ -58,6 +60,7 @@ class Dress:
         normals = vertex_normals(vertices, worn)
         on_arms = np.clip(along_arm / 0.3, 0.0, 1.0)
         thickness = _CLOTH_TRUNK + (_CLOTH_LIMBS - _CLOTH_TRUNK) * on_arms
+        thickness *= np.clip((collar - z) / 0.03 + 0.2, 0.0, 1.0)  # it lies close at the neck
         vertices += normals * thickness[:, None]
         colors = np.tile(shape.skin, (len(z), 1))
         _tint(colors, _mask("lips"), _LIPS, 0.75)
@@ -69,7 +72,8 @@ class Dress:
         eyes = np.concatenate([groups["helper-l-eye"], groups["helper-r-eye"]])
         colors[np.unique(eyes)] = _EYE_WHITE
         _tint(colors, _brows(rig, body), shape.hair, 0.85)
-        patterns = rig.vertices - [0.0, 0.0, waist]
+        patterns = rig.vertices.copy()
+        patterns[covered, 2] = ((z - waist) / (collar - waist))[covered]
         for side in ("R", "L"):
             chosen = np.unique(groups[f"helper-{side.lower()}-eye"])
             patterns[chosen] = rig.vertices[chosen] - rig.head(f"eye.{side}")
@@ -91,6 +95,7 @@ class Dress:
             np.concatenate([colors, np.tile(shape.hair, (len(sources), 1))]),
             np.concatenate([patterns, cap_vertices]),
             np.concatenate([below, np.tile(shape.hair, (len(sources), 1))]),
+            np.tile(shape.skin, (len(self.vertices), 1)),
             np.concatenate([np.full(len(part), material, dtype=np.int8) for part, material in parts]),
             _strongest_bone(self.sources[triangles]),
         )

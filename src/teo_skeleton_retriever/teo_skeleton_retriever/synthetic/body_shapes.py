@@ -36,7 +36,7 @@ class BodyShape:
 
 BODIES: dict[str, BodyShape] = {
     "woman_average": BodyShape(
-        phenotype=Phenotype(gender=1.0, height=0.4, proportions=0.3),
+        phenotype=Phenotype(gender=1.0, muscle=0.4, height=0.4, proportions=0.2),
         skin=(0.82, 0.62, 0.50),
         hair=(0.16, 0.10, 0.06),
         shirt=(0.10, 0.16, 0.30),
@@ -44,7 +44,7 @@ BODIES: dict[str, BodyShape] = {
         trousers=(0.12, 0.12, 0.14),
     ),
     "man_average": BodyShape(
-        phenotype=Phenotype(gender=0.0, height=0.4, proportions=0.3),
+        phenotype=Phenotype(gender=0.0, muscle=0.35, height=0.41, proportions=0.2),
         skin=(0.80, 0.58, 0.45),
         hair=(0.10, 0.07, 0.05),
         shirt=(0.35, 0.36, 0.38),

@@ -82,7 +82,7 @@ def _shelf(x: float, y: float, width: float, height: float) -> tuple[Box, ...]:
 
 
 def _wall(x: float, color: Color = _WHITE) -> Box:
-    return Box((x - 0.1, x), (-4.0, 4.0), (0.0, 2.8), color, Material.PLASTER)
+    return Box((x - 0.1, x), (-4.0, 4.0), (0.0, 4.0), color, Material.PLASTER)
 
 
 SCENES: dict[str, tuple[Box, ...]] = {
@@ -132,6 +132,7 @@ def furnish(name: str) -> tuple[FloatArray, Surface]:
         triangles,
         colors,
         vertices,
+        colors,
         colors,
         np.repeat([box.material for box in boxes], len(_FACES)).astype(np.int8),
         np.full(len(triangles), -1, dtype=np.int16),

@@ -60,8 +60,11 @@ class Painter:
         normal[facing < 0.0] *= -1.0
         facing = np.abs(facing)
         materials = self._surface.materials[hits.triangle]
-        below = (materials == Material.CLOTH) & (place[:, 2] < 0.0)
+        cloth = materials == Material.CLOTH
+        below, above = cloth & (place[:, 2] < 0.0), cloth & (place[:, 2] > 1.0)
         albedo[below] = self._surface.below[corners[below, 0]]
+        albedo[above] = self._surface.above[corners[above, 0]]
+        materials = np.where(above, np.int8(Material.PLAIN), materials)
         albedo = _patterned(albedo, place, materials)
         color = albedo * self._light(normal, facing)[:, None]
         return np.clip(color, 0.0, 1.0) ** _GAMMA, facing
@@ -97,7 +100,7 @@ def _shade(kind: Material, x: Floats, y: Floats, z: Floats) -> Floats:
     """Give how much lighter or darker a material is at places of its pattern."""
     match kind:
         case Material.CLOTH:
-            shade = 1 + 0.05 * np.sin(900 * y) * np.sin(900 * z) + 0.04 * np.sin(37 * y + 23 * z)
+            shade = 1 + 0.05 * np.sin(900 * y) * np.sin(400 * z) + 0.04 * np.sin(37 * y + 10 * z)
         case Material.HAIR:
             shade = 1 + 0.35 * np.sin(700 * y + 60 * x) * np.sin(31 * z + 90 * y)
         case Material.WOOD:

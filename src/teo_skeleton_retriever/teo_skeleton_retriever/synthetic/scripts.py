@@ -94,7 +94,7 @@ _THINK = [
     Key(
         right=ArmKey(
             at="forehead",
-            offset=(0.12, 0.12, 0.05),
+            offset=(0.12, 0.12, -0.05),
             point="index_tip",
             fingers=(0.1, 0.0, 1.0),
             palm=(0.3, -1.0, 0.0),
@@ -109,8 +109,8 @@ _EAT = _beaten(
             at="mouth",
             offset=(0.035, 0.0, 0.0),
             point="middle_tip",
-            fingers=(-0.6, -0.4, 0.7),
-            palm=(-0.8, -0.3, -0.4),
+            fingers=(0.35, -0.45, 0.8),
+            palm=(-1.0, -0.2, 0.4),
             shape="bent",
         ),
         face=_SPEAK,

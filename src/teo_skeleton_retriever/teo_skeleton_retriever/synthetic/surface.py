@@ -20,7 +20,7 @@ class Material(IntEnum):
     EYE = 1
     """white, with iris and pupil where it looks"""
     CLOTH = 2
-    """like PLAIN, with a fine weave"""
+    """likewise with a fine weave, and in other colours below the waist and above the collar"""
     HAIR = 3
     """like PLAIN, with strands"""
     WOOD = 4
@@ -39,7 +39,8 @@ class Surface:
         triangles: indices of vertices. Shape (t, 3).
         colors: of each vertex, 0 to 1. Shape (n, 3).
         patterns: where each vertex is in its material's pattern [m]. Shape (n, 3).
-        below: colours of cloth where its pattern's z is below 0: trousers under a shirt. Shape (n, 3).
+        below: colours of cloth where its pattern's z is below 0: trousers. Shape (n, 3).
+        above: colours of cloth where its pattern's z is above 1: bare skin. Shape (n, 3).
         materials: of each triangle, `Material`. Shape (t,).
         bones: index of the bone that moves each triangle most, -1 for furniture. Shape (t,).
     """
@@ -48,6 +49,7 @@ class Surface:
     colors: FloatArray
     patterns: FloatArray
     below: FloatArray
+    above: FloatArray
     materials: NDArray[np.int8]
     bones: NDArray[np.int16]
 

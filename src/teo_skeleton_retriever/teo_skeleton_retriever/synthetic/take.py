@@ -27,7 +27,7 @@ from teo_skeleton_retriever.synthetic.visibility import visible
 
 DISTANCES = (0.2, 6.0)
 """Between camera and person [m]: nearer the camera is inside the person, farther behind the room."""
-_CHEST = 0.74
+_CHEST = 0.755
 """Height that a camera looks at unless told otherwise, of the person's: the middle of where one signs."""
 _COLOR_NOISE = 0.008
 """Standard deviation of the colour image's noise, of its range. Assumption: a sensor in room light."""
