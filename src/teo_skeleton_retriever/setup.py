@@ -23,6 +23,8 @@ setup(
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
+            "retrieve = teo_skeleton_retriever.retrieve_cli:main",
+            "synthesize = teo_skeleton_retriever.synthetic.synthesize_cli:main",
             "retriever_node = teo_skeleton_retriever.retriever_node:main",
         ],
     },

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -16,6 +15,7 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, par
 
 Value = bool | int | float | str
 
+_DETECTOR = "detector"
 TRANSPORTS_COLOR = ("raw", "compressed")
 TRANSPORTS_DEPTH = ("raw", "compressedDepth")
 
@@ -130,23 +130,27 @@ def _retriever_rows() -> tuple[ParameterRow, ...]:
             description=info.description + (f" [{info.unit}]" if info.unit else ""),
         )
         for name, info in parameter_info().items()
+        if name != _DETECTOR  # the node has one of its own, from which this follows
     )
 
 
 PARAMETERS = (*_NODE, *_retriever_rows())
 
 
-def retriever_parameters_from(values: Mapping[str, Value]) -> RetrieverParameters:
+def retriever_parameters_from(values: Mapping[str, Value], detector: str) -> RetrieverParameters:
     """Give the retriever's parameters.
 
     Args:
         values: by name; others than the retriever's do not matter.
+        detector: name of the one that is used.
 
     Raises:
         ParameterError: a value is wrong, or two do not go together.
     """
-    names = [field.name for field in dataclasses.fields(RetrieverParameters)]
-    chosen: dict[str, Value] = {name: values[name] for name in names}
+    chosen: dict[str, Value] = {row.name: values[row.name] for row in _retriever_rows()}
+    if _DETECTOR in parameter_info():
+        known = detector in parameter_info()[_DETECTOR].choices
+        chosen[_DETECTOR] = detector if known else "other"
     return RetrieverParameters(**chosen)  # type: ignore[arg-type]  # checked by the class itself
 
 
@@ -178,3 +182,39 @@ def detector_options_from(text: str) -> dict[str, object]:
     if not isinstance(options, dict):
         raise ParameterError("bad_options", f"expected a JSON object of detector options, got {text!r:.80}")
     return options
+
+
+def parameters_from_words(words: Sequence[str], *, detector: str, one_image: bool) -> RetrieverParameters:
+    """Give the retriever's parameters from words as typed on a command line.
+
+    Args:
+        words: NAME=VALUE each.
+        detector: name of the one that is used.
+        one_image: whether there is just one image, in which a person must be taken at first sight.
+
+    Raises:
+        ParameterError: a name or a value is wrong, or two do not go together.
+    """
+    values: dict[str, Value] = {row.name: row.default for row in _retriever_rows()}
+    if one_image:
+        values["newcomer_images"] = 1
+    for word in words:
+        name, found, text = word.partition("=")
+        if not found or name not in values:
+            raise ParameterError(
+                "unknown_parameter", f"expected NAME=VALUE with a name of {', '.join(values)}; got {word!r}"
+            )
+        values[name] = _value_of(name, text, type(values[name]))
+    return retriever_parameters_from(values, detector)
+
+
+def _value_of(name: str, text: str, kind: type) -> Value:
+    if kind is bool and text.lower() in ("true", "false"):
+        return text.lower() == "true"
+    try:
+        if kind is not bool:
+            value: Value = kind(text)
+            return value
+    except ValueError:
+        pass
+    raise ParameterError("wrong_type", f"{name}: expected a value of type {kind.__name__}, got {text!r}")

@@ -23,10 +23,10 @@ from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
 from teo_skeleton_retriever.color_image import ColorArray
-from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.detectors import Detector, make_detector
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_messages import camera_of, color_of, depth_of, stamp_of
-from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved, make_retriever
+from teo_skeleton_retriever.image_retriever import FrameRetriever, ImageRetriever, Retrieved, make_retriever
 from teo_skeleton_retriever.markers import marker_array
 from teo_skeleton_retriever.messages import skeleton_array
 from teo_skeleton_retriever.newest_worker import NewestWorker
@@ -38,15 +38,16 @@ from teo_skeleton_retriever.parameters import (
     detector_options_from,
     retriever_parameters_from,
 )
-from teo_skeleton_retriever.retriever_health import Level, Problem, assess
+from teo_skeleton_retriever.retriever_health import Health, Level, Problem, assess
 from teo_skeleton_retriever.rgbd_image import RgbdImage
 from teo_skeleton_retriever.stream_stats import Result, StreamStats
 from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
 
 _COLOR, _DEPTH = "camera/color/image_raw", "camera/aligned_depth_to_color/image_raw"
 _CAMERA_INFO = "camera/color/camera_info"
-# Best effort: an image that was lost is not worth waiting for; two, so that one may come while one is taken.
-_SENSOR = QoSProfile(depth=2, reliability=ReliabilityPolicy.BEST_EFFORT)
+# Best effort: an image that was lost is not worth waiting for. Five, as in rmw's profile for sensors: with fewer
+# a short delay would leave colour and depth of different times.
+_SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
 _SAY_AGAIN = 5.0  # [s] after which a problem that goes on is logged again
 _SAME_CLOCK = (
@@ -68,8 +69,12 @@ class _Job(NamedTuple):
 class RetrieverNode(Node):
     """Follows people before a depth camera. Owns no image processing: see `ImageRetriever`."""
 
-    def __init__(self, **node_arguments: Any) -> None:
-        """Make the detector and listen. The arguments are those of `rclpy.node.Node`, after its name.
+    def __init__(self, *, detector: Detector | None = None, **node_arguments: Any) -> None:
+        """Make the detector and listen.
+
+        Args:
+            detector: in place of the one that the parameters name; closed with the node.
+            node_arguments: of `rclpy.node.Node`, after its name.
 
         Raises:
             RetrieverError: the parameters do not go together, or the detector cannot be made.
@@ -79,11 +84,11 @@ class RetrieverNode(Node):
             self.declare_parameter(row.name, row.default, row.descriptor())
         values = self._values()
         check_choices(values)
-        retriever = make_retriever(retriever_parameters_from(values), str(values["compat"]))
-        detector = make_detector(
-            str(values["detector"]), **detector_options_from(str(values["detector_options"]))
-        )
-        self._retriever = ImageRetriever(detector, retriever)
+        if detector is None:
+            options = detector_options_from(str(values["detector_options"]))
+            detector = make_detector(str(values["detector"]), **options)
+        self._detector_name = detector.name
+        self._retriever = ImageRetriever(detector, self._make_retriever(values))
         self._synchroniser = Synchroniser(
             slop=round(float(values["slop"]) * 1e9), capacity=int(values["queue_size"])
         )
@@ -203,20 +208,30 @@ class RetrieverNode(Node):
             )
         )
 
-    # In the executor's thread again, but for _report
-
     def _report(self, problem: Problem, details: str = "") -> None:
-        """Note a problem for the next diagnostics, and log it unless it was logged just now."""
+        """Note a problem for the next diagnostics; tell it at once unless it was told just now."""
         self._problem = problem
         now = time.monotonic()
-        if now - self._said.get(problem.code, -_SAY_AGAIN) >= _SAY_AGAIN:
-            self._said[problem.code] = now
-            log = self.get_logger().error if problem.code == "internal" else self.get_logger().warning
-            log(f"image left out, {problem.code}: {problem.sentence}{chr(10) if details else ''}{details}")
+        if now - self._said.get(problem.code, -_SAY_AGAIN) < _SAY_AGAIN:
+            return
+        self._said[problem.code] = now
+        sentence = f"image left out, {problem.code}: {problem.sentence}"
+        if details:
+            self.get_logger().error(f"{sentence}\n{details}")
+        else:
+            self.get_logger().warning(sentence)
+        self._publish_diagnostics(problem)
+
+    # In the executor's thread again
 
     def _on_diagnostics(self) -> None:
         self._note_unmatched()
         problem, self._problem = self._problem, None
+        health = self._publish_diagnostics(problem)
+        if health.level is not Level.OK and problem is None:
+            self.get_logger().warning(health.message, throttle_duration_sec=_SAY_AGAIN)
+
+    def _publish_diagnostics(self, problem: Problem | None) -> Health:
         health = assess(self._stats.report(time.monotonic()), self._topics, problem)
         status = DiagnosticStatus(
             level=bytes([health.level]),
@@ -228,8 +243,7 @@ class RetrieverNode(Node):
         message = DiagnosticArray(status=[status])
         message.header.stamp = self.get_clock().now().to_msg()
         self._diagnostics.publish(message)
-        if health.level is not Level.OK and problem is None:
-            self.get_logger().warning(health.message, throttle_duration_sec=_SAY_AGAIN)
+        return health
 
     def _note_unmatched(self) -> None:
         """Bring what the synchroniser dropped into the statistics."""
@@ -255,7 +269,7 @@ class RetrieverNode(Node):
         values = self._values() | {item.name: item.value for item in parameters}
         try:
             check_choices(values)
-            retriever_parameters_from(values)
+            self._make_retriever(values)
         except RetrieverError as error:
             return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
@@ -263,9 +277,12 @@ class RetrieverNode(Node):
     def _apply_parameters(self, parameters: Sequence[Parameter]) -> None:
         if {item.name for item in parameters} == {"period"}:
             return
-        values = self._values()
-        retriever = make_retriever(retriever_parameters_from(values), str(values["compat"]))
+        retriever = self._make_retriever(self._values())
         self._orders.put(lambda images: images.replace(retriever))
+
+    def _make_retriever(self, values: dict[str, Value]) -> FrameRetriever:
+        parameters = retriever_parameters_from(values, self._detector_name)
+        return make_retriever(parameters, str(values["compat"]))
 
     def _values(self) -> dict[str, Value]:
         return {row.name: self._value(row.name) for row in PARAMETERS}
