@@ -45,8 +45,8 @@ from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
 
 _COLOR, _DEPTH = "camera/color/image_raw", "camera/aligned_depth_to_color/image_raw"
 _CAMERA_INFO = "camera/color/camera_info"
-# Best effort: a lost image is not worth waiting for. Five, as in rmw's profile for sensors: with fewer a short
-# delay would leave colour and depth of different times.
+# Best effort: a lost image is not worth waiting for. Five, as in rmw's profile for sensors: with
+# fewer, a short delay would leave colour and depth of different times.
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
 _SAY_AGAIN = 5.0  # [s] after which a problem that goes on is logged again
