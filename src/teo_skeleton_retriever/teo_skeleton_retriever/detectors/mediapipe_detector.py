@@ -9,6 +9,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
+from teo_skeleton_retriever.detectors.double_hands import without_doubles
 from teo_skeleton_retriever.detectors.holistic_graph import HolisticGraph, HolisticLandmarks
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.mediapipe_holistic import person_from_holistic
@@ -89,8 +90,10 @@ def _person(landmarks: HolisticLandmarks, image: ImageArray) -> Person2D:
         right_hand_confidence=landmarks.right_hand_score,
         face_confidence=landmarks.face_score,
     )
-    return replace(
-        person, left_hand_world=landmarks.left_hand_world, right_hand_world=landmarks.right_hand_world
+    return without_doubles(
+        replace(
+            person, left_hand_world=landmarks.left_hand_world, right_hand_world=landmarks.right_hand_world
+        )
     )
 
 
