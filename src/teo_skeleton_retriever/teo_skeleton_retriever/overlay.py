@@ -30,6 +30,7 @@ STATUS_COLORS: dict[KeypointStatus, Rgb] = {
 _SIGNER, _OTHER, _INK = (255, 255, 255), (150, 150, 150), (0, 0, 0)
 _UNKNOWN_DEPTH = (40, 40, 40)
 _NEAREST, _FARTHEST = 0.5, 3.5  # [m] shown from red to blue: where a signer and what is behind them stand
+_CROWN = 0.22  # [m] from the eyes, or ears, to above the hair
 _INSET = 0.28  # of the picture's width
 _DESIGN_WIDTH = 640.0  # [px] for which the widths of lines and letters below are given
 _DASH = 6.0  # [px] likewise
@@ -125,8 +126,7 @@ def _draw_label(picture: ColorArray, skeleton: Skeleton, camera: CameraModel, sc
     size = 0.5 * scale
     (width, height), _ = cv2.getTextSize(text, _FONT, size, max(round(scale), 1))
     left = int(np.clip(column - width / 2, 2, max(picture.shape[1] - width - 2, 2)))
-    # Above the head, which is a face's height above the highest keypoint, and below the lines of text.
-    bottom = int(np.clip(row - 40 * scale, 60 * scale, picture.shape[0] - 4))
+    bottom = int(np.clip(row - _CROWN * camera.fy / distance, 20 * scale, picture.shape[0] - 4))
     back, front = (_SIGNER, _INK) if skeleton.is_signer else (_OTHER, _INK)
     pad = round(4 * scale)
     cv2.rectangle(
