@@ -13,7 +13,7 @@ from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
 
-Value = bool | int | float | str
+Value = bool | int | float | str | tuple[str, ...]
 
 _DETECTOR = "detector"
 TRANSPORTS_COLOR = ("raw", "compressed")
@@ -60,8 +60,8 @@ _NODE = (
     ),
     ParameterRow(
         name="detector_options",
-        default="{}",
-        description="Options of the detector as a JSON object.",
+        default=("",),  # ROS could not tell the type of an empty list
+        description="Options of the detector, NAME=VALUE each.",
         read_only=True,
     ),
     ParameterRow(
@@ -167,20 +167,24 @@ def check_choices(values: Mapping[str, Value]) -> None:
             )
 
 
-def detector_options_from(text: str) -> dict[str, object]:
+def detector_options_from(words: Sequence[str]) -> dict[str, object]:
     """Read the options of a detector.
 
+    Args:
+        words: NAME=VALUE each, where the value is JSON or else text; empty ones do not matter.
+
     Raises:
-        ParameterError: the text is not a JSON object.
+        ParameterError: a word is not of this form.
     """
-    try:
-        options = json.loads(text or "{}")
-    except json.JSONDecodeError as error:
-        raise ParameterError(
-            "bad_options", f"expected detector options as a JSON object, got {text!r:.80}: {error}"
-        ) from error
-    if not isinstance(options, dict):
-        raise ParameterError("bad_options", f"expected a JSON object of detector options, got {text!r:.80}")
+    options: dict[str, object] = {}
+    for word in filter(None, words):
+        name, found, text = word.partition("=")
+        if not (found and name.isidentifier()):
+            raise ParameterError("bad_option", f"expected NAME=VALUE as detector option, got {word!r:.80}")
+        try:
+            options[name] = json.loads(text)
+        except json.JSONDecodeError:
+            options[name] = text
     return options
 
 

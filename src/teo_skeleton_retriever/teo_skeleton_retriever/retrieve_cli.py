@@ -56,7 +56,9 @@ def _retrieve(
         bool, typer.Option("--json", help="Print the skeletons as JSON, a line for each image.")
     ] = False,
     detector: Annotated[str, typer.Option(help=f"One of {', '.join(DETECTORS)}.")] = "mediapipe",
-    detector_options: Annotated[str, typer.Option(help="Options of the detector, a JSON object.")] = "{}",
+    detector_option: Annotated[
+        list[str] | None, typer.Option(help="NAME=VALUE of the detector. Repeatable.")
+    ] = None,
     compat: Annotated[
         str, typer.Option(help=f"Processing of the original: {' or '.join(filter(None, COMPAT_MODES))}.")
     ] = "",
@@ -91,7 +93,7 @@ def _retrieve(
     try:
         chosen = parameters_from_words(parameter or [], detector=detector, one_image=bag is None)
         retriever = make_retriever(chosen, compat)
-        options = detector_options_from(detector_options)
+        options = detector_options_from(detector_option or [])
     except ParameterError as error:
         raise typer.BadParameter(error.sentence) from None
     try:

@@ -85,7 +85,7 @@ class RetrieverNode(Node):
         values = self._values()
         check_choices(values)
         if detector is None:
-            options = detector_options_from(str(values["detector_options"]))
+            options = detector_options_from(self._value("detector_options"))
             detector = make_detector(str(values["detector"]), **options)
         self._detector_name = detector.name
         self._retriever = ImageRetriever(detector, self._make_retriever(values))

@@ -30,7 +30,7 @@ def bag(tmp_path: Path) -> Path:
 def seen(tmp_path: Path) -> list[str]:
     """Options that replay keypoints instead of looking for them."""
     folder = bag_take.write_keypoints(tmp_path / "keypoints", IMAGES)
-    return ["--detector", "replay", "--detector-options", json.dumps({"folder": str(folder)})]
+    return ["--detector", "replay", "--detector-option", f"folder={folder}"]
 
 
 def run(*words: object) -> tuple[int, str, str]:
@@ -137,7 +137,7 @@ def test_parameters_of_the_retriever_can_be_set(bag, seen):
         ["BAG", "-p", "unknown=1"],
         ["BAG", "-p", "max_depth=far"],
         ["BAG", "-p", "max_depth=-1"],
-        ["BAG", "--detector-options", "["],
+        ["BAG", "--detector-option", "folder"],
         ["--color", "a", "--depth", "b", "--camera-info", "c", "--out", "x.mcap"],
     ],
 )
