@@ -101,6 +101,22 @@ def test_the_hands_shape_has_the_cameras_axes_and_metres(
     assert np.mean(errors) < np.mean(mirrored)
 
 
+def test_the_small_network_finds_the_hands_nearly_as_well(
+    hands: list[tuple[SyntheticFrame, Person2D]],
+) -> None:
+    detector = MediaPipeDetector(hands="lite")
+    errors, differences = [], []
+    for frame, full in hands:
+        person = detector.detect(frame.color, frame.stamp)[0]
+        errors.append(off(frame, person.left_hand, frame.truth.left_hand))
+        differences.append(np.abs(person.left_hand - full.left_hand).max())
+    detector.close()
+    assert np.mean(errors) < 0.02
+    assert min(differences) > 0.0  # it is another network
+    with pytest.raises(DetectorError, match="full"):
+        MediaPipeDetector(hands="tiny")
+
+
 def test_one_hand_taken_for_both_is_the_hand_of_the_nearer_arm() -> None:
     body = np.zeros((25, 3))
     body[BODY_25.index["LWrist"]] = 100.0, 200.0, 0.9

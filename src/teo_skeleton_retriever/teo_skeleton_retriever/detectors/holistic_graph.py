@@ -22,6 +22,7 @@ from mediapipe.calculators.tensor.tensors_to_detections_calculator_pb2 import (
 )
 from mediapipe.calculators.util.thresholding_calculator_pb2 import ThresholdingCalculatorOptions
 from mediapipe.framework import calculator_pb2
+from mediapipe.framework.tool.switch_container_pb2 import SwitchContainerOptions
 from mediapipe.python import (
     CalculatorGraph,
     ImageFormat,
@@ -57,6 +58,7 @@ _DETECTION_NODE = "poselandmarkcpu__posedetectioncpu__TensorsToDetectionsCalcula
 _TRACKING_NODE = (
     "poselandmarkcpu__poselandmarkbyroicpu__tensorstoposelandmarksandsegmentation__ThresholdingCalculator"
 )
+_HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
 _SIDE_INPUTS = MappingProxyType(
     {
         # The only pose model that comes with the package; the two others would be downloaded.
@@ -120,15 +122,18 @@ class HolisticGraph:
     Args:
         min_detection_confidence: below which a person's first sight does not count.
         min_tracking_confidence: below which a followed person counts as lost.
+        lite_hands: look at hands with the smaller of the two networks.
     """
 
-    def __init__(self, *, min_detection_confidence: float, min_tracking_confidence: float) -> None:
+    def __init__(
+        self, *, min_detection_confidence: float, min_tracking_confidence: float, lite_hands: bool
+    ) -> None:
         self._input_lock = threading.Lock()
         self._results_lock = threading.Lock()
         self._pending: dict[int, _Pending] = {}
         self._time_us = 0
         self._graph = CalculatorGraph(
-            graph_config=_configuration(min_detection_confidence, min_tracking_confidence)
+            graph_config=_configuration(min_detection_confidence, min_tracking_confidence, lite_hands)
         )
         for stream in _STREAMS:
             # With bounds, a stream also says that it has nothing for an image.
@@ -179,8 +184,8 @@ class HolisticGraph:
                     pending.done.set()
 
 
-def _configuration(min_detection_confidence: float, min_tracking_confidence: float) -> Any:
-    """Read the packaged graph and set what Holistic's own options set."""
+def _configuration(min_detection_confidence: float, min_tracking_confidence: float, lite_hands: bool) -> Any:
+    """Read the packaged graph and set what may be set."""
     folder = Path(mediapipe.__file__).parent
     resource_util.set_resource_dir(str(folder.parent))  # the models' paths in the graph start above
     packaged = ValidatedGraphConfig()
@@ -195,6 +200,8 @@ def _configuration(min_detection_confidence: float, min_tracking_confidence: flo
             options.min_score_thresh = min_detection_confidence
         elif node.name == _TRACKING_NODE:
             node.options.Extensions[ThresholdingCalculatorOptions.ext].threshold = min_tracking_confidence
+        elif _HAND_MODEL_SWITCH in node.name and node.calculator.startswith("Switch"):
+            node.options.Extensions[SwitchContainerOptions.ext].select = 0 if lite_hands else 1
         elif node.calculator == "LandmarkProjectionCalculator":
             # The same result, and no warning that crops must be square: they are.
             node.input_stream.append("IMAGE_DIMENSIONS:poselandmarkcpu__image_size")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +15,8 @@ from teo_skeleton_retriever.detectors.holistic_graph import HolisticGraph, Holis
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.mediapipe_holistic import person_from_holistic
 from teo_skeleton_retriever.person_2d import Person2D
+
+HAND_NETWORKS = ("full", "lite")
 
 
 class MediaPipeDetector:
@@ -36,13 +39,21 @@ class MediaPipeDetector:
     name = "mediapipe"
 
     def __init__(
-        self, *, min_detection_confidence: float = 0.5, min_tracking_confidence: float = 0.5
+        self,
+        *,
+        min_detection_confidence: float = 0.5,
+        min_tracking_confidence: float = 0.5,
+        hands: str = "full",
     ) -> None:
-        self._confidences = {
-            "min_detection_confidence": _in_unit_range("min_detection_confidence", min_detection_confidence),
-            "min_tracking_confidence": _in_unit_range("min_tracking_confidence", min_tracking_confidence),
-        }
-        self._graph: HolisticGraph | None = HolisticGraph(**self._confidences)
+        if hands not in HAND_NETWORKS:
+            raise DetectorError("bad_option", f"hands: expected one of {HAND_NETWORKS}, got {hands!r}")
+        self._make_graph = partial(
+            HolisticGraph,
+            min_detection_confidence=_in_unit_range("min_detection_confidence", min_detection_confidence),
+            min_tracking_confidence=_in_unit_range("min_tracking_confidence", min_tracking_confidence),
+            lite_hands=hands == "lite",
+        )
+        self._graph: HolisticGraph | None = self._make_graph()
 
     def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
         """Find the person; see `Detector.detect`.
@@ -58,7 +69,7 @@ class MediaPipeDetector:
             landmarks = graph.process(image)
         except DetectorError:
             if self._graph is graph:  # a graph that failed once refuses everything after
-                self._graph = HolisticGraph(**self._confidences)
+                self._graph = self._make_graph()
             raise
         return () if landmarks.pose is None else (_person(landmarks, image),)
 
