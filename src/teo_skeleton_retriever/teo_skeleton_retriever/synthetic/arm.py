@@ -8,7 +8,15 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.synthetic.rig import Rig
-from teo_skeleton_retriever.synthetic.rotations import about, frame, perpendicular, turn, twist_about, unit
+from teo_skeleton_retriever.synthetic.rotations import (
+    about,
+    cross,
+    frame,
+    perpendicular,
+    turn,
+    twist_about,
+    unit,
+)
 
 REACH = 0.985
 """How far a place may be, of the length of the stretched arm: elbows are never quite straight."""
@@ -35,7 +43,7 @@ class Arm:
         self.upper = float(np.linalg.norm(self.elbow - self.shoulder))
         self.fore = float(np.linalg.norm(self.wrist - self.elbow))
         self._outwards = np.array([0.0, -1.0 if side == "R" else 1.0, 0.0])
-        self._hinge = unit(np.cross(self.elbow - self.shoulder, self.wrist - self.elbow))
+        self._hinge = unit(cross(self.elbow - self.shoulder, self.wrist - self.elbow))
 
     def reachable(self, shoulder: FloatArray, wrist: FloatArray) -> FloatArray:
         """Give the place nearest to `wrist` that the arm can reach, seen from the shoulder."""
@@ -94,12 +102,26 @@ class Arm:
         self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray, hand: FloatArray
     ) -> tuple[float, float]:
         """Tell by how much the forearm must roll, from rest, and the wrist bend [rad]."""
-        fore = self._fore_rotation(shoulder, elbow, wrist)
-        relative = fore.T @ hand
+        roll, swing = self.wrist_joint(shoulder, elbow, wrist, hand)
+        return roll, math.acos(float(np.clip((np.trace(swing) - 1.0) / 2.0, -1.0, 1.0)))
+
+    def wrist_joint(
+        self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray, hand: FloatArray
+    ) -> tuple[float, FloatArray]:
+        """Split the hand's rotation: roll of the forearm [rad], then bend of the wrist, shape (3, 3)."""
+        relative = self._fore_rotation(shoulder, elbow, wrist).T @ hand
         along = unit(self.wrist - self.elbow)
         roll = twist_about(relative, along)
-        bend = math.acos(float(np.clip(np.dot(relative @ along, along), -1.0, 1.0)))
-        return roll, bend
+        swing: FloatArray = relative @ turn(along, -roll)
+        return roll, swing
+
+    def hand_at(
+        self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray, roll: float, swing: FloatArray
+    ) -> FloatArray:
+        """Put the hand's rotation together again: the inverse of `wrist_joint`. Shape (3, 3)."""
+        along = unit(self.wrist - self.elbow)
+        hand: FloatArray = self._fore_rotation(shoulder, elbow, wrist) @ swing @ turn(along, roll)
+        return hand
 
     def bones(
         self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray, hand: FloatArray, parent: FloatArray
@@ -134,7 +156,7 @@ class Arm:
         }
 
     def _hinge_at(self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray) -> FloatArray:
-        return unit(np.cross(elbow - shoulder, wrist - elbow))
+        return unit(cross(elbow - shoulder, wrist - elbow))
 
     def _fore_rotation(self, shoulder: FloatArray, elbow: FloatArray, wrist: FloatArray) -> FloatArray:
         hinge = self._hinge_at(shoulder, elbow, wrist)

@@ -11,7 +11,7 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.synthetic.hand_shapes import FINGERS, HandShape
 from teo_skeleton_retriever.synthetic.rig import Rig
-from teo_skeleton_retriever.synthetic.rotations import about, frame, perpendicular, turn, unit
+from teo_skeleton_retriever.synthetic.rotations import about, cross, frame, perpendicular, turn, unit
 
 _CONVERGENCE = dict(zip(FINGERS, np.radians([-2.0, 3.0, 9.0, 16.0]), strict=True))
 """By how much flexed fingers turn towards the thumb [rad]: they all point to the scaphoid bone."""
@@ -80,7 +80,7 @@ class Hand:
         bends = [math.cos(a) * inwards - math.sin(a) * straight for a in angles]
         metacarpal = f"metacarpal{number + 1}.{self.side}"
         # The mean of both directions of folding is enough: the arch is a few degrees.
-        hollow = turn(np.cross(straight, inwards), _ARCH[finger] * float(shape.flexion[number, 0]))
+        hollow = turn(cross(straight, inwards), _ARCH[finger] * float(shape.flexion[number, 0]))
         base = about(self._rig.head(metacarpal), hollow)
         placed = {metacarpal: base}
         joint = (base @ [*self._rig.head(names[0]), 1.0])[:3]

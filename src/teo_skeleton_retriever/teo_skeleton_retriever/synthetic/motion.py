@@ -29,7 +29,7 @@ def minimum_jerk(share: float) -> float:
 
     Source: Flash and Hogan, The coordination of arm movements, J. Neurosci. 5(7), 1985.
     """
-    return share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    return min(1.0, share**3 * (10.0 - 15.0 * share + 6.0 * share**2))  # rounding must not overshoot
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,7 @@ class Motion:
         Raises:
             SyntheticError: a place, point or shape that does not exist.
         """
+        self._poser = poser
         resolver = KeyResolver(poser)
         self._stages: list[_Stage] = []
         now = 0.0
@@ -92,7 +93,9 @@ class Motion:
         before, stage = self._stages[index - 1], self._stages[index]
         done = min(1.0, max(0.0, (time - stage.start) / stage.key.move))
         share = minimum_jerk(done)
-        arms = {side: _blend(before.arms[side], stage.arms[side], share, stage.key.arc) for side in SIDES}
+        arms = {
+            side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key.arc) for side in SIDES
+        }
         mix = _Mix(share)
         face = dict.fromkeys([*before.key.face, *stage.key.face], 0.0)
         for name in face:
@@ -118,6 +121,24 @@ class Motion:
             face=face,
         )
 
+    def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, arc: float) -> ArmPose:
+        """Go from one pose of an arm to another; the forearm rolls and the wrist bends as joints do."""
+        if share in (0.0, 1.0):
+            return end if share else start
+        arm, poser = self._poser.arms[side], self._poser
+        rolls, swings = zip(
+            *(arm.wrist_joint(*poser.limb(side, at.wrist, at.swivel), at.hand) for at in (start, end)),
+            strict=True,
+        )
+        mix = _Mix(share)
+        way: FloatArray = end.wrist - start.wrist
+        bulge = 4.0 * share * (1.0 - share) * arc * float(np.linalg.norm(way))
+        wrist = start.wrist + share * way + np.array([bulge, 0.0, 0.0])
+        swivel = mix(start.swivel, end.swivel)
+        swing = Slerp([0.0, 1.0], Rotation.from_matrix(np.array(swings)))(share).as_matrix()
+        hand = arm.hand_at(*poser.limb(side, wrist, swivel), mix(*rolls), swing)
+        return ArmPose(wrist, hand, swivel, start.shape.blend(end.shape, share))
+
 
 class _Mix:
     """Goes from one number to another."""
@@ -130,18 +151,6 @@ class _Mix:
 
     def all(self, start: Sequence[float], end: Sequence[float]) -> tuple[float, ...]:
         return tuple(self(a, b) for a, b in zip(start, end, strict=True))
-
-
-def _blend(start: ArmPose, end: ArmPose, share: float, arc: float) -> ArmPose:
-    way: FloatArray = end.wrist - start.wrist
-    bulge = 4.0 * share * (1.0 - share) * arc * float(np.linalg.norm(way))
-    rotations = Slerp([0.0, 1.0], Rotation.from_matrix(np.array([start.hand, end.hand])))
-    return ArmPose(
-        start.wrist + share * way + np.array([bulge, 0.0, 0.0]),
-        rotations(share).as_matrix(),
-        (1.0 - share) * start.swivel + share * end.swivel,
-        start.shape.blend(end.shape, share),
-    )
 
 
 def _swayed(

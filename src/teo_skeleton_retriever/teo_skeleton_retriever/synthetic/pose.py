@@ -89,6 +89,13 @@ class Poser:
             placed |= self._leg_bones(side, pose, root)
         return rig.transforms(turned, placed, root)
 
+    def limb(self, side: str, wrist: FloatArray, swivel: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Give shoulder, elbow and wrist when the wrist is sent somewhere, in the axes of the chest [m]."""
+        arm = self.arms[side]
+        _, shoulder = self.girdle(side, wrist)
+        wrist = arm.reachable(shoulder, wrist)
+        return shoulder, arm.elbow_at(shoulder, wrist, swivel), wrist
+
     def girdle(self, side: str, wrist: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Let the collar bone follow the arm.
 

@@ -18,6 +18,7 @@ from teo_skeleton_retriever.synthetic.scripts import SCRIPTS, about
 from teo_skeleton_retriever.synthetic.sensors import SENSORS
 from teo_skeleton_retriever.synthetic.take import Take, TakeOptions
 from teo_skeleton_retriever.synthetic.take_bag import write_take
+from teo_skeleton_retriever.synthetic.take_messages import JPEG_QUALITY
 
 _DEFAULTS = TakeOptions()
 _out = Console()
@@ -46,6 +47,7 @@ def _synthesize(
     seed: Annotated[int, typer.Option(min=0, help="Of the noise; the same gives the same bag.")] = 0,
     frames: Annotated[int, typer.Option(min=0, help="Only the first frames; 0 for all.")] = 0,
     raw: Annotated[bool, typer.Option("--raw", help="Do not compress images.")] = False,
+    jpeg_quality: Annotated[int, typer.Option(min=1, max=100, help="Of the colour images.")] = JPEG_QUALITY,
     perfect_depth: Annotated[
         bool, typer.Option("--perfect-depth", help="Depth without noise, holes or range.")
     ] = False,
@@ -86,7 +88,7 @@ def _synthesize(
     try:
         with Progress(*columns, console=_err) as progress:
             task = progress.add_task("", total=count)
-            for number in write_take(rendered, out, raw=raw, about=about_it):
+            for number in write_take(rendered, out, raw=raw, quality=jpeg_quality, about=about_it):
                 progress.update(task, completed=number)
     except SyntheticError as error:
         _err.print(f"synthesize: {error}", style="red", markup=False, highlight=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -42,18 +43,17 @@ _RAW = (
     _Topic("/camera/color/image_raw", _IMAGE, take_messages.color_image),
     _Topic("/camera/aligned_depth_to_color/image_raw", _IMAGE, take_messages.depth_image),
 )
-_SMALL = (
-    _Topic("/camera/color/image_raw/compressed", _COMPRESSED, take_messages.compressed_color),
-    _Topic(
-        "/camera/aligned_depth_to_color/image_raw/compressedDepth",
-        _COMPRESSED,
-        take_messages.compressed_depth,
-    ),
-)
+_SMALL_COLOR = "/camera/color/image_raw/compressed"
+_SMALL_DEPTH = "/camera/aligned_depth_to_color/image_raw/compressedDepth"
 
 
 def write_take(
-    frames: Iterable[SyntheticFrame], out: Path, *, raw: bool = False, about: dict[str, str] | None = None
+    frames: Iterable[SyntheticFrame],
+    out: Path,
+    *,
+    raw: bool = False,
+    quality: int = take_messages.JPEG_QUALITY,
+    about: dict[str, str] | None = None,
 ) -> Iterator[int]:
     """Write frames to a bag while they come. The bag appears, whole, after the last.
 
@@ -61,6 +61,7 @@ def write_take(
         frames: of the take.
         out: folder to make.
         raw: write images uncompressed: twenty times larger.
+        quality: of JPEG, if not raw.
         about: what the bag's metadata say of it.
 
     Yields:
@@ -73,7 +74,11 @@ def write_take(
         raise SyntheticError("output_exists", f"expected a folder that does not exist yet, got {out}")
     if not out.parent.is_dir():
         raise SyntheticError("missing_folder", f"expected a folder for {out.name}, got {out.parent}")
-    topics = (*_ALWAYS, *(_RAW if raw else _SMALL))
+    small = (
+        _Topic(_SMALL_COLOR, _COMPRESSED, partial(take_messages.compressed_color, quality=quality)),
+        _Topic(_SMALL_DEPTH, _COMPRESSED, take_messages.compressed_depth),
+    )
+    topics = (*_ALWAYS, *(_RAW if raw else small))
     beside = out.parent / f".{out.name}.{os.getpid()}"
     try:
         writer = BagWriter(beside / out.name, preset="zstd_small", custom_data=about or {})

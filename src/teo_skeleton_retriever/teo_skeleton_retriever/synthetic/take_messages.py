@@ -25,9 +25,8 @@ from teo_skeleton_retriever.synthetic.truth import SyntheticFrame
 
 FRAME_ID = "camera_color_optical_frame"
 """As realsense2_camera names it."""
-_JPEG_QUALITY = (
-    90  # that of image_transport is 95; at 90 nobody sees a difference, and a bag is a third smaller
-)
+JPEG_QUALITY = 90
+"""image_transport has 95; at 90 nobody sees a difference, and a bag is a third smaller."""
 _DEPTH_HEADER = struct.pack("<iff", 0, 0.0, 0.0)  # of compressedDepth; its terms matter to floats alone
 _NANOSECONDS = 1_000_000_000
 
@@ -63,10 +62,9 @@ def depth_image(frame: SyntheticFrame, at: Header) -> Image:
     return _image(_millimetres(frame), "16UC1", at)
 
 
-def compressed_color(frame: SyntheticFrame, at: Header) -> CompressedImage:
-    """Give the colour image as image_transport's `compressed` sends it: JPEG."""
-    options = [cv2.IMWRITE_JPEG_QUALITY, _JPEG_QUALITY]
-    data = _encoded(".jpg", frame.color[..., ::-1], options)
+def compressed_color(frame: SyntheticFrame, at: Header, quality: int = JPEG_QUALITY) -> CompressedImage:
+    """Give the colour image as image_transport's `compressed` sends it: JPEG, of a quality of 1 to 100."""
+    data = _encoded(".jpg", frame.color[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])
     return CompressedImage(header=at, format="rgb8; jpeg compressed bgr8", data=array("B", data))
 
 
