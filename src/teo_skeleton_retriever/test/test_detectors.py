@@ -47,6 +47,23 @@ def test_unknown_or_missing_option_is_answered_with_the_known_ones() -> None:
     assert code_of(make_detector, "openpose_json") == "bad_option"
 
 
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("openpose_json", {"folder": 5}),
+        ("openpose_json", {"folder": ".", "wait": "long"}),
+        ("openpose_json", {"folder": ".", "stamps": 3}),
+        ("openpose_json", {"folder": ".", "keypoint_scale": 1, "resolution": ["wide", 368]}),
+        ("openpose_onnx", {"model": "a.onnx", "net_resolution": 368}),
+        ("openpose_onnx", {"model": None}),
+        ("replay", {"frames": 7}),
+        ("mediapipe", {"hands": ["full"]}),
+    ],
+)
+def test_an_option_of_the_wrong_kind_is_told(name: str, options: dict[str, Any]) -> None:
+    assert code_of(make_detector, name, **options) == "bad_option"
+
+
 @pytest.mark.parametrize("value", [-0.1, 1.5, float("nan"), "high"])
 def test_confidence_outside_its_range_is_refused(value: object) -> None:
     assert code_of(make_detector, "mediapipe", min_detection_confidence=value) == "bad_option"

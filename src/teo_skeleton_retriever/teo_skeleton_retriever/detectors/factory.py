@@ -39,4 +39,9 @@ def make_detector(name: str, **options: object) -> Detector:
     except TypeError as error:
         known = ", ".join(inspect.signature(detector).parameters)
         raise DetectorError("bad_option", f"{name}: expected options among {known}; {error}") from error
-    return cast(Detector, detector(**options))
+    try:
+        return cast(Detector, detector(**options))
+    except (
+        TypeError
+    ) as error:  # options come from users, as JSON: a text where a number should be, and the like
+        raise DetectorError("bad_option", f"{name}: an option is of the wrong kind: {error}") from error

@@ -22,6 +22,10 @@ HAND_NETWORKS = ("full", "lite")
 class MediaPipeDetector:
     """Finds the most prominent person; follows them from image to image.
 
+    On rendered people of 640 x 480 it needs the head in the image, from about 1 m on, and found body and both
+    hands in the first image up to 5.5 m: no crop of small people is needed. A hand is lost while it points at
+    the camera.
+
     `detect` may be called from two threads at once, each with an image of its own: both are worked on
     together, which on two cores gives 1.5 times the images per second. A jump in time or in place needs
     nothing: a person who is no longer where they were is looked for anew in the same image.
