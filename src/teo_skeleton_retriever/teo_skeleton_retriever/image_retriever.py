@@ -41,6 +41,21 @@ class Retrieved:
     own_time: float
 
 
+@dataclass(frozen=True, eq=False)
+class Detected:
+    """What the detector saw in one image.
+
+    Attributes:
+        image: in which it looked.
+        people: whom it saw, in pixels.
+        time: what it took [s].
+    """
+
+    image: RgbdImage
+    people: tuple[Person2D, ...]
+    time: float
+
+
 class FrameRetriever(Protocol):
     """What follows people in space."""
 
@@ -66,7 +81,10 @@ def make_retriever(parameters: RetrieverParameters, compat: str) -> FrameRetriev
 
 
 class ImageRetriever:
-    """A detector and a retriever in a row. Not for several threads at once."""
+    """A detector and a retriever in a row.
+
+    `detect` may run in one thread while `follow` runs in another; neither in several.
+    """
 
     def __init__(self, detector: Detector, retriever: FrameRetriever) -> None:
         self._detector = detector
@@ -89,16 +107,24 @@ class ImageRetriever:
             RetrieverError: the detector cannot tell, or the parts do not fit together; the next image may be
                 given all the same.
         """
+        return self.follow(self.detect(image))
+
+    def detect(self, image: RgbdImage) -> Detected:
+        """Take one image, the first half; see `process`."""
         began = time.perf_counter()
         people = self._detector.detect(image.color, image.stamp)
-        detected = time.perf_counter()
+        return Detected(image, people, time.perf_counter() - began)
+
+    def follow(self, detected: Detected) -> Retrieved:
+        """Take one image, the second half; see `process`."""
+        began = time.perf_counter()
+        image, people = detected.image, detected.people
         skeletons = self._retriever.process(
             Frame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
         )
         self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
-        own = time.perf_counter() - detected
         share = float(np.count_nonzero(np.isfinite(image.depth)) / image.depth.size)
-        return Retrieved(people, skeletons, share, detected - began, own)
+        return Retrieved(people, skeletons, share, detected.time, time.perf_counter() - began)
 
     def close(self) -> None:
         """Release what the detector holds."""

@@ -1,19 +1,22 @@
-"""Skeletons as messages, and back."""
+"""Skeletons as messages, and back; pictures as messages."""
 
 from __future__ import annotations
 
 import math
+from array import array
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
+from sensor_msgs.msg import Image
 from std_msgs.msg import Header
 from teo_sign_msgs.msg import Keypoint3D, Skeleton3D, SkeletonArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.body_25 import BODY_25
 from teo_skeleton_retriever.body_frame import BodyFrame
+from teo_skeleton_retriever.color_image import ColorArray
 from teo_skeleton_retriever.face_70 import FACE_70
 from teo_skeleton_retriever.hand_21 import HAND_21
 from teo_skeleton_retriever.layout import Layout
@@ -36,6 +39,19 @@ def skeleton_array(skeletons: Sequence[Skeleton], header: Header) -> SkeletonArr
 def skeletons_of(message: SkeletonArray) -> tuple[Skeleton, ...]:
     """Read a message; a part that it leaves out is lost."""
     return tuple(_skeleton(skeleton) for skeleton in message.skeletons)
+
+
+def image_message(picture: ColorArray, header: Header) -> Image:
+    """A picture, RGB of shape (height, width, 3), as a message."""
+    height, width = picture.shape[:2]
+    return Image(
+        header=header,
+        height=height,
+        width=width,
+        encoding="rgb8",
+        step=3 * width,
+        data=array("B", picture.tobytes()),
+    )
 
 
 def _message(skeleton: Skeleton) -> Skeleton3D:

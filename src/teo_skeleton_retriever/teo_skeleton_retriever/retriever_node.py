@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import time
 import traceback
-from array import array
-from collections.abc import Callable, Sequence
-from queue import Empty, SimpleQueue
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from queue import SimpleQueue
 from typing import Any, NamedTuple
 
 import rclpy
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -22,23 +21,28 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
-from teo_skeleton_retriever.color_image import ColorArray
 from teo_skeleton_retriever.detectors import Detector, make_detector
-from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.diagnostics_publisher import DiagnosticsPublisher
+from teo_skeleton_retriever.errors import FrameError, RetrieverError
 from teo_skeleton_retriever.image_messages import camera_of, color_of, depth_of, stamp_of
-from teo_skeleton_retriever.image_retriever import FrameRetriever, ImageRetriever, Retrieved, make_retriever
+from teo_skeleton_retriever.image_retriever import (
+    Detected,
+    FrameRetriever,
+    ImageRetriever,
+    Retrieved,
+    make_retriever,
+)
 from teo_skeleton_retriever.markers import marker_array
-from teo_skeleton_retriever.messages import skeleton_array
+from teo_skeleton_retriever.messages import image_message, skeleton_array
 from teo_skeleton_retriever.newest_worker import NewestWorker
 from teo_skeleton_retriever.overlay import Overlay
 from teo_skeleton_retriever.parameters import (
     PARAMETERS,
-    Value,
     check_choices,
     detector_options_from,
     retriever_parameters_from,
 )
-from teo_skeleton_retriever.retriever_health import Health, Level, Problem, assess
+from teo_skeleton_retriever.retriever_health import Problem
 from teo_skeleton_retriever.rgbd_image import RgbdImage
 from teo_skeleton_retriever.stream_stats import Result, StreamStats
 from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
@@ -49,7 +53,6 @@ _CAMERA_INFO = "camera/color/camera_info"
 # fewer, a short delay would leave colour and depth of different times.
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
-_SAY_AGAIN = 5.0  # [s] after which a problem that goes on is logged again
 _SAME_CLOCK = (
     60.0  # [s] An image that seems older, or younger, was stamped by another clock: a bag is played.
 )
@@ -64,6 +67,12 @@ NOT_DUE = "not_due"
 class _Job(NamedTuple):
     pair: Pair
     arrived: float
+
+
+class _Followed(NamedTuple):
+    job: _Job
+    header: Header
+    detected: Detected
 
 
 class RetrieverNode(Node):
@@ -96,20 +105,19 @@ class RetrieverNode(Node):
         self._overlay = Overlay()
         self._camera_info: CameraInfo | None = None
         self._last_stamp: int | None = None
-        self._problem: Problem | None = None
-        self._said: dict[str, float] = {}
-        # What is asked of the retriever, which the worker alone may touch.
+        # What is asked of the retriever, which the follower alone may touch.
         self._orders: SimpleQueue[Callable[[ImageRetriever], None]] = SimpleQueue()
-        self._worker = NewestWorker(self._process, "retriever")
 
         self._skeletons = self.create_publisher(SkeletonArray, "skeletons", 10)
         self._markers = self.create_publisher(MarkerArray, "skeleton_markers", 10)
         self._pictures = self.create_publisher(Image, "overlay/image", 1)
-        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
+        self._follower = NewestWorker(self._follow, "follower")
+        self._worker = NewestWorker(self._detect, "detector")
         color = self._subscribe(_COLOR, str(values["color_transport"]), self._on_color)
         depth = self._subscribe(_DEPTH, str(values["depth_transport"]), self._on_depth)
         info = self.create_subscription(CameraInfo, _CAMERA_INFO, self._on_camera_info, _SENSOR)
         self._topics = {"color": color, "depth": depth, "camera_info": info.topic_name}
+        self._diagnostics = DiagnosticsPublisher(self, self._stats, self._topics)
         self.create_service(LockSigner, "lock_signer", self._on_lock_signer)
         self.create_timer(_DIAGNOSTICS_PERIOD, self._on_diagnostics)
         self.add_on_set_parameters_callback(self._check_parameters)
@@ -117,8 +125,9 @@ class RetrieverNode(Node):
         self.get_logger().info(f"{detector.name} waits for {', '.join(self._topics.values())}")
 
     def destroy_node(self) -> None:
-        """End the worker before the publishers that it uses."""
+        """End the threads before the publishers that they use."""
         self._worker.close()
+        self._follower.close()
         self._retriever.close()
         super().destroy_node()
 
@@ -151,46 +160,51 @@ class RetrieverNode(Node):
         last = self._last_stamp
         return last is None or stamp < last or stamp - last >= self._value("period") * 1e9
 
-    # In the worker's thread
+    # In a thread for the detector, and another for what comes after it: one image is followed while the next
+    # is looked at.
 
-    def _process(self, job: _Job) -> None:
-        while True:
-            try:
+    def _detect(self, job: _Job) -> None:
+        with self._problems():
+            info = self._camera_info
+            if info is None:
+                raise FrameError(
+                    NO_CAMERA_INFO, f"expected it on {self._topics['camera_info']}, got none so far"
+                )
+            pair = job.pair
+            image = RgbdImage(
+                stamp=pair.stamp * 1e-9,
+                color=color_of(pair.color),
+                depth=depth_of(pair.depth),
+                camera=camera_of(info, rectified=self._value("rectified")),
+            )
+            frame_id = pair.color.header.frame_id or info.header.frame_id
+            header = Header(stamp=pair.color.header.stamp, frame_id=frame_id)
+            self._follower.hand_over(_Followed(job, header, self._retriever.detect(image)))
+
+    def _follow(self, followed: _Followed) -> None:
+        with self._problems():
+            while not self._orders.empty():
                 self._orders.get_nowait()(self._retriever)
-            except Empty:
-                break
+            result, header = self._retriever.follow(followed.detected), followed.header
+            self._skeletons.publish(skeleton_array(result.skeletons, header))
+            self._count(followed.job, result)
+            if self._markers.get_subscription_count():
+                self._markers.publish(marker_array(result.skeletons, header))
+            if self._pictures.get_subscription_count():
+                picture = self._overlay.draw(followed.detected.image, result)
+                self._pictures.publish(image_message(picture, header))
+
+    @contextmanager
+    def _problems(self) -> Iterator[None]:
+        """Leave an image out, whatever is wrong with it; the next one gets its chance."""
         try:
-            self._retrieve(job)
+            yield
         except Exception as error:
-            # Whatever is in a message, the next image gets its chance.
+            if not self.context.ok():
+                return  # told to end in the middle of it
             problem = Problem.of(error)
             self._stats.drop(problem.code)
-            self._report(problem, traceback.format_exc() if problem.code == "internal" else "")
-
-    def _retrieve(self, job: _Job) -> None:
-        info = self._camera_info
-        if info is None:
-            topic = self._topics["camera_info"]
-            self._stats.drop(NO_CAMERA_INFO)
-            self._report(Problem(NO_CAMERA_INFO, f"expected a camera_info on {topic}, got none so far"))
-            return
-        pair = job.pair
-        image = RgbdImage(
-            stamp=pair.stamp * 1e-9,
-            color=color_of(pair.color),
-            depth=depth_of(pair.depth),
-            camera=camera_of(info, rectified=self._value("rectified")),
-        )
-        result = self._retriever.process(image)
-        header = Header(
-            stamp=pair.color.header.stamp, frame_id=pair.color.header.frame_id or info.header.frame_id
-        )
-        self._skeletons.publish(skeleton_array(result.skeletons, header))
-        self._count(job, result)
-        if self._markers.get_subscription_count():
-            self._markers.publish(marker_array(result.skeletons, header))
-        if self._pictures.get_subscription_count():
-            self._pictures.publish(_image_message(self._overlay.draw(image, result), header))
+            self._diagnostics.report(problem, traceback.format_exc() if problem.code == "internal" else "")
 
     def _count(self, job: _Job, result: Retrieved) -> None:
         now = time.monotonic()
@@ -208,49 +222,14 @@ class RetrieverNode(Node):
             )
         )
 
-    def _report(self, problem: Problem, details: str = "") -> None:
-        """Note a problem for the next diagnostics; tell it at once unless it was told just now."""
-        self._problem = problem
-        now = time.monotonic()
-        if now - self._said.get(problem.code, -_SAY_AGAIN) < _SAY_AGAIN:
-            return
-        self._said[problem.code] = now
-        sentence = f"image left out, {problem.code}: {problem.sentence}"
-        if details:
-            self.get_logger().error(f"{sentence}\n{details}")
-        else:
-            self.get_logger().warning(sentence)
-        self._publish_diagnostics(problem)
-
     # In the executor's thread again
 
     def _on_diagnostics(self) -> None:
-        self._note_unmatched()
-        problem, self._problem = self._problem, None
-        health = self._publish_diagnostics(problem)
-        if health.level is not Level.OK and problem is None:
-            self.get_logger().warning(health.message, throttle_duration_sec=_SAY_AGAIN)
-
-    def _publish_diagnostics(self, problem: Problem | None) -> Health:
-        health = assess(self._stats.report(time.monotonic()), self._topics, problem)
-        status = DiagnosticStatus(
-            level=bytes([health.level]),
-            name=f"{self.get_name()}: images",
-            message=health.message,
-            hardware_id="none",
-            values=[KeyValue(key=key, value=value) for key, value in health.values.items()],
-        )
-        message = DiagnosticArray(status=[status])
-        message.header.stamp = self.get_clock().now().to_msg()
-        self._diagnostics.publish(message)
-        return health
-
-    def _note_unmatched(self) -> None:
-        """Bring what the synchroniser dropped into the statistics."""
         dropped = self._synchroniser.dropped
         for reason, count in dropped.items():
             self._stats.drop(reason, count)
         dropped.clear()
+        self._diagnostics.publish()
 
     def _on_lock_signer(
         self, request: LockSigner.Request, response: LockSigner.Response
@@ -280,27 +259,15 @@ class RetrieverNode(Node):
         retriever = self._make_retriever(self._values())
         self._orders.put(lambda images: images.replace(retriever))
 
-    def _make_retriever(self, values: dict[str, Value]) -> FrameRetriever:
+    def _make_retriever(self, values: dict[str, Any]) -> FrameRetriever:
         parameters = retriever_parameters_from(values, self._detector_name)
         return make_retriever(parameters, str(values["compat"]))
 
-    def _values(self) -> dict[str, Value]:
+    def _values(self) -> dict[str, Any]:
         return {row.name: self._value(row.name) for row in PARAMETERS}
 
     def _value(self, name: str) -> Any:
         return self.get_parameter(name).value
-
-
-def _image_message(picture: ColorArray, header: Header) -> Image:
-    height, width = picture.shape[:2]
-    return Image(
-        header=header,
-        height=height,
-        width=width,
-        encoding="rgb8",
-        step=3 * width,
-        data=array("B", picture.tobytes()),
-    )
 
 
 def main(arguments: list[str] | None = None) -> None:
