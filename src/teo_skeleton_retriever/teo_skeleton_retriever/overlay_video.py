@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from fractions import Fraction
 from pathlib import Path
 from types import TracebackType
@@ -12,7 +11,7 @@ import av
 import cv2
 
 from teo_skeleton_retriever.color_image import ColorArray
-from teo_skeleton_retriever.errors import OutputError
+from teo_skeleton_retriever.output_file import temporary_for
 
 _TICKS = 1000  # in a second: a film's times are whole milliseconds
 _LONGEST_GAP = 2.0  # [s] a longer gap between images, or a stamp set back, is not sat through
@@ -30,12 +29,8 @@ class OverlayVideo:
         Raises:
             OutputError: there is no such folder, or the name does not end in .mp4.
         """
-        if path.suffix != ".mp4":
-            raise OutputError("bad_name", f"expected a name that ends in .mp4, got {path.name}")
-        if not path.parent.is_dir():
-            raise OutputError("missing_folder", f"expected a folder for {path.name}, got {path.parent}")
         self._path = path
-        self._temporary = path.with_name(f".{path.name}.{os.getpid()}")
+        self._temporary = temporary_for(path, ".mp4")
         self._container: Any = None
         self._stream: Any = None
         self._start = 0.0

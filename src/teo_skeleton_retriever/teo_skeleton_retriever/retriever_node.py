@@ -21,6 +21,7 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
+from teo_skeleton_retriever.camera_topics import CAMERA_INFO, COLOR, DEPTH
 from teo_skeleton_retriever.detectors import Detector, make_detector
 from teo_skeleton_retriever.diagnostics_publisher import DiagnosticsPublisher
 from teo_skeleton_retriever.errors import FrameError, RetrieverError
@@ -47,8 +48,6 @@ from teo_skeleton_retriever.rgbd_image import RgbdImage
 from teo_skeleton_retriever.stream_stats import Result, StreamStats
 from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
 
-_COLOR, _DEPTH = "camera/color/image_raw", "camera/aligned_depth_to_color/image_raw"
-_CAMERA_INFO = "camera/color/camera_info"
 # Best effort: a lost image is not worth waiting for. Five, as in rmw's profile for sensors: with
 # fewer, a short delay would leave colour and depth of different times.
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -113,9 +112,9 @@ class RetrieverNode(Node):
         self._pictures = self.create_publisher(Image, "overlay/image", 1)
         self._follower = NewestWorker(self._follow, "follower")
         self._worker = NewestWorker(self._detect, "detector")
-        color = self._subscribe(_COLOR, str(values["color_transport"]), self._on_color)
-        depth = self._subscribe(_DEPTH, str(values["depth_transport"]), self._on_depth)
-        info = self.create_subscription(CameraInfo, _CAMERA_INFO, self._on_camera_info, _SENSOR)
+        color = self._subscribe(COLOR, str(values["color_transport"]), self._on_color)
+        depth = self._subscribe(DEPTH, str(values["depth_transport"]), self._on_depth)
+        info = self.create_subscription(CameraInfo, CAMERA_INFO, self._on_camera_info, _SENSOR)
         self._topics = {"color": color, "depth": depth, "camera_info": info.topic_name}
         self._diagnostics = DiagnosticsPublisher(self, self._stats, self._topics)
         self.create_service(LockSigner, "lock_signer", self._on_lock_signer)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from io import BufferedWriter
 from pathlib import Path
 from types import TracebackType
@@ -13,7 +12,7 @@ from mcap.writer import CompressionType, Writer
 from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from teo_skeleton_retriever.errors import OutputError
+from teo_skeleton_retriever.output_file import temporary_for
 
 TOPIC = "/skeletons"
 _TYPE = "teo_sign_msgs/msg/SkeletonArray"
@@ -32,12 +31,8 @@ class SkeletonBag:
         Raises:
             OutputError: there is no such folder, or the name does not end in .mcap.
         """
-        if path.suffix != ".mcap":
-            raise OutputError("bad_name", f"expected a name that ends in .mcap, got {path.name}")
-        if not path.parent.is_dir():
-            raise OutputError("missing_folder", f"expected a folder for {path.name}, got {path.parent}")
         self._path = path
-        self._temporary = path.with_name(f".{path.name}.{os.getpid()}")
+        self._temporary = temporary_for(path, ".mcap")
         self._stream: BufferedWriter | None = None
 
     def __enter__(self) -> Self:

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from teo_skeleton_retriever.bag_reader import Bag
+from teo_skeleton_retriever.camera_topics import CAMERA_INFO, COLOR, DEPTH
 from teo_skeleton_retriever.errors import BagError
 from teo_skeleton_retriever.image_messages import shows_depth
-
-COLOR, DEPTH = "camera/color/image_raw", "camera/aligned_depth_to_color/image_raw"
-CAMERA_INFO = "camera/color/camera_info"
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _TRANSPORTS = ("compressed", "compressedDepth")

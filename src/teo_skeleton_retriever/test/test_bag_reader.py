@@ -14,7 +14,7 @@ from teo_skeleton_retriever.errors import BagError
 from teo_skeleton_retriever.image_messages import color_of, stamp_of
 from teo_skeleton_retriever.topic_choice import choose_topics
 
-IMAGES = 12
+IMAGES = 6
 SLOP = 10**7
 
 
