@@ -5,7 +5,7 @@ Every keypoint lies on its viewing ray; its depth minimises the sum of
 - the misfit of each bone to its length, which grows with the person,
 - the misfit of each bone's step in depth to the shape that the detector imagines (MediaPipe's world
   landmarks), scaled to the hand,
-- the misfit of the whole to where the wrist is by the arm, which counts where nothing is measured.
+- the misfit of the wrist to where it is by the arm, which counts where nothing is measured.
 """
 
 from __future__ import annotations
@@ -20,11 +20,10 @@ from teo_skeleton_retriever.hand_21 import HAND_21
 from teo_skeleton_retriever.skin import HAND_DEPTHS
 
 N = len(HAND_21)
-PARENTS = np.array([-1, *(0 if i % 4 == 1 else i - 1 for i in range(1, N))])
-"""The keypoint at the other end of each one's bone; -1 for the wrist."""
-BONES = np.array(
+_CHILD = np.arange(1, N)
+_PARENT = np.array([0 if i % 4 == 1 else i - 1 for i in range(1, N)])
+BONES: FloatArray = np.array(
     [
-        0.0,
         *(0.040, 0.042, 0.032, 0.026),  # thumb
         *(0.091, 0.041, 0.025, 0.020),
         *(0.088, 0.045, 0.028, 0.021),
@@ -32,158 +31,190 @@ BONES = np.array(
         *(0.078, 0.033, 0.020, 0.018),
     ]
 )
-"""[m] Length of the bone that ends at each keypoint, of an average adult, tips at the pads' centres.
-Source: phalanges after Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""
+"""[m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
+the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""
 
 _BONE_SIGMA = 0.006  # [m] people's proportions differ, and a pixel is 2 to 3 mm
 _SHAPE_SIGMA = 0.012  # [m] the detector's imagination of a bone's step in depth
 _FLAT_SIGMA = 0.03  # [m] without it: a hand is about across the view
 _DATA_SIGMA = 0.006  # [m] how far the skin of a finger differs from a tube
 _OUTLIER = 0.02  # [m] beyond it a measured surface is another's: two fingers' thickness
-_NARROWING = (0.12, 0.06, 0.03, 0.02, 0.02)
+_NARROWING = (0.12, 0.06, 0.03, 0.02)
 """[m] The same, from step to step of the solution: from half a hand, so that a shape imagined wrongly is put
 right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
-_ANCHOR_SIGMA = 0.03  # [m]
+_ANCHOR_SIGMA = 0.03  # [m] of the wrist's depth by the arm, as far as the hand is concerned
+_EXPECTED_SIGMA = 0.15  # [m] how far a hand moves in depth from image to image, and more
+_IMAGINED = 2.0  # errors over sigma of what follows from the shape alone, on rendered people
+_CERTAIN = 10  # measured keypoints that agree on the hand's shape: half of them
+_FINGER = 0.012  # [m] less than the thickness of a finger with its skin
+_LAYER_WEIGHTS = np.array([1.0, 0.5, 0.25])
+
+
+class HandView(NamedTuple):
+    """What one image shows of a hand."""
+
+    rays: FloatArray
+    """x/z, y/z; NaN where the detector did not see the keypoint. Shape (21, 2)"""
+    surfaces: Surfaces
+    """measured around each keypoint"""
+    world: FloatArray | None
+    """what the detector imagines of the shape [m]. Shape (21, 3), or None"""
+    expected: float
+    """depth of the hand by the images before [m]; NaN if there were none"""
+    wrist: float
+    """depth of the wrist's joint by the arm [m]; NaN if not known"""
 
 
 class HandFit(NamedTuple):
-    """The depths of a hand."""
+    """A hand in space."""
 
-    depths: FloatArray
-    """[m]. Shape (21,)"""
+    points: FloatArray
+    """its keypoints [m]. Shape (21, 3)"""
     sigma: FloatArray
-    """standard deviations [m]. Shape (21,)"""
+    """standard deviations of their depths [m]. Shape (21,)"""
     measured: BoolArray
     """keypoints whose own surface was measured; the others follow from the shape. Shape (21,)"""
 
+    @property
+    def certain(self) -> bool:
+        """Whether so much was measured that nothing hides the hand as a whole."""
+        return int(self.measured.sum()) >= _CERTAIN
 
-def fit_hand(
-    rays: FloatArray,
-    surfaces: Surfaces,
-    *,
-    scale: float,
-    world: FloatArray | None,
-    expected: float,
-    wrist: float,
-) -> HandFit | None:
-    """Find the depths of a hand.
+
+def fit_hands(hands: list[HandView], scale: float) -> list[HandFit | None]:
+    """Find the depths of hands, all at once for the time it takes.
 
     Args:
-        rays: x/z, y/z; NaN where the detector did not see the keypoint. Shape (21, 2).
-        surfaces: measured around each keypoint.
+        hands: in one image.
         scale: of the person against an average adult.
-        world: what the detector imagines of the shape [m]. Shape (21, 3), or None.
-        expected: depth of the hand by the images before [m]; NaN if there were none.
-        wrist: depth of the wrist's joint by the arm [m]; NaN if not known.
 
     Returns:
-        None if too little is seen to tell anything.
+        One for each hand; None if too little of it is seen to tell anything.
     """
-    seen: BoolArray = np.asarray(np.isfinite(rays).all(axis=1))
+    radius = HAND_DEPTHS * scale
+    starts = [_start(hand, radius, scale) for hand in hands]
+    usable = [(hand, start) for hand, start in zip(hands, starts, strict=True) if start is not None]
+    if not usable:
+        return [None] * len(hands)
+    fits = iter(_solve([hand for hand, _ in usable], [start for _, start in usable], radius, scale))
+    return [None if start is None else next(fits) for start in starts]
+
+
+class _Start(NamedTuple):
+    depths: FloatArray
+    steps: FloatArray
+    step_sigma: float
+    anchor: float
+
+
+def _start(hand: HandView, radius: FloatArray, scale: float) -> _Start | None:
+    seen = np.isfinite(hand.rays[:, 0])
     if seen.sum() < N // 2:
         return None
-    radius = HAND_DEPTHS * scale
-    steps, step_sigma = _steps(rays, world, scale)
-    offsets = _accumulate(steps)
-    centre = _centre(surfaces, radius, offsets, expected if np.isfinite(expected) else wrist)
-    if not np.isfinite(centre):
+    steps, sigma = _steps(hand, scale)
+    offsets = np.append(0.0, np.cumsum(steps.reshape(5, 4), axis=1).ravel())
+    wrist = _wrist_depth(hand, radius, offsets)
+    if not np.isfinite(wrist):
         return None
-    depths = centre + offsets
-    anchor = wrist if np.isfinite(wrist) else centre
-    data = Surfaces(*(array[seen] for array in surfaces))
-    normal = np.zeros((N, N))
-    weights = np.zeros(N)
-    for outlier in _NARROWING:
-        chosen = data.closest((depths - radius)[seen])
-        target = np.full(N, np.nan)
-        sigma = np.full(N, np.inf)
-        target[seen] = chosen.depth + radius[seen]
-        sigma[seen] = np.hypot(chosen.sigma, _DATA_SIGMA)
-        residual = np.nan_to_num(target - depths)
-        weights = np.where(np.isfinite(target), 1.0 / sigma**2 / (1.0 + (residual / outlier) ** 2) ** 2, 0.0)
-        normal, right = _normal_equations(depths, rays, steps, step_sigma, scale, seen)
-        normal[np.diag_indices(N)] += weights
-        right += weights * residual
-        normal[0, 0] += 1.0 / _ANCHOR_SIGMA**2
-        right[0] += (anchor - depths[0]) / _ANCHOR_SIGMA**2
-        depths = depths + np.linalg.solve(normal, right)
-    spread = np.sqrt(np.diag(np.linalg.inv(normal)))
-    believed = weights * _DATA_SIGMA**2 > 0.1
-    return HandFit(depths, spread, believed)
+    return _Start(wrist + offsets, steps, sigma, hand.wrist if np.isfinite(hand.wrist) else wrist)
 
 
-def _steps(rays: FloatArray, world: FloatArray | None, scale: float) -> tuple[FloatArray, FloatArray]:
-    """Give the step in depth along each bone by the imagined shape, and its sigma [m]. Shapes (21,)."""
-    if world is None:
-        return np.zeros(N), np.full(N, _FLAT_SIGMA)
-    bones = world[1:] - world[PARENTS[1:]]
-    lengths = np.linalg.norm(bones, axis=1)
-    size = scale * float(BONES[1:].sum()) / max(float(lengths.sum()), 1e-6)
-    # The detector sees a crop around the hand as if the camera looked straight at it.
-    centre = np.append(np.nanmean(rays, axis=0), 1.0)
-    turned = bones @ _towards(centre / np.linalg.norm(centre)).T
-    return np.append(0.0, size * turned[:, 2]), np.full(N, _SHAPE_SIGMA)
-
-
-def _towards(direction: FloatArray) -> FloatArray:
-    """Give the shortest rotation that brings the optical axis to a direction (Rodrigues). Shape (3, 3)."""
-    x, y, z = direction
-    return np.array(
-        [
-            [1.0 - x * x / (1.0 + z), -x * y / (1.0 + z), x],
-            [-x * y / (1.0 + z), 1.0 - y * y / (1.0 + z), y],
-            [-x, -y, z],
-        ]
+def _solve(hands: list[HandView], starts: list[_Start], radius: FloatArray, scale: float) -> list[HandFit]:
+    k = len(hands)
+    bends = np.concatenate([np.stack([h.rays for h in hands]), np.ones((k, N, 1))], axis=2)
+    seen = np.isfinite(bends[..., 0])
+    bends = np.where(seen[..., None], bends, 0.0)
+    depths = np.stack([start.depths for start in starts])
+    steps = np.stack([start.steps for start in starts])
+    step_weight = np.array([1.0 / start.step_sigma for start in starts])[:, None]
+    bone_weight = np.where(seen[:, _CHILD] & seen[:, _PARENT], 1.0 / _BONE_SIGMA, 0.0)
+    slope = np.zeros((k, 2 * (N - 1), N))  # of the misfits of bones, then of steps
+    bone_row, step_row = _CHILD - 1, _CHILD + N - 2
+    slope[:, step_row, _CHILD], slope[:, step_row, _PARENT] = step_weight, -step_weight
+    surfaces = Surfaces(
+        *(np.concatenate(arrays) for arrays in zip(*(h.surfaces for h in hands), strict=True))
     )
+    anchor = np.array([start.anchor for start in starts])
+    normal, weight = np.zeros((k, N, N)), np.zeros((k, N))
+    diagonal = np.arange(N)
+    for outlier in _NARROWING:
+        chosen = surfaces.closest((depths - radius).ravel())
+        off = chosen.depth.reshape(k, N) + radius - depths
+        known = np.isfinite(off)
+        off = np.where(known, off, 0.0)
+        certain = 1.0 / (np.where(known, chosen.sigma.reshape(k, N), 1.0) ** 2 + _DATA_SIGMA**2)
+        weight = np.where(known & seen, certain, 0.0) / (1.0 + (off / outlier) ** 2) ** 2
+        weight[_hidden(bends, depths)] = 0.0
+        bones = bends[:, _CHILD] * depths[:, _CHILD, None] - bends[:, _PARENT] * depths[:, _PARENT, None]
+        lengths = np.sqrt((bones * bones).sum(axis=2)) + 1e-9
+        unit = bones * (bone_weight / lengths)[..., None]
+        slope[:, bone_row, _CHILD] = (unit * bends[:, _CHILD]).sum(axis=2)
+        slope[:, bone_row, _PARENT] = -(unit * bends[:, _PARENT]).sum(axis=2)
+        missed = np.concatenate(
+            [
+                (lengths - scale * BONES) * bone_weight,
+                (depths[:, _CHILD] - depths[:, _PARENT] - steps) * step_weight,
+            ],
+            axis=1,
+        )
+        turned = slope.transpose(0, 2, 1)
+        normal = turned @ slope
+        normal[:, diagonal, diagonal] += weight
+        normal[:, 0, 0] += 1.0 / _ANCHOR_SIGMA**2
+        right = weight * off - (turned @ missed[..., None])[..., 0]
+        right[:, 0] += (anchor - depths[:, 0]) / _ANCHOR_SIGMA**2
+        depths = depths + np.linalg.solve(normal, right[..., None])[..., 0]
+    sigma = np.sqrt(np.linalg.inv(normal)[:, diagonal, diagonal])
+    believed = weight * _DATA_SIGMA**2 > 0.1
+    sigma[~believed] *= _IMAGINED
+    points = bends * depths[..., None]
+    points[~seen] = np.nan
+    return [HandFit(points[i], sigma[i], believed[i]) for i in range(k)]
 
 
-def _accumulate(steps: FloatArray) -> FloatArray:
-    """Sum steps from the wrist outwards. Shape (21,)."""
-    fingers = np.cumsum(steps[1:].reshape(5, 4), axis=1)
-    return np.append(0.0, fingers.ravel())
+def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
+    """Tell which keypoints are behind another part of their hand, which is seen there. Shape (k, 21)."""
+    points = bends * depths[..., None]
+    parts = np.concatenate([points, (points[:, _CHILD] + points[:, _PARENT]) / 2.0], axis=1)
+    away = parts[:, None, :, :] - points[:, :, None, :]
+    beside = away[..., 0] ** 2 + away[..., 1] ** 2 < _FINGER**2
+    hidden: BoolArray = np.asarray((beside & (away[..., 2] < -_FINGER)).any(axis=2))
+    return hidden
 
 
-def _centre(surfaces: Surfaces, radius: FloatArray, offsets: FloatArray, expected: float) -> float:
+def _steps(hand: HandView, scale: float) -> tuple[FloatArray, float]:
+    """Give the step in depth along each bone by the imagined shape, and their sigma [m]. Shape (20,)."""
+    if hand.world is None:
+        return np.zeros(N - 1), _FLAT_SIGMA
+    bones = hand.world[_CHILD] - hand.world[_PARENT]
+    size = scale * float(BONES.sum()) / max(float(np.sqrt((bones**2).sum(axis=1)).sum()), 1e-6)
+    # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
+    towards = np.append(np.nanmean(hand.rays, axis=0), 1.0)
+    steps: FloatArray = size * (bones @ _turned(towards / np.linalg.norm(towards)))
+    return steps, _SHAPE_SIGMA
+
+
+def _turned(direction: FloatArray) -> FloatArray:
+    """Give what the shortest rotation that brings the optical axis to a direction makes of z. Shape (3,)."""
+    return np.array([-direction[0], -direction[1], direction[2]])
+
+
+def _wrist_depth(hand: HandView, radius: FloatArray, offsets: FloatArray) -> float:
     """Give the depth of the wrist that most measured keypoints agree on [m]; NaN if none is measured."""
-    votes = (surfaces.depth + (radius - offsets)[:, None]).ravel()
-    votes = votes[np.isfinite(votes)]
+    expected = hand.expected if np.isfinite(hand.expected) else hand.wrist
+    votes = (hand.surfaces.depth + (radius - offsets)[:, None]).ravel()
+    # The nearest surface is the hand's more likely than one behind it, and a whole one than a piece.
+    weights = (hand.surfaces.support * _LAYER_WEIGHTS).ravel()
+    known = np.isfinite(votes)
+    votes, weights = votes[known], weights[known]
     if not len(votes):
         return float(expected)
-    agreeing = (np.abs(votes[:, None] - votes[None, :]) < _OUTLIER).sum(axis=1)
+    order = np.argsort(votes)
+    votes, summed = votes[order], np.append(0.0, np.cumsum(weights[order]))
+    ends = np.searchsorted(votes, votes + 2.0 * _OUTLIER)
+    agreeing = summed[ends] - summed[:-1]
     if np.isfinite(expected):
-        # Two surfaces that are as large: the one where the hand is thought to be.
-        agreeing = agreeing * np.exp(-0.5 * ((votes - expected) / 0.15) ** 2)
-    best = votes[np.argmax(agreeing)]
-    return float(np.median(votes[np.abs(votes - best) < _OUTLIER]))
-
-
-def _normal_equations(
-    depths: FloatArray,
-    rays: FloatArray,
-    steps: FloatArray,
-    step_sigma: FloatArray,
-    scale: float,
-    seen: BoolArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Give matrix and right side of a Gauss-Newton step for bones and shape. Shapes (21, 21), (21,)."""
-    child, parent = np.arange(1, N), PARENTS[1:]
-    directions = np.column_stack([np.nan_to_num(rays), np.ones(N)])
-    bones = directions[child] * depths[child, None] - directions[parent] * depths[parent, None]
-    lengths = np.sqrt((bones**2).sum(axis=1)) + 1e-9
-    both = seen[child] & seen[parent]
-    misfit = lengths - scale * BONES[1:]
-    weight = np.where(both, 1.0 / _BONE_SIGMA**2, 0.0)
-    by_child = (bones * directions[child]).sum(axis=1) / lengths
-    by_parent = -(bones * directions[parent]).sum(axis=1) / lengths
-    jump = depths[child] - depths[parent] - steps[1:]
-    shape = 1.0 / step_sigma[1:] ** 2
-    normal = np.zeros((N, N))
-    normal[child, child] += weight * by_child**2 + shape
-    np.add.at(normal, (parent, parent), weight * by_parent**2 + shape)
-    cross = weight * by_child * by_parent - shape
-    normal[child, parent] += cross
-    normal[parent, child] += cross
-    right = np.zeros(N)
-    right[child] -= weight * misfit * by_child + shape * jump
-    np.add.at(right, parent, -weight * misfit * by_parent + shape * jump)
-    return normal, right
+        # Of two surfaces the one where the hand is thought to be, unless the other is much larger.
+        agreeing *= np.exp(-0.5 * np.clip((votes - expected) / _EXPECTED_SIGMA, -1.5, 1.5) ** 2)
+    best = int(np.argmax(agreeing))
+    return float(votes[(best + ends[best] - 1) // 2])

@@ -18,7 +18,7 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 
 _FORGET = 0.15  # [s] over which surprise is averaged: a stroke of a sign takes 0.2 s
 _CALM, _WILD = 0.02, 4.0  # share and multiple of the usual acceleration between which it is adapted
-_GATE = 5.0  # [sigma] a depth farther off is an outlier,
+_GATE = 5.0  # [sigma] what is farther off is an outlier,
 _PATIENCE = 2  # unless so many images in a row say so
 _STOPPING = 0.15  # [s] in which a keypoint that is not seen is thought to come to rest
 _FIRST_SPEED = 1.0  # [m/s] standard deviation of the velocity of a keypoint just seen
@@ -37,6 +37,12 @@ class FilterOutput(NamedTuple):
     """time since the image it was last seen in [s]; infinite if never. Shape (n,)"""
     fresh: BoolArray
     """whether direction and depth are measured in this image. Shape (n,)"""
+
+    def part(self, rows: slice) -> FilterOutput:
+        """Keep some of the keypoints."""
+        return FilterOutput(
+            self.rays[rows], self.depth[rows], self.sigma[rows], self.age[rows], self.fresh[rows]
+        )
 
 
 class KeypointFilter:
@@ -60,7 +66,7 @@ class KeypointFilter:
         self._covariance = np.zeros((3, n, 3))  # of values; of values and velocities; of velocities
         self._surprise = np.ones((n, 3))
         self._seen = np.full(n, -np.inf)
-        self._doubts = np.zeros(n, dtype=np.int64)
+        self._doubts = np.zeros((2, n), dtype=np.int64)  # images in a row of directions and of depths
         self._time: float | None = None
 
     @property
@@ -73,6 +79,25 @@ class KeypointFilter:
         """Tell what is expected at a time [s], which is not before the last. Changes nothing."""
         state, covariance = self._advanced(time)
         return self._output(state, covariance, time, np.zeros(len(self._seen), dtype=bool))
+
+    def believable(self, time: float, rays: FloatArray, across: FloatArray) -> BoolArray:
+        """Tell which keypoints can be where they were seen: a jump is not believed at first. Once an image.
+
+        Args:
+            time: of the image [s].
+            rays: x/z, y/z; NaN where not seen. Shape (n, 2).
+            across: standard deviation of each across the ray [m]. Shape (n,).
+        """
+        state, covariance = self._advanced(time)
+        with np.errstate(invalid="ignore"):
+            gate = _GATE * np.hypot(np.sqrt(covariance[0, :, :2]), (across * self._scale()[:, 0])[:, None])
+            doubtful = (np.abs(rays - state[0, :, :2]) > gate).any(axis=1)
+        self._doubts[0] = np.where(doubtful, self._doubts[0] + 1, 0)
+        jumped = self._doubts[0] > _PATIENCE
+        self._state[:, jumped] = np.nan  # begins anew there
+        self._doubts[0, jumped] = 0
+        believed: BoolArray = ~doubtful | jumped
+        return believed
 
     def step(self, time: float, values: FloatArray, sigma: FloatArray) -> FilterOutput:
         """Take one image.
@@ -123,10 +148,10 @@ class KeypointFilter:
         with np.errstate(invalid="ignore"):
             off = np.abs(values[:, 2] - self._state[0, :, 2])
             doubtful = off > _GATE * np.sqrt(self._covariance[0, :, 2] + sigma[:, 2] ** 2)
-        self._doubts = np.where(doubtful, self._doubts + 1, 0)
-        jumped = self._doubts > _PATIENCE
+        self._doubts[1] = np.where(doubtful, self._doubts[1] + 1, 0)
+        jumped = self._doubts[1] > _PATIENCE
         self._state[0, jumped, 2] = np.nan  # begins anew with this measurement
-        self._doubts[jumped] = 0
+        self._doubts[1, jumped] = 0
         outliers: BoolArray = doubtful & ~jumped
         return outliers
 

@@ -2,27 +2,48 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.body_estimator import ARMS, BodyEstimator
+from teo_skeleton_retriever.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.body_layouts import as_body_25
+from teo_skeleton_retriever.body_size import BodySize
 from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.detected import Detected, detected
+from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
 from teo_skeleton_retriever.face_70 import FACE_70
-from teo_skeleton_retriever.face_estimator import FaceEstimator
+from teo_skeleton_retriever.face_depth import FaceDepths, face_depths
+from teo_skeleton_retriever.filtered import keypoints_of
 from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.hand_21 import HAND_21
-from teo_skeleton_retriever.hand_estimator import HandEstimator, supported
-from teo_skeleton_retriever.hand_fit import HandFit
+from teo_skeleton_retriever.hand_fit import HandFit, HandView, fit_hands
+from teo_skeleton_retriever.hand_joints import mediapipe_joints
+from teo_skeleton_retriever.keypoint_filter import FilterOutput, KeypointFilter
 from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.person_layout import (
+    ACCELERATION,
+    ACROSS,
+    ARMS,
+    BIAS,
+    BODY,
+    FACE,
+    HANDS,
+    JUMP,
+    LEFT_HAND,
+    PIXEL,
+    RIGHT_HAND,
+    ROW,
+    N,
+)
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.skeleton_3d import Keypoints3D
+from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus
+from teo_skeleton_retriever.skin import HAND_DEPTHS
 
-_HEAD = [BODY_25.index[name] for name in ("Nose", "REye", "LEye")]
+_HEAD = [ROW[name] for name in ("Nose", "REye", "LEye")]
+_CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
+_ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
 
 
 class PersonParts(NamedTuple):
@@ -39,12 +60,19 @@ class PersonEstimator:
 
     def __init__(self, parameters: RetrieverParameters) -> None:
         self._parameters = parameters
-        self._body = BodyEstimator(parameters)
-        self._hands = {side: HandEstimator(parameters) for side in ARMS}
-        self._face = FaceEstimator(parameters)
-        self._lookup = DepthLookup(
-            radius=0.008, gap=0.03, nearest=parameters.min_depth, farthest=parameters.max_depth
+        self._size = BodySize()
+        self._body = BodyDepth(parameters)
+        limits = {"nearest": parameters.min_depth, "farthest": parameters.max_depth}
+        self._hand_lookup = DepthLookup(radius=0.008, gap=0.03, **limits)
+        self._face_lookup = DepthLookup(radius=0.01, gap=0.05, **limits)
+        self._filter = KeypointFilter(
+            N,
+            acceleration=ACCELERATION,
+            hold_time=parameters.hold_time,
+            smoothing=parameters.smoothing,
         )
+        self._confidence = np.zeros(N)
+        self._from_wrist = np.full((N, 3), np.nan)  # of the hands' keypoints, as last seen [m]
 
     def step(self, frame: Frame, person: Person2D, distance: float) -> PersonParts:
         """Take one image.
@@ -54,57 +82,147 @@ class PersonEstimator:
             person: who was seen in it.
             distance: of the person along the optical axis [m].
         """
-        least = self._parameters.min_confidence
-        body = detected(as_body_25(person.body), len(BODY_25), frame.camera, least)
-        seen = {
-            side: detected(keypoints, len(HAND_21), frame.camera, least)
-            for side, keypoints in (("R", person.right_hand), ("L", person.left_hand))
-        }
-        expected = self._body.expected(frame.stamp)
-        fits = self._fit_hands(frame, person, seen, expected[:, 2], distance)
-        wrists = {
-            side: (float(fit.depths[0]), float(fit.sigma[0]))
-            for side, fit in fits.items()
-            if fit is not None and supported(fit)
-        }
-        done = self._body.step(frame, body, distance=distance, wrists=wrists)
-        hands = {}
-        for side, hand in self._hands.items():
-            wrist = done.keypoints.points[ARMS[side][2]]
-            fit = fits[side]
-            if fit is not None and side in done.wrists:
-                fit = fit._replace(depths=fit.depths + done.wrists[side] - fit.depths[0])
-            hands[side] = hand.step(frame.stamp, seen[side], fit, wrist=wrist, focal=frame.camera.fx)
-        face = detected(person.face, len(FACE_70), frame.camera, least)
-        head = done.keypoints.points[_HEAD, 2]
-        depth = float(np.nanmean(head)) if np.isfinite(head).any() else float("nan")
-        return PersonParts(done.keypoints, hands["L"], hands["R"], self._face.step(frame, face, depth))
+        before = self._filter.predict(frame.stamp)
+        seen = self._seen(frame, person)
+        seen = seen.only(self._filter.believable(frame.stamp, seen.rays, JUMP))
+        depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
+        optimised = np.zeros(N, dtype=bool)
+        fits = self._fit_hands(frame, person, seen, before, distance)
+        body = self._find_body(frame, seen, before, fits, distance)
+        depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
+        rays = np.concatenate([body.rays, seen.rays[BODY.stop :]])
+        for side, fit in fits.items():
+            wrist = ARMS[side][2]
+            # A hand that nothing was measured of is where its arm ends.
+            moved = body.depths[wrist] - fit.points[0, 2] if body.optimised[wrist] else 0.0
+            rays[HANDS[side]] = fit.points[:, :2] / fit.points[:, 2:]
+            depth[HANDS[side]], sigma[HANDS[side]] = fit.points[:, 2] + moved, fit.sigma
+            optimised[HANDS[side]] = ~fit.measured
+        if seen.seen[FACE].any():
+            head = np.append(before.depth[FACE], body.depths[_HEAD])
+            face = self._find_face(frame, seen, head)
+            depth[FACE], sigma[FACE] = face.depths, face.sigma
+            optimised[FACE] = ~face.measured
+        near = np.where(np.isfinite(depth), depth, distance)
+        across = np.hypot(ACROSS / near, PIXEL / frame.camera.fx)
+        output = self._filter.step(
+            frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
+        )
+        self._size.step(body.measured)
+        self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
+        found = keypoints_of(
+            output,
+            seen,
+            optimised=optimised,
+            bias=np.where((_ON_HANDS & ~seen.seen)[:, None], np.hypot(BIAS, _CARRIED), BIAS),
+            max_sigma=self._parameters.max_sigma,
+            memory=self._confidence,
+        )
+        found = self._with_held_hands(found)
+        return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
+
+    def _seen(self, frame: Frame, person: Person2D) -> Detected:
+        keypoints = np.zeros((N, 3))
+        keypoints[BODY] = as_body_25(person.body)
+        if self._parameters.detector == "mediapipe":
+            keypoints[BODY] = unbiased(keypoints[BODY], MEDIAPIPE)
+        for rows, part in (
+            (LEFT_HAND, person.left_hand),
+            (RIGHT_HAND, person.right_hand),
+            (FACE, person.face),
+        ):
+            if len(part):
+                keypoints[rows] = part
+        return detected(keypoints, frame.camera, self._parameters.min_confidence)
 
     def _fit_hands(
+        self, frame: Frame, person: Person2D, seen: Detected, before: FilterOutput, distance: float
+    ) -> dict[str, HandFit]:
+        """Find the depths of the hands that are seen."""
+        sides = [side for side, rows in HANDS.items() if seen.seen[rows].any()]
+        if not sides:
+            return {}
+        rows = np.concatenate([np.arange(N)[HANDS[side]] for side in sides])
+        expected = np.where(np.isfinite(before.depth[rows]), before.depth[rows], distance)
+        surfaces = self._hand_lookup.surfaces(
+            frame.depth, seen.pixels[rows], focal=frame.camera.fx, distance=expected
+        )
+        worlds = {"L": person.left_hand_world, "R": person.right_hand_world}
+        views = [
+            HandView(
+                seen.rays[HANDS[side]],
+                Surfaces(*(array[21 * i : 21 * (i + 1)] for array in surfaces)),
+                worlds[side],
+                _middle(before.depth[HANDS[side]]),
+                float(before.depth[ARMS[side][2]]),
+            )
+            for i, side in enumerate(sides)
+        ]
+        if self._parameters.fit_hands:
+            fits = fit_hands(views, self._size.scale)
+        else:
+            fits = [_unfitted(view, self._size.scale) for view in views]
+        found = {side: fit for side, fit in zip(sides, fits, strict=True) if fit is not None}
+        if self._parameters.detector == "mediapipe":
+            return {
+                side: fit._replace(points=mediapipe_joints(fit.points, left=side == "L"))
+                for side, fit in found.items()
+            }
+        return found
+
+    def _find_body(
         self,
         frame: Frame,
-        person: Person2D,
-        seen: dict[str, Detected],
-        expected: FloatArray,
+        seen: Detected,
+        before: FilterOutput,
+        fits: dict[str, HandFit],
         distance: float,
-    ) -> dict[str, HandFit | None]:
-        sides = [side for side in seen if seen[side].seen.any()]
-        if not sides:
-            return dict.fromkeys(seen)
-        wrists = {side: float(expected[ARMS[side][2]]) for side in sides}
-        n = len(HAND_21)
-        about = np.repeat([w if np.isfinite(w) else distance for w in wrists.values()], n)
-        pixels = np.concatenate([seen[side].pixels for side in sides])
-        both = self._lookup.surfaces(frame.depth, pixels, focal=frame.camera.fx, distance=about)
-        worlds = {"R": person.right_hand_world, "L": person.left_hand_world}
-        fits: dict[str, HandFit | None] = dict.fromkeys(seen)
-        for i, side in enumerate(sides):
-            fits[side] = self._hands[side].fit(
-                frame.stamp,
-                seen[side],
-                Surfaces(*(array[i * n : (i + 1) * n] for array in both)),
-                world=worlds[side],
-                scale=self._body.size.scale,
-                wrist=wrists[side],
+    ) -> BodyDepths:
+        wrists = {
+            side: WristView(
+                fit.points[0, :2] / fit.points[0, 2],
+                float(fit.points[0, 2]),
+                float(fit.sigma[0]),
+                fit.certain,
             )
-        return fits
+            for side, fit in fits.items()
+            if np.isfinite(fit.points[0]).all()
+        }
+        return self._body.find(
+            frame, seen.part(BODY), before.part(BODY), self._size, distance=distance, wrists=wrists
+        )
+
+    def _find_face(self, frame: Frame, seen: Detected, expected: FloatArray) -> FaceDepths:
+        about = _middle(expected)
+        surfaces = self._face_lookup.surfaces(
+            frame.depth,
+            seen.pixels[FACE],
+            focal=frame.camera.fx,
+            distance=np.full(len(FACE_70), about),
+        )
+        return face_depths(seen.rays[FACE], surfaces, about)
+
+    def _with_held_hands(self, found: Keypoints3D) -> Keypoints3D:
+        """Put hands that are held where they were on the arm, not where they were in space."""
+        points = found.points.copy()
+        for side, rows in HANDS.items():
+            wrist = found.points[ARMS[side][2]]
+            if not np.isfinite(wrist).all():
+                continue
+            held = (found.status[rows] == KeypointStatus.HELD)[:, None]
+            self._from_wrist[rows] = np.where(held, self._from_wrist[rows], found.points[rows] - wrist)
+            moved = wrist + self._from_wrist[rows]
+            points[rows] = np.where(held & np.isfinite(moved), moved, points[rows])
+        return replace(found, points=points)
+
+
+def _unfitted(hand: HandView, scale: float) -> HandFit:
+    nearest = hand.surfaces.nearest()
+    depths = nearest.depth + scale * HAND_DEPTHS
+    points = np.column_stack([hand.rays, np.ones(len(depths))]) * depths[:, None]
+    return HandFit(points, nearest.sigma, np.isfinite(depths))
+
+
+def _middle(values: FloatArray) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else float("nan")

@@ -84,7 +84,7 @@ class Retriever:
     def _position(self, frame: Frame, person: Person2D) -> FloatArray:
         """Give about where a person's trunk is [m]; NaN if no depth tells. Shape (3,)."""
         body = as_body_25(person.body)
-        seen = detected(body, len(body), frame.camera, self._parameters.min_confidence)
+        seen = detected(body, frame.camera, self._parameters.min_confidence)
         for rows in (_TRUNK, list(range(len(body)))):
             depth = (
                 self._lookup.surfaces(frame.depth, seen.pixels[rows], focal=frame.camera.fx).nearest().depth

@@ -69,11 +69,20 @@ class RetrieverParameters:
         True, "Find elbows and wrists that are hidden or badly measured from the lengths of the limbs."
     )
     fit_hands: bool = _switch(True, "Fit the hand's own shape to its pixels and depths.")
+    detector: str = _choice(
+        "mediapipe",
+        ("mediapipe", "other"),
+        "Whose constant offsets from the joints are put right; those of others are not known.",
+    )
     hold_time: float = _number(
-        0.5, "s", 0.0, 10.0, "A keypoint that is not seen is held so long: a hand that passes behind another."
+        0.3, "s", 0.0, 10.0, "A keypoint that is not seen is held so long: a hand that passes behind another."
     )
     max_sigma: float = _number(
-        0.3, "m", 0.01, 10.0, "A held keypoint less certain than this is lost: half an arm is no position."
+        0.1,
+        "m",
+        0.01,
+        10.0,
+        "A keypoint less certain than this is lost: beyond the length of a palm it tells nothing of a sign.",
     )
     smoothing: float = _number(
         1.0,

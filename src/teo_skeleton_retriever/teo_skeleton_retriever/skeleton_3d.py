@@ -62,6 +62,12 @@ class Keypoints3D:
             pixels=np.full((n, 2), np.nan),
         )
 
+    def part(self, rows: slice) -> Keypoints3D:
+        """Keep some of the keypoints."""
+        return Keypoints3D(
+            self.points[rows], self.confidence[rows], self.status[rows], self.sigma[rows], self.pixels[rows]
+        )
+
     def __len__(self) -> int:
         return len(self.points)
 

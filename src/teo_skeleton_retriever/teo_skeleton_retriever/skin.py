@@ -13,28 +13,29 @@ from teo_skeleton_retriever.body_25 import BODY_25
 from teo_skeleton_retriever.hand_21 import HAND_21
 
 BODY_DEPTH: dict[str, float] = {
-    "Nose": 0.01,
+    "Nose": -0.012,
     "Neck": 0.06,
-    **dict.fromkeys(("RShoulder", "LShoulder"), 0.055),
-    **dict.fromkeys(("RElbow", "LElbow"), 0.035),
+    **dict.fromkeys(("RShoulder", "LShoulder"), 0.06),
+    **dict.fromkeys(("RElbow", "LElbow"), 0.043),
     **dict.fromkeys(("RWrist", "LWrist"), 0.022),
-    **dict.fromkeys(("MidHip", "RHip", "LHip"), 0.09),
-    **dict.fromkeys(("RKnee", "LKnee"), 0.055),
-    **dict.fromkeys(("RAnkle", "LAnkle"), 0.04),
-    **dict.fromkeys(("REye", "LEye"), 0.01),
-    **dict.fromkeys(("REar", "LEar"), 0.01),
+    "MidHip": 0.15,
+    **dict.fromkeys(("RHip", "LHip"), 0.125),
+    **dict.fromkeys(("RKnee", "LKnee"), 0.08),
+    **dict.fromkeys(("RAnkle", "LAnkle"), 0.05),
+    **dict.fromkeys(("REye", "LEye"), 0.0),
+    **dict.fromkeys(("REar", "LEar"), 0.019),
     **dict.fromkeys(("LBigToe", "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel"), 0.02),
 }
 """[m] From the skin to the joint, of an average adult, seen across the limb."""
 
 HAND_DEPTH: dict[str, float] = {
-    name: 0.014
+    name: 0.025
     if name == "Wrist"
-    else 0.013
+    else 0.015
     if name.endswith(("CMC", "MCP"))
     else 0.009
     if name.endswith(("PIP", "DIP", "IP"))
-    else 0.007
+    else 0.004
     for name in HAND_21.keypoints
 }
 """[m] Likewise."""

@@ -177,40 +177,59 @@ def _cast(rays: np.ndarray, a: np.ndarray, b: np.ndarray, radius: float) -> np.n
     return best
 
 
-def person_2d(person: Pose, camera: CameraModel = CAMERA, *, jitter: float = 0.0, seed: int = 0) -> Person2D:
-    """The person as a perfect detector sees them, or one that errs by `jitter` [px]."""
+def person_2d(
+    person: Pose, camera: CameraModel = CAMERA, *, jitter: float = 0.0, seed: int = 0, imagined: bool = True
+) -> Person2D:
+    """The person as a detector sees them that errs by `jitter` [px], and imagines the hands' shape or not."""
     random = np.random.default_rng(seed)
 
-    def seen(points: np.ndarray, absent: np.ndarray | None = None) -> np.ndarray:
-        pixels = (
-            camera.project(points) + random.normal(0.0, jitter, (len(points), 2))
-            if jitter
-            else (camera.project(points))
-        )
+    def seen(points: np.ndarray, absent: tuple[int, ...] = ()) -> np.ndarray:
+        pixels = camera.project(points) + random.normal(0.0, 1.0, (len(points), 2)) * jitter
         found = np.column_stack([pixels, np.full(len(points), 0.9)])
-        if absent is not None:
-            found[absent] = 0.0
+        found[list(absent)] = 0.0
         return found
 
-    feet = np.arange(19, 25)
+    worlds = [
+        hand - hand.mean(axis=0) if imagined else None for hand in (person.left_hand, person.right_hand)
+    ]
     return Person2D(
-        body=seen(person.body, feet),
+        body=seen(person.body, tuple(range(19, 25))),
         left_hand=seen(person.left_hand),
         right_hand=seen(person.right_hand),
-        left_hand_world=person.left_hand - person.left_hand.mean(0),
-        right_hand_world=person.right_hand - person.right_hand.mean(0),
+        face=seen(face(person)),
+        left_hand_world=worlds[0],
+        right_hand_world=worlds[1],
     )
 
 
-def frame(stamp: float, *people: Pose, noise: float = 0.0, camera: CameraModel = CAMERA) -> Frame:
-    """A frame of perfect keypoints and exact depth."""
-    depth = (
-        render(np.concatenate([capsules(person) for person in people]), camera)
-        if people
-        else (np.full((camera.height, camera.width), 3.0, np.float32))
-    )
+def face(person: Pose) -> np.ndarray:
+    """70 points on the front of the head, a ball of 9 cm [m]. Shape (70, 3)."""
+    centre = (person.body[ROW["REar"]] + person.body[ROW["LEar"]]) / 2
+    angles = np.arange(70) * math.pi * (3 - math.sqrt(5))  # sunflower
+    radius = 0.06 * np.sqrt((np.arange(70) + 0.5) / 70)
+    x, y = radius * np.cos(angles), radius * np.sin(angles)
+    return centre + np.column_stack([x, y, -np.sqrt(0.09**2 - x**2 - y**2)])
+
+
+def frame(
+    stamp: float,
+    *people: Pose,
+    noise: float = 0.0,
+    missing: float = 0.0,
+    jitter: float = 0.0,
+    imagined: bool = True,
+    camera: CameraModel = CAMERA,
+) -> Frame:
+    """A frame with depth noise [m], a share of depth missing and detections that err by `jitter` [px]."""
+    shapes = np.concatenate([capsules(person) for person in people]) if people else np.zeros((0, 7))
+    depth = render(shapes, camera)
+    seed = int(abs(stamp) * 1e4)
+    random = np.random.default_rng(seed)
     if noise:
-        depth = depth + np.random.default_rng(int(stamp * 1e3)).normal(0, noise, depth.shape).astype(
-            np.float32
-        )
-    return Frame(stamp, tuple(person_2d(person, camera) for person in people), depth, camera)
+        depth += random.normal(0, noise, depth.shape).astype(np.float32)
+    if missing:
+        depth[random.random(depth.shape) < missing] = math.nan
+    seen = [
+        person_2d(p, camera, jitter=jitter, seed=seed + i, imagined=imagined) for i, p in enumerate(people)
+    ]
+    return Frame(stamp, tuple(seen), depth, camera)
