@@ -15,8 +15,9 @@ from teo_skeleton_retriever.synthetic.keys import ArmKey, Key, KeyResolver
 from teo_skeleton_retriever.synthetic.motion import Motion
 from teo_skeleton_retriever.synthetic.phenotype import Phenotype, target_weights
 from teo_skeleton_retriever.synthetic.pose import BodyPose
-from teo_skeleton_retriever.synthetic.scripts import REST, SCRIPTS, script
+from teo_skeleton_retriever.synthetic.scripts import SCRIPTS, script
 from teo_skeleton_retriever.synthetic.signer import Signer
+from teo_skeleton_retriever.synthetic.signs import REST
 
 FINGERS = {"thumb": 1, "index": 5, "middle": 9, "ring": 13, "little": 17}
 STRAIGHT = ("index", "middle", "ring", "little")

@@ -50,7 +50,7 @@ class Dress:
         body, tights = groups["body"], groups["helper-tights"]
         # The collar is lower in front than at the nape.
         collar = neck - 0.01 - _COLLAR_SLOPE * (rig.vertices[:, 0] - rig.head("neck01")[0])
-        worn = tights[((along_arm[tights] < shape.sleeve) & (z < collar + 0.05)[tights]).all(axis=1)]
+        worn = tights[((along_arm[tights] < shape.sleeve) & (z < collar + 0.022)[tights]).all(axis=1)]
         hidden = (along_arm < shape.sleeve - 0.12) & (z < collar - 0.035)
         hidden &= ~np.isin(np.arange(len(z)), np.unique(body[_moved_by(body, "neck", "head", "jaw")]))
         bare = body[~hidden[body].all(axis=1)]
