@@ -83,7 +83,7 @@ def make_retriever(parameters: RetrieverParameters, compat: str) -> FrameRetriev
 class ImageRetriever:
     """A detector and a retriever in a row.
 
-    `detect` may run in one thread while `follow` runs in another; neither in several.
+    `detect` may run in one thread, or as many as the detector allows, while `follow` runs in another.
     """
 
     def __init__(self, detector: Detector, retriever: FrameRetriever) -> None:

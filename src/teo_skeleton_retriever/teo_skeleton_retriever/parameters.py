@@ -93,7 +93,7 @@ _NODE = (
     ),
     ParameterRow(
         name="slop",
-        default=0.016,
+        default=0.017,
         low=0.0,
         high=1.0,
         description="Greatest difference between the stamps of colour and depth [s]; with more than half the "

@@ -35,7 +35,7 @@ from teo_skeleton_retriever.image_retriever import (
 )
 from teo_skeleton_retriever.markers import marker_array
 from teo_skeleton_retriever.messages import image_message, skeleton_array
-from teo_skeleton_retriever.newest_worker import NewestWorker
+from teo_skeleton_retriever.newest_pipeline import NewestPipeline
 from teo_skeleton_retriever.overlay import Overlay
 from teo_skeleton_retriever.parameters import (
     PARAMETERS,
@@ -104,14 +104,13 @@ class RetrieverNode(Node):
         self._overlay = Overlay()
         self._camera_info: CameraInfo | None = None
         self._last_stamp: int | None = None
-        # What is asked of the retriever, which the follower alone may touch.
+        # What is asked of the retriever, which the second stage alone may touch.
         self._orders: SimpleQueue[Callable[[ImageRetriever], None]] = SimpleQueue()
 
         self._skeletons = self.create_publisher(SkeletonArray, "skeletons", 10)
         self._markers = self.create_publisher(MarkerArray, "skeleton_markers", 10)
         self._pictures = self.create_publisher(Image, "overlay/image", 1)
-        self._follower = NewestWorker(self._follow, "follower")
-        self._worker = NewestWorker(self._detect, "detector")
+        self._pipeline = NewestPipeline(self._detect, self._follow, at_once=detector.images_at_once)
         color = self._subscribe(COLOR, str(values["color_transport"]), self._on_color)
         depth = self._subscribe(DEPTH, str(values["depth_transport"]), self._on_depth)
         info = self.create_subscription(CameraInfo, CAMERA_INFO, self._on_camera_info, _SENSOR)
@@ -125,8 +124,7 @@ class RetrieverNode(Node):
 
     def destroy_node(self) -> None:
         """End the threads before the publishers that they use."""
-        self._worker.close()
-        self._follower.close()
+        self._pipeline.close()
         self._retriever.close()
         super().destroy_node()
 
@@ -152,17 +150,16 @@ class RetrieverNode(Node):
                 self._stats.drop(NOT_DUE)
                 continue
             self._last_stamp = pair.stamp
-            if self._worker.submit(_Job(pair, time.monotonic())) is not None:
+            if self._pipeline.submit(_Job(pair, time.monotonic())) is not None:
                 self._stats.drop(BUSY)
 
     def _is_due(self, stamp: int) -> bool:
         last = self._last_stamp
         return last is None or stamp < last or stamp - last >= self._value("period") * 1e9
 
-    # In a thread for the detector, and another for what comes after it: one image is followed while the next
-    # is looked at.
+    # In threads of the pipeline: one image is followed while the next is looked at.
 
-    def _detect(self, job: _Job) -> None:
+    def _detect(self, job: _Job) -> _Followed | None:
         with self._problems():
             info = self._camera_info
             if info is None:
@@ -178,7 +175,8 @@ class RetrieverNode(Node):
             )
             frame_id = pair.color.header.frame_id or info.header.frame_id
             header = Header(stamp=pair.color.header.stamp, frame_id=frame_id)
-            self._follower.hand_over(_Followed(job, header, self._retriever.detect(image)))
+            return _Followed(job, header, self._retriever.detect(image))
+        return None
 
     def _follow(self, followed: _Followed) -> None:
         with self._problems():

@@ -267,6 +267,7 @@ def test_the_resolution_may_change_in_mid_stream(context):
         """Sees the person at the size of the image, as a real detector does."""
 
         name = "scaling"
+        images_at_once = 1
 
         def detect(self, image: np.ndarray, stamp: float) -> tuple[Person2D, ...]:
             del stamp
@@ -312,6 +313,7 @@ def test_silence_is_told(start):
 def test_what_it_has_no_time_for_is_dropped_for_the_newest_and_counted(context):
     class Slow:
         name = "slow"
+        images_at_once = 1
         seen: list[float]
 
         def __init__(self) -> None:
@@ -348,6 +350,7 @@ def test_what_it_has_no_time_for_is_dropped_for_the_newest_and_counted(context):
 def test_a_detector_that_fails_is_told_and_tried_again(context):
     class Failing:
         name = "failing"
+        images_at_once = 1
         errors = iter(
             [DetectorError("bad_day", "expected a good day")] * 3 + [ZeroDivisionError("on purpose")] * 3
         )

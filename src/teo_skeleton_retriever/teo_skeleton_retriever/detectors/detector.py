@@ -21,6 +21,10 @@ class Detector(Protocol):
     def name(self) -> str:
         """What `make_detector` calls it."""
 
+    @property
+    def images_at_once(self) -> int:
+        """From how many threads `detect` may be called at the same time."""
+
     def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
         """Find the people of one image.
 

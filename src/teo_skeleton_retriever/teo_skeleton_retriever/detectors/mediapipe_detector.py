@@ -41,6 +41,7 @@ class MediaPipeDetector:
     """
 
     name = "mediapipe"
+    images_at_once = 2
 
     def __init__(
         self,

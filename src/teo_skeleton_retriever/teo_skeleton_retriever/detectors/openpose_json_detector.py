@@ -46,6 +46,7 @@ class OpenPoseJsonDetector:
     """
 
     name = "openpose_json"
+    images_at_once = 1
 
     def __init__(
         self,

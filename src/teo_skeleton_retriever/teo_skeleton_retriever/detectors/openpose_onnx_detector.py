@@ -44,6 +44,7 @@ class OpenPoseOnnxDetector:
     """
 
     name = "openpose_onnx"
+    images_at_once = 1
 
     def __init__(
         self,

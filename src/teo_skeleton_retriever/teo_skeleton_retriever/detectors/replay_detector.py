@@ -28,6 +28,7 @@ class ReplayDetector:
     """
 
     name = "replay"
+    images_at_once = 1
 
     def __init__(
         self,
