@@ -159,3 +159,25 @@ def test_synthesize_ends_with_status_1_where_it_cannot_write(tmp_path: Path) -> 
     code, output = run("--out", str(tmp_path), "--scene", "studio", "--size", "64x48", "--frames", "1")
     assert code == 1
     assert "output_exists" in output
+
+
+def test_the_shipped_bag_is_small_and_whole() -> None:
+    bag = Path(__file__).parents[3] / "bags" / "signer_d435"
+    assert sum(file.stat().st_size for file in bag.iterdir()) < 10_000_000
+    found = read(bag)
+    assert {topic: len(messages) for topic, messages in found.items()} == dict.fromkeys(
+        (
+            f"{COLOR}/compressed",
+            f"{DEPTH}/compressedDepth",
+            "/camera/color/camera_info",
+            "/truth/skeletons",
+        ),
+        105,
+    )
+    image = color_of(found[f"{COLOR}/compressed"][50][1])
+    depth = depth_of(found[f"{DEPTH}/compressedDepth"][50][1])
+    assert image.shape == (480, 640, 3)
+    skeleton = found["/truth/skeletons"][50][1].skeletons[0]
+    nose = skeleton.body[0]
+    column, row = np.rint(nose.pixel).astype(int)
+    assert depth[row, column] == pytest.approx(nose.position.z, abs=0.05)

@@ -60,6 +60,7 @@ def spelled(shapes: Sequence[str]) -> list[Key]:
     """Spell: the hand stays before the shoulder and changes its shape."""
     return [
         Key(
+            left=_HANGING if i == 0 else None,
             right=neutral(shape, at=(0.30, 0.06 + 0.008 * i, 0.0)),
             move=0.5 if i == 0 else 0.2,
             hold=0.22,

@@ -27,6 +27,7 @@ FRAME_ID = "camera_color_optical_frame"
 """As realsense2_camera names it."""
 JPEG_QUALITY = 90
 """image_transport has 95; at 90 nobody sees a difference, and a bag is a third smaller."""
+_PNG_EFFORT = 7  # 9 takes eight times as long for 5 % less
 _DEPTH_HEADER = struct.pack("<iff", 0, 0.0, 0.0)  # of compressedDepth; its terms matter to floats alone
 _NANOSECONDS = 1_000_000_000
 
@@ -70,7 +71,7 @@ def compressed_color(frame: SyntheticFrame, at: Header, quality: int = JPEG_QUAL
 
 def compressed_depth(frame: SyntheticFrame, at: Header) -> CompressedImage:
     """Give the depth image as image_transport's `compressedDepth` sends it: PNG behind 12 bytes."""
-    data = _DEPTH_HEADER + _encoded(".png", _millimetres(frame), [cv2.IMWRITE_PNG_COMPRESSION, 9])
+    data = _DEPTH_HEADER + _encoded(".png", _millimetres(frame), [cv2.IMWRITE_PNG_COMPRESSION, _PNG_EFFORT])
     return CompressedImage(header=at, format="16UC1; compressedDepth png", data=array("B", data))
 
 
