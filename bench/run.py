@@ -6,12 +6,13 @@ import platform
 
 import driver_rate
 import planning
+import retriever_node
 import robot_model
 import text_to_trajectory
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = (robot_model, planning, driver_rate, text_to_trajectory)
+BENCHES = (robot_model, planning, driver_rate, text_to_trajectory, retriever_node)
 
 
 def main() -> None:
