@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import gc
+import os
 import threading
-import time
+import weakref
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -229,16 +232,37 @@ def test_a_graph_that_failed_fails_one_image_only(
     frames: list[SyntheticFrame], detector: MediaPipeDetector
 ) -> None:
     assert detector._graph is not None
-    detector._graph.close()
+    detector._graph._graph.close()
     with pytest.raises(DetectorError) as caught:
         detector.detect(frames[0].color, 0.0)
     assert caught.value.code == "failed"
     assert len(detector.detect(frames[0].color, 0.1)) == 1
 
 
-def test_closing_does_not_wait_for_long(frames: list[SyntheticFrame]) -> None:
+def test_closing_ends_what_is_being_worked_on(frames: list[SyntheticFrame], people: list[Person2D]) -> None:
     detector = MediaPipeDetector()
-    detector.detect(frames[0].color, 0.0)
-    began = time.monotonic()
+    with ThreadPoolExecutor(1) as thread:
+        running = thread.submit(lambda: [detector.detect(frame.color, frame.stamp) for frame in frames])
+        detector.close()
+        error = running.exception(timeout=60.0)
+    assert isinstance(error, DetectorError)
+    assert error.code in ("closed", "failed")
+    assert people
+
+
+def test_a_closed_detector_frees_its_networks() -> None:
+    detector = MediaPipeDetector()
+    graph = weakref.ref(detector._graph)
     detector.close()
-    assert time.monotonic() - began < 5.0
+    gc.collect()
+    assert graph() is None
+    before = resident()
+    for _ in range(4):
+        MediaPipeDetector().close()
+    assert resident() - before < 100.0  # [MB]; each holds more than 50
+
+
+def resident() -> float:
+    """Memory of this process [MB]."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6

@@ -79,7 +79,7 @@ class MediaPipeDetector:
         return () if landmarks.pose is None else (_person(landmarks, image),)
 
     def close(self) -> None:
-        """Stop; images that are being worked on fail."""
+        """Stop, when the images at hand are done."""
         graph, self._graph = self._graph, None
         if graph is not None:
             graph.close()
