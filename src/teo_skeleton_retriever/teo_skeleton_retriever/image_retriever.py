@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
+from teo_skeleton_retriever.compat_options import original_parameters_from
 from teo_skeleton_retriever.compat_retriever import CompatRetriever
 from teo_skeleton_retriever.detectors import Detector
 from teo_skeleton_retriever.errors import ParameterError
@@ -66,17 +68,26 @@ class FrameRetriever(Protocol):
         """Follow this person as the signer; None chooses by the rule again."""
 
 
-def make_retriever(parameters: RetrieverParameters, compat: str) -> FrameRetriever:
+def make_retriever(
+    parameters: RetrieverParameters, compat: str, compat_options: Sequence[str] = ()
+) -> FrameRetriever:
     """Make what follows people in space.
 
+    Args:
+        parameters: of ours.
+        compat: one of `COMPAT_MODES`.
+        compat_options: of the original; see `original_parameters_from`.
+
     Raises:
-        ParameterError: no such mode.
+        ParameterError: no such mode or option.
     """
     match compat:
         case "":
+            if any(compat_options):
+                raise ParameterError("bad_option", "expected compat with compat_options, got none")
             return Retriever(parameters)
         case "skeleton_retriever":
-            return CompatRetriever(parameters)
+            return CompatRetriever(parameters, original_parameters_from(compat_options))
     raise ParameterError("unknown_choice", f"compat: expected one of {COMPAT_MODES}, got {compat!r}")
 
 

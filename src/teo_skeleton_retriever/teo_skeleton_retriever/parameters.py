@@ -15,6 +15,8 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, par
 
 Value = bool | int | float | str | tuple[str, ...]
 
+DEFAULT_SLOP = 0.017
+"""[s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart."""
 _DETECTOR = "detector"
 TRANSPORTS_COLOR = ("raw", "compressed")
 TRANSPORTS_DEPTH = ("raw", "compressedDepth")
@@ -72,6 +74,12 @@ _NODE = (
         read_only=True,
     ),
     ParameterRow(
+        name="compat_options",
+        default=("",),
+        description="Parameters of the original, group::name=value each, as in its configuration file.",
+        read_only=True,
+    ),
+    ParameterRow(
         name="color_transport",
         default="raw",
         choices=TRANSPORTS_COLOR,
@@ -93,7 +101,7 @@ _NODE = (
     ),
     ParameterRow(
         name="slop",
-        default=0.017,
+        default=DEFAULT_SLOP,
         low=0.0,
         high=1.0,
         description="Greatest difference between the stamps of colour and depth [s]; with more than half the "

@@ -18,19 +18,18 @@ from std_msgs.msg import Header
 from teo_skeleton_retriever.bag_images import BagImage, BagImages
 from teo_skeleton_retriever.bag_reader import Bag
 from teo_skeleton_retriever.detectors import DETECTORS, make_detector
-from teo_skeleton_retriever.errors import ParameterError, RetrieverError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_files import read_rgbd_image
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES, ImageRetriever, Retrieved, make_retriever
 from teo_skeleton_retriever.messages import skeleton_array
 from teo_skeleton_retriever.overlay import Overlay
 from teo_skeleton_retriever.overlay_video import OverlayVideo
-from teo_skeleton_retriever.parameters import PARAMETERS, detector_options_from, parameters_from_words
+from teo_skeleton_retriever.parameters import DEFAULT_SLOP, detector_options_from, parameters_from_words
 from teo_skeleton_retriever.retrieval_summary import RetrievalSummary
 from teo_skeleton_retriever.skeleton_bag import SkeletonBag
 from teo_skeleton_retriever.skeleton_json import as_json
 from teo_skeleton_retriever.topic_choice import choose_topics
 
-_SLOP = next(float(row.default) for row in PARAMETERS if row.name == "slop")
 _out = Console()
 _err = Console(stderr=True)
 # No markup in the help: it would swallow units in brackets.
@@ -62,13 +61,16 @@ def _retrieve(
     compat: Annotated[
         str, typer.Option(help=f"Processing of the original: {' or '.join(filter(None, COMPAT_MODES))}.")
     ] = "",
+    compat_option: Annotated[
+        list[str] | None, typer.Option(help="group::name=VALUE of the original. Repeatable.")
+    ] = None,
     parameter: Annotated[
         list[str] | None,
         typer.Option("--parameter", "-p", help="NAME=VALUE of the retriever; see the node's. Repeatable."),
     ] = None,
     slop: Annotated[
         float, typer.Option(min=0.0, max=1.0, help="Between the stamps of colour and depth [s].")
-    ] = _SLOP,
+    ] = DEFAULT_SLOP,
     rectified: Annotated[
         bool, typer.Option("--rectified", help="The images were rectified: use P of camera_info.")
     ] = False,
@@ -92,9 +94,9 @@ def _retrieve(
         raise typer.BadParameter("--out and --video are for bags")
     try:
         chosen = parameters_from_words(parameter or [], detector=detector, one_image=bag is None)
-        retriever = make_retriever(chosen, compat)
+        retriever = make_retriever(chosen, compat, compat_option or [])
         options = detector_options_from(detector_option or [])
-    except ParameterError as error:
+    except RetrieverError as error:
         raise typer.BadParameter(error.sentence) from None
     try:
         with ExitStack() as stack:

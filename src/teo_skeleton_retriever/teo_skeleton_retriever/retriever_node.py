@@ -258,7 +258,7 @@ class RetrieverNode(Node):
 
     def _make_retriever(self, values: dict[str, Any]) -> FrameRetriever:
         parameters = retriever_parameters_from(values, self._detector_name)
-        return make_retriever(parameters, str(values["compat"]))
+        return make_retriever(parameters, str(values["compat"]), values["compat_options"])
 
     def _values(self) -> dict[str, Any]:
         return {row.name: self._value(row.name) for row in PARAMETERS}
