@@ -78,6 +78,7 @@ class ArmSolver:
 
     def __init__(self) -> None:
         self._solver = FastLimbSolver()
+        self._solver.prepare(3)
 
     def solve(self, arm: Arm) -> ArmSolution | None:
         """Find the likeliest place of an arm; None if its shoulder has none, or nothing fits."""

@@ -11,10 +11,9 @@ from teo_skeleton_retriever.arm_solver import Arm, ArmSolver
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.body_25 import BODY_25
 from teo_skeleton_retriever.body_size import BodySize
-from teo_skeleton_retriever.depth_lookup import DepthLookup
+from teo_skeleton_retriever.depth_lookup import Surfaces
 from teo_skeleton_retriever.detected import Detected
 from teo_skeleton_retriever.filtered import points_of
-from teo_skeleton_retriever.frame import Frame
 from teo_skeleton_retriever.keypoint_filter import FilterOutput
 from teo_skeleton_retriever.person_layout import ARMS, ROW
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
@@ -79,30 +78,27 @@ class BodyDepth:
 
     def __init__(self, parameters: RetrieverParameters) -> None:
         self._parameters = parameters
-        self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
         self._arms = ArmSolver()
 
     def find(
         self,
-        frame: Frame,
         seen: Detected,
+        surfaces: Surfaces,
         before: FilterOutput,
         size: BodySize,
         *,
-        distance: float,
         wrists: Mapping[str, WristView],
     ) -> BodyDepths:
         """Find the depths in one image.
 
         Args:
-            frame: the image.
             seen: by the detector.
+            surfaces: measured around the joints.
             before: what the images before let expect.
             size: of the person.
-            distance: of the person [m].
             wrists: the left ("L") and right ("R") wrist by the hand; only those that are known.
         """
-        depth, sigma = self._measure(frame, seen, before, size, distance)
+        depth, sigma = self._measure(surfaces, before, size)
         rays, across = seen.rays.copy(), _ACROSS.copy()
         for side, wrist in wrists.items():
             row = ARMS[side][2]
@@ -121,18 +117,11 @@ class BodyDepth:
         return found
 
     def _measure(
-        self, frame: Frame, seen: Detected, before: FilterOutput, size: BodySize, distance: float
+        self, surfaces: Surfaces, before: FilterOutput, size: BodySize
     ) -> tuple[FloatArray, FloatArray]:
         """Give the depths of the joints by what is seen at them, and their sigmas [m]. Shapes (25,)."""
         behind, slanted = self._behind_skin(before, size)
-        expected = before.depth - behind
-        surfaces = self._lookup.surfaces(
-            frame.depth,
-            seen.pixels,
-            focal=frame.camera.fx,
-            distance=np.where(np.isfinite(expected), expected, distance),
-        )
-        sample = surfaces.closest(expected)
+        sample = surfaces.closest(before.depth - behind)
         return sample.depth + behind, np.hypot(sample.sigma, np.hypot(_SKIN_SIGMA, slanted))
 
     def _behind_skin(self, before: FilterOutput, size: BodySize) -> tuple[FloatArray, FloatArray]:

@@ -53,6 +53,10 @@ class Surfaces(NamedTuple):
     support: FloatArray
     """share of the measured pixels around that belong to each, 0 to 1. Shape (n, 3)"""
 
+    def part(self, rows: slice) -> Surfaces:
+        """Keep some of the keypoints."""
+        return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
+
     def nearest(self) -> DepthSamples:
         """Choose the nearest: keypoints lie on the body, and what is behind its contour is background."""
         return DepthSamples(self.depth[:, 0], self.sigma[:, 0], self.support[:, 0])
@@ -113,7 +117,14 @@ class DepthLookup:
             )
 
     def surfaces(
-        self, depth: DepthArray, pixels: FloatArray, *, focal: float, distance: FloatArray | None = None
+        self,
+        depth: DepthArray,
+        pixels: FloatArray,
+        *,
+        focal: float,
+        distance: FloatArray | None = None,
+        radius: FloatArray | None = None,
+        gap: FloatArray | None = None,
     ) -> Surfaces:
         """Find the surfaces around keypoints.
 
@@ -123,36 +134,40 @@ class DepthLookup:
             focal: length of the camera [px].
             distance: about where the keypoints are [m], which sets the size of the discs; NaN or None if not
                 known: then it is measured first. Shape (n,).
+            radius: of each disc [m], instead of the same for all. Shape (n,).
+            gap: at each keypoint [m], instead of the same for all. Shape (n,).
         """
         pixels = np.asarray(pixels, dtype=np.float64)
+        gap = np.full(len(pixels), self.gap) if gap is None else gap
         if distance is None:
             distance = np.full(len(pixels), np.nan)
         unknown = ~(distance > 0.0)
         if unknown.any():
             coarse = np.full(int(unknown.sum()), self.max_radius_px / 2.0)
             distance = np.array(distance, dtype=np.float64)
-            distance[unknown] = self._split(depth, pixels[unknown], coarse).depth[:, 0]
+            distance[unknown] = self._split(depth, pixels[unknown], coarse, gap[unknown]).depth[:, 0]
         radii = np.clip(
-            self.radius * focal / np.where(distance > 0.0, distance, np.inf),
+            (self.radius if radius is None else radius) * focal / np.where(distance > 0.0, distance, np.inf),
             self.min_radius_px,
             self.max_radius_px,
         )
-        found = self._split(depth, pixels, radii)
-        holes = np.isnan(found.depth[:, 0])
+        found = self._split(depth, pixels, radii, gap)
+        holes = np.isnan(found.depth[:, 0]) & np.isfinite(pixels).all(axis=1)
         if holes.any():
-            wide = self._split(depth, pixels[holes], np.full(int(holes.sum()), self.max_radius_px))
+            whole = np.full(int(holes.sum()), self.max_radius_px)
+            wide = self._split(depth, pixels[holes], whole, gap[holes])
             for all_rows, rows in zip(found, wide, strict=True):
                 all_rows[holes] = rows
         return found
 
-    def _split(self, depth: DepthArray, pixels: FloatArray, radii: FloatArray) -> Surfaces:
+    def _split(self, depth: DepthArray, pixels: FloatArray, radii: FloatArray, gap: FloatArray) -> Surfaces:
         values = self._disc(depth, pixels, radii)
         order = np.argsort(values, axis=1)
         values = np.take_along_axis(values, order, axis=1)
         n, m = values.shape
         known = np.isfinite(values)
         with np.errstate(invalid="ignore"):
-            starts = values[:, 1:] - values[:, :-1] > self.gap
+            starts = values[:, 1:] - values[:, :-1] > gap[:, None]
         labels = np.zeros((n, m), dtype=np.int64)
         np.cumsum(starts, axis=1, out=labels[:, 1:])
         sizes = np.bincount((labels + m * np.arange(n)[:, None])[known], minlength=n * m).reshape(n, m)

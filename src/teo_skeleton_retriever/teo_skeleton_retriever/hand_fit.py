@@ -43,7 +43,7 @@ _NARROWING = (0.12, 0.06, 0.03, 0.02)
 """[m] The same, from step to step of the solution: from half a hand, so that a shape imagined wrongly is put
 right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
 _ANCHOR_SIGMA = 0.03  # [m] of the wrist's depth by the arm, as far as the hand is concerned
-_EXPECTED_SIGMA = 0.15  # [m] how far a hand moves in depth from image to image, and more
+_EXPECTED_SIGMA = 0.1  # [m] how far a hand moves in depth from image to image, and more
 _IMAGINED = 2.0  # errors over sigma of what follows from the shape alone, on rendered people
 _CERTAIN = 10  # measured keypoints that agree on the hand's shape: half of them
 _FINGER = 0.012  # [m] less than the thickness of a finger with its skin

@@ -17,10 +17,13 @@ import numpy as np
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 
 _FORGET = 0.15  # [s] over which surprise is averaged: a stroke of a sign takes 0.2 s
-_CALM, _WILD = 0.02, 4.0  # share and multiple of the usual acceleration between which it is adapted
+_CALM, _WILD = 0.002, 4.0  # shares of the usual acceleration's variance between which it is adapted
+_STARTLING = (
+    6.0  # squared misfit over its expectation that 1.4 % of what is expected exceeds (chi-squared, 1)
+)
 _GATE = 5.0  # [sigma] what is farther off is an outlier,
 _PATIENCE = 2  # unless so many images in a row say so
-_STOPPING = 0.15  # [s] in which a keypoint that is not seen is thought to come to rest
+_STOPPING = 0.1  # [s] in which a keypoint that is not seen is thought to come to rest
 _FIRST_SPEED = 1.0  # [m/s] standard deviation of the velocity of a keypoint just seen
 
 
@@ -68,6 +71,9 @@ class KeypointFilter:
         self._seen = np.full(n, -np.inf)
         self._doubts = np.zeros((2, n), dtype=np.int64)  # images in a row of directions and of depths
         self._time: float | None = None
+        self._ahead: tuple[float, FloatArray, FloatArray] | None = (
+            None  # what was last expected, and for when
+        )
 
     @property
     def known(self) -> BoolArray:
@@ -94,8 +100,10 @@ class KeypointFilter:
             doubtful = (np.abs(rays - state[0, :, :2]) > gate).any(axis=1)
         self._doubts[0] = np.where(doubtful, self._doubts[0] + 1, 0)
         jumped = self._doubts[0] > _PATIENCE
-        self._state[:, jumped] = np.nan  # begins anew there
-        self._doubts[0, jumped] = 0
+        if jumped.any():
+            self._state[:, jumped] = np.nan  # begins anew there
+            self._doubts[0, jumped] = 0
+            self._ahead = None
         believed: BoolArray = ~doubtful | jumped
         return believed
 
@@ -108,6 +116,7 @@ class KeypointFilter:
             sigma: standard deviations. Shape (n, 3).
         """
         self._state, self._covariance = self._advanced(time)
+        self._ahead = None
         elapsed = 0.0 if self._time is None else time - self._time
         self._time = time
         forgotten = time - self._seen > self._hold_time
@@ -125,6 +134,11 @@ class KeypointFilter:
         return np.stack([1.0 / depth, 1.0 / depth, np.ones_like(depth)], axis=1)
 
     def _advanced(self, time: float) -> tuple[FloatArray, FloatArray]:
+        if self._ahead is None or self._ahead[0] != time:
+            self._ahead = (time, *self._moved_on(time))
+        return self._ahead[1], self._ahead[2]
+
+    def _moved_on(self, time: float) -> tuple[FloatArray, FloatArray]:
         if self._time is None or time <= self._time:
             return self._state.copy(), self._covariance.copy()
         dt = time - self._time
@@ -132,7 +146,7 @@ class KeypointFilter:
         hidden = (self._time > self._seen)[:, None]
         moved = np.where(hidden, _STOPPING * (1.0 - np.exp(-dt / _STOPPING)), dt)
         left = np.where(hidden, np.exp(-dt / _STOPPING), 1.0)
-        power = (self._acceleration * self._scale()) ** 2 * np.clip(self._surprise, _CALM, _WILD)
+        power = (self._acceleration * self._scale()) ** 2 * self._surprise
         a, b, c = self._covariance
         covariance = np.stack(
             [
@@ -162,12 +176,16 @@ class KeypointFilter:
         with np.errstate(invalid="ignore"):
             innovation = np.where(measured, values - self._state[0], 0.0)
             total = a + noise
-            level = np.minimum(innovation**2 / total, _WILD**2)
+            level = innovation**2 / total
         if elapsed > 0.0:
-            share = 1.0 - np.exp(-elapsed / _FORGET)
+            change = np.exp(min(elapsed / _FORGET, 1.0) * (np.minimum(level, _STARTLING) - 1.0))
             self._surprise = np.where(
-                measured, self._surprise + share * (level - self._surprise), self._surprise
+                measured, np.clip(self._surprise * change, _CALM, _WILD), self._surprise
             )
+        # A stroke begins within one image: what is startling is followed at once (strong tracking).
+        startled = measured & (level > _STARTLING)
+        a = np.where(startled, np.maximum(a, innovation**2 / 2.0 - noise), a)
+        total = a + noise
         gain_value = np.where(measured, a / total, 0.0)
         gain_velocity = np.where(measured, b / total, 0.0)
         self._state = np.stack(

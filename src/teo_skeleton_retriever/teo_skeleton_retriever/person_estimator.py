@@ -14,8 +14,7 @@ from teo_skeleton_retriever.body_size import BodySize
 from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.detected import Detected, detected
 from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
-from teo_skeleton_retriever.face_70 import FACE_70
-from teo_skeleton_retriever.face_depth import FaceDepths, face_depths
+from teo_skeleton_retriever.face_depth import face_depths
 from teo_skeleton_retriever.filtered import keypoints_of
 from teo_skeleton_retriever.frame import Frame
 from teo_skeleton_retriever.hand_fit import HandFit, HandView, fit_hands
@@ -29,10 +28,12 @@ from teo_skeleton_retriever.person_layout import (
     BIAS,
     BODY,
     FACE,
+    GAP,
     HANDS,
     JUMP,
     LEFT_HAND,
     PIXEL,
+    RADIUS,
     RIGHT_HAND,
     ROW,
     N,
@@ -62,9 +63,7 @@ class PersonEstimator:
         self._parameters = parameters
         self._size = BodySize()
         self._body = BodyDepth(parameters)
-        limits = {"nearest": parameters.min_depth, "farthest": parameters.max_depth}
-        self._hand_lookup = DepthLookup(radius=0.008, gap=0.03, **limits)
-        self._face_lookup = DepthLookup(radius=0.01, gap=0.05, **limits)
+        self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
         self._filter = KeypointFilter(
             N,
             acceleration=ACCELERATION,
@@ -85,10 +84,18 @@ class PersonEstimator:
         before = self._filter.predict(frame.stamp)
         seen = self._seen(frame, person)
         seen = seen.only(self._filter.believable(frame.stamp, seen.rays, JUMP))
+        surfaces = self._lookup.surfaces(
+            frame.depth,
+            seen.pixels,
+            focal=frame.camera.fx,
+            distance=np.where(np.isfinite(before.depth), before.depth, distance),
+            radius=RADIUS,
+            gap=GAP,
+        )
         depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
         optimised = np.zeros(N, dtype=bool)
-        fits = self._fit_hands(frame, person, seen, before, distance)
-        body = self._find_body(frame, seen, before, fits, distance)
+        fits = self._fit_hands(person, seen, surfaces, before)
+        body = self._find_body(seen, surfaces, before, fits)
         depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
         rays = np.concatenate([body.rays, seen.rays[BODY.stop :]])
         for side, fit in fits.items():
@@ -99,8 +106,8 @@ class PersonEstimator:
             depth[HANDS[side]], sigma[HANDS[side]] = fit.points[:, 2] + moved, fit.sigma
             optimised[HANDS[side]] = ~fit.measured
         if seen.seen[FACE].any():
-            head = np.append(before.depth[FACE], body.depths[_HEAD])
-            face = self._find_face(frame, seen, head)
+            about = _middle(np.append(before.depth[FACE], body.depths[_HEAD]))
+            face = face_depths(seen.rays[FACE], surfaces.part(FACE), about)
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
@@ -136,27 +143,20 @@ class PersonEstimator:
         return detected(keypoints, frame.camera, self._parameters.min_confidence)
 
     def _fit_hands(
-        self, frame: Frame, person: Person2D, seen: Detected, before: FilterOutput, distance: float
+        self, person: Person2D, seen: Detected, surfaces: Surfaces, before: FilterOutput
     ) -> dict[str, HandFit]:
-        """Find the depths of the hands that are seen."""
+        """Find the hands that are seen."""
         sides = [side for side, rows in HANDS.items() if seen.seen[rows].any()]
-        if not sides:
-            return {}
-        rows = np.concatenate([np.arange(N)[HANDS[side]] for side in sides])
-        expected = np.where(np.isfinite(before.depth[rows]), before.depth[rows], distance)
-        surfaces = self._hand_lookup.surfaces(
-            frame.depth, seen.pixels[rows], focal=frame.camera.fx, distance=expected
-        )
         worlds = {"L": person.left_hand_world, "R": person.right_hand_world}
         views = [
             HandView(
                 seen.rays[HANDS[side]],
-                Surfaces(*(array[21 * i : 21 * (i + 1)] for array in surfaces)),
+                surfaces.part(HANDS[side]),
                 worlds[side],
                 _middle(before.depth[HANDS[side]]),
                 float(before.depth[ARMS[side][2]]),
             )
-            for i, side in enumerate(sides)
+            for side in sides
         ]
         if self._parameters.fit_hands:
             fits = fit_hands(views, self._size.scale)
@@ -171,12 +171,7 @@ class PersonEstimator:
         return found
 
     def _find_body(
-        self,
-        frame: Frame,
-        seen: Detected,
-        before: FilterOutput,
-        fits: dict[str, HandFit],
-        distance: float,
+        self, seen: Detected, surfaces: Surfaces, before: FilterOutput, fits: dict[str, HandFit]
     ) -> BodyDepths:
         wrists = {
             side: WristView(
@@ -189,18 +184,8 @@ class PersonEstimator:
             if np.isfinite(fit.points[0]).all()
         }
         return self._body.find(
-            frame, seen.part(BODY), before.part(BODY), self._size, distance=distance, wrists=wrists
+            seen.part(BODY), surfaces.part(BODY), before.part(BODY), self._size, wrists=wrists
         )
-
-    def _find_face(self, frame: Frame, seen: Detected, expected: FloatArray) -> FaceDepths:
-        about = _middle(expected)
-        surfaces = self._face_lookup.surfaces(
-            frame.depth,
-            seen.pixels[FACE],
-            focal=frame.camera.fx,
-            distance=np.full(len(FACE_70), about),
-        )
-        return face_depths(seen.rays[FACE], surfaces, about)
 
     def _with_held_hands(self, found: Keypoints3D) -> Keypoints3D:
         """Put hands that are held where they were on the arm, not where they were in space."""

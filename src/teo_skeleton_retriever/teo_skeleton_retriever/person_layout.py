@@ -32,6 +32,11 @@ def _each(body: float, hands: float, face: float, **joints: float) -> FloatArray
     return values
 
 
+RADIUS = _each(0.03, 0.008, 0.01)
+"""[m] Around a keypoint that depth is looked at: half a wrist, a finger, half an eye."""
+GAP = _each(0.06, 0.03, 0.05)
+"""[m] Depths that are this far apart belong to different surfaces: less than from forearm to chest, from a
+finger to the other hand, from a hand to the face."""
 ACCELERATION = _each(5.0, 25.0, 6.0, Elbow=12.0, Wrist=25.0)
 """[m/s^2] Usual standard deviation: a stroke of a sign is 0.3 m in 0.2 s, a nod 5 cm in 0.2 s."""
 ACROSS = _each(0.005, 0.004, 0.003)

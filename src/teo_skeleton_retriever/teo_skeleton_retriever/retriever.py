@@ -21,6 +21,7 @@ from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus, Skel
 __all__ = ["Frame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
 
 _TRUNK = [BODY_25.index[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
+_USUAL = 1.5  # [m] distance of a signer; only sets how much around a keypoint is looked at
 _LEAST_TRUNK = 2  # keypoints of the trunk that say where it is; with fewer everything that is seen is asked
 
 
@@ -86,9 +87,10 @@ class Retriever:
         body = as_body_25(person.body)
         seen = detected(body, frame.camera, self._parameters.min_confidence)
         for rows in (_TRUNK, list(range(len(body)))):
-            depth = (
-                self._lookup.surfaces(frame.depth, seen.pixels[rows], focal=frame.camera.fx).nearest().depth
+            surfaces = self._lookup.surfaces(
+                frame.depth, seen.pixels[rows], focal=frame.camera.fx, distance=np.full(len(rows), _USUAL)
             )
+            depth = surfaces.nearest().depth
             known = np.isfinite(depth)
             if known.sum() >= (_LEAST_TRUNK if rows is _TRUNK else 1):
                 middle = float(np.median(depth[known]))

@@ -75,7 +75,7 @@ class RetrieverParameters:
         "Whose constant offsets from the joints are put right; those of others are not known.",
     )
     hold_time: float = _number(
-        0.3, "s", 0.0, 10.0, "A keypoint that is not seen is held so long: a hand that passes behind another."
+        0.2, "s", 0.0, 10.0, "A keypoint that is not seen is held so long: after it, hands were 0.1 m off."
     )
     max_sigma: float = _number(
         0.1,

@@ -54,9 +54,9 @@ def along_ray(radius: FloatArray, axis: FloatArray, ray: FloatArray) -> FloatArr
         axis: direction of the limb, of any length; NaN or zero if not known. Shape (n, 3).
         ray: from the camera, of any length. Shape (n, 3).
     """
-    crossed = np.linalg.norm(np.cross(axis, ray), axis=1)
-    lengths = np.linalg.norm(axis, axis=1) * np.linalg.norm(ray, axis=1)
+    squares = (axis * axis).sum(axis=1) * (ray * ray).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
-        sine = np.where(lengths > 0.0, crossed / lengths, 1.0)
-    behind: FloatArray = radius / np.clip(np.nan_to_num(sine, nan=1.0), _LEAST_SINE, 1.0)
+        squared_sine = 1.0 - (axis * ray).sum(axis=1) ** 2 / squares
+        squared_sine = np.where(squares > 0.0, np.maximum(squared_sine, _LEAST_SINE**2), 1.0)
+    behind: FloatArray = radius / np.sqrt(squared_sine)
     return behind

@@ -6,13 +6,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.body_25 import BODY_25
 from teo_skeleton_retriever.camera_model import CameraModel
 from teo_skeleton_retriever.frame import Frame
 from teo_skeleton_retriever.person_2d import Person2D
 
-CAMERA = CameraModel(width=640, height=480, fx=600.0, fy=600.0, cx=319.5, cy=239.5)
+CAMERA = CameraModel(width=320, height=240, fx=300.0, fy=300.0, cx=159.5, cy=119.5)
 ROW = BODY_25.index
 UPPER_ARM, FOREARM, SHOULDERS = 0.29, 0.25, 0.34  # [m]
 FINGER_BASES = {
@@ -189,9 +190,7 @@ def person_2d(
         found[list(absent)] = 0.0
         return found
 
-    worlds = [
-        hand - hand.mean(axis=0) if imagined else None for hand in (person.left_hand, person.right_hand)
-    ]
+    worlds = [imagined_shape(hand) if imagined else None for hand in (person.left_hand, person.right_hand)]
     return Person2D(
         body=seen(person.body, tuple(range(19, 25))),
         left_hand=seen(person.left_hand),
@@ -200,6 +199,14 @@ def person_2d(
         left_hand_world=worlds[0],
         right_hand_world=worlds[1],
     )
+
+
+def imagined_shape(hand: np.ndarray) -> np.ndarray:
+    """A hand as a detector imagines it that sees it cut out, as if it looked straight at it [m]."""
+    middle = hand.mean(axis=0)
+    turned, _ = Rotation.align_vectors([[0, 0, 1]], [middle / np.linalg.norm(middle)])
+    shape: np.ndarray = turned.apply(hand - middle)
+    return shape
 
 
 def face(person: Pose) -> np.ndarray:
