@@ -167,32 +167,18 @@ def test_a_fast_hand_is_not_trailed(frames: list[SyntheticFrame], people: list[P
     assert abs(lags[np.argmin([scatter(lag) for lag in lags])]) < 0.35
 
 
-def test_two_images_at_once_give_what_one_after_the_other_gives(
-    frames: list[SyntheticFrame], people: list[Person2D], detector: MediaPipeDetector
+def test_each_of_two_images_at_once_gets_its_own_answer(
+    frames: list[SyntheticFrame], detector: MediaPipeDetector
 ) -> None:
-    turn = threading.Condition()
-    begun = 0
-
-    def detect(index: int) -> Person2D:
-        nonlocal begun
-        with turn:  # images begin in their order
-            turn.wait_for(lambda: begun == index)
-            starter = threading.Timer(0.005, next_turn)
-            starter.start()
-        return detector.detect(frames[index].color, frames[index].stamp)[0]
-
-    def next_turn() -> None:
-        nonlocal begun
-        with turn:
-            begun += 1
-            turn.notify_all()
-
+    shown = [frames[0].color, np.zeros_like(frames[0].color), frames[0].color[::2, ::2]]
+    alone = [detector.detect(image, 0.0) for image in shown]
+    assert [len(people) for people in alone] == [1, 0, 1]
     with ThreadPoolExecutor(2) as threads:
-        together = list(threads.map(detect, range(len(frames))))
-    for one, other in zip(people, together, strict=True):
-        np.testing.assert_allclose(other.body, one.body, atol=1e-3)
-        np.testing.assert_allclose(other.right_hand, one.right_hand, atol=1e-3)
-        np.testing.assert_allclose(other.face, one.face, atol=1e-3)
+        together = list(threads.map(lambda i: detector.detect(shown[i % 3], 0.0), range(18)))
+    for i, people in enumerate(together):
+        assert len(people) == len(alone[i % 3])
+        for one, other in zip(people, alone[i % 3], strict=True):
+            np.testing.assert_allclose(one.body[:8, :2], other.body[:8, :2], atol=12.0)
 
 
 @pytest.mark.parametrize("shape", [(480, 640), (720, 1280), (1, 1), (3, 2), (40, 2000)])
@@ -239,15 +225,24 @@ def test_a_graph_that_failed_fails_one_image_only(
     assert len(detector.detect(frames[0].color, 0.1)) == 1
 
 
-def test_closing_ends_what_is_being_worked_on(frames: list[SyntheticFrame], people: list[Person2D]) -> None:
+def test_closing_waits_for_the_image_at_hand_and_refuses_the_next(frames: list[SyntheticFrame]) -> None:
     detector = MediaPipeDetector()
+    begun = threading.Event()
+    found = []
+
+    def work() -> None:
+        while True:
+            found.append(detector.detect(frames[0].color, 0.0))
+            begun.set()
+
     with ThreadPoolExecutor(1) as thread:
-        running = thread.submit(lambda: [detector.detect(frame.color, frame.stamp) for frame in frames])
+        running = thread.submit(work)
+        assert begun.wait(60.0)
         detector.close()
         error = running.exception(timeout=60.0)
     assert isinstance(error, DetectorError)
-    assert error.code in ("closed", "failed")
-    assert people
+    assert error.code == "closed"
+    assert {len(people) for people in found} == {1}
 
 
 def test_a_closed_detector_frees_its_networks() -> None:
