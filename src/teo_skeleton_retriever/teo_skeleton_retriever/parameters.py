@@ -18,8 +18,8 @@ Value = bool | int | float | str | tuple[str, ...]
 DEFAULT_SLOP = 0.017
 """[s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart."""
 _DETECTOR = "detector"
-TRANSPORTS_COLOR = ("raw", "compressed")
-TRANSPORTS_DEPTH = ("raw", "compressedDepth")
+TRANSPORTS_COLOR = ("auto", "raw", "compressed")
+TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,16 +81,17 @@ _NODE = (
     ),
     ParameterRow(
         name="color_transport",
-        default="raw",
+        default="auto",
         choices=TRANSPORTS_COLOR,
-        description="Which form of the colour image is subscribed to.",
+        description="Which form of the colour image is subscribed to; auto: raw, unless only compressed is "
+        "published.",
         read_only=True,
     ),
     ParameterRow(
         name="depth_transport",
-        default="raw",
+        default="auto",
         choices=TRANSPORTS_DEPTH,
-        description="Which form of the depth image is subscribed to.",
+        description="Which form of the depth image is subscribed to; likewise.",
         read_only=True,
     ),
     ParameterRow(

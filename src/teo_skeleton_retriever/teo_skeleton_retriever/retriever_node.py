@@ -6,6 +6,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from queue import SimpleQueue
 from typing import Any, NamedTuple
 
@@ -33,6 +34,7 @@ from teo_skeleton_retriever.image_retriever import (
     Retrieved,
     make_retriever,
 )
+from teo_skeleton_retriever.image_subscription import ImageSubscription
 from teo_skeleton_retriever.markers import marker_array
 from teo_skeleton_retriever.messages import image_message, skeleton_array
 from teo_skeleton_retriever.newest_pipeline import NewestPipeline
@@ -52,6 +54,7 @@ from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
 # fewer, a short delay would leave colour and depth of different times.
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
+_LOOK_PERIOD = 0.25  # [s] between looks for who publishes images; of a bag of some seconds little is missed
 _SAME_CLOCK = (
     60.0  # [s] An image that seems older, or younger, was stamped by another clock: a bag is played.
 )
@@ -111,13 +114,21 @@ class RetrieverNode(Node):
         self._markers = self.create_publisher(MarkerArray, "skeleton_markers", 10)
         self._pictures = self.create_publisher(Image, "overlay/image", 1)
         self._pipeline = NewestPipeline(self._detect, self._follow, at_once=detector.images_at_once)
-        color = self._subscribe(COLOR, str(values["color_transport"]), self._on_color)
-        depth = self._subscribe(DEPTH, str(values["depth_transport"]), self._on_depth)
+        images = partial(ImageSubscription, self, qos=_SENSOR)
+        color, depth = values["color_transport"], values["depth_transport"]
+        self._images = {
+            "color": images(topic=COLOR, compressed="compressed", transport=color, callback=self._on_color),
+            "depth": images(
+                topic=DEPTH, compressed="compressedDepth", transport=depth, callback=self._on_depth
+            ),
+        }
         info = self.create_subscription(CameraInfo, CAMERA_INFO, self._on_camera_info, _SENSOR)
-        self._topics = {"color": color, "depth": depth, "camera_info": info.topic_name}
+        self._topics = {name: stream.topic for name, stream in self._images.items()}
+        self._topics["camera_info"] = info.topic_name
         self._diagnostics = DiagnosticsPublisher(self, self._stats, self._topics)
         self.create_service(LockSigner, "lock_signer", self._on_lock_signer)
         self.create_timer(_DIAGNOSTICS_PERIOD, self._on_diagnostics)
+        self.create_timer(_LOOK_PERIOD, self._follow_publishers)
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.get_logger().info(f"{detector.name} waits for {', '.join(self._topics.values())}")
@@ -128,9 +139,10 @@ class RetrieverNode(Node):
         self._retriever.close()
         super().destroy_node()
 
-    def _subscribe(self, topic: str, transport: str, callback: Callable[[Any], None]) -> str:
-        kind, name = (Image, topic) if transport == "raw" else (CompressedImage, f"{topic}/{transport}")
-        return str(self.create_subscription(kind, name, callback, _SENSOR).topic_name)
+    def _follow_publishers(self) -> None:
+        for stream, subscription in self._images.items():
+            subscription.follow_publishers()
+            self._topics[stream] = subscription.topic
 
     def _on_color(self, message: Image | CompressedImage) -> None:
         self._stats.arrived("color", time.monotonic())
@@ -157,8 +169,7 @@ class RetrieverNode(Node):
         last = self._last_stamp
         return last is None or stamp < last or stamp - last >= self._value("period") * 1e9
 
-    # In threads of the pipeline: one image is followed while the next is looked at.
-
+    # In threads of the pipeline.
     def _detect(self, job: _Job) -> _Followed | None:
         with self._problems():
             info = self._camera_info

@@ -41,7 +41,9 @@ def replay(*people: Person2D, begin: int = 0) -> Any:
 class Bench:
     """The node and a camera driver that hears everything, in one process and a DDS domain of their own."""
 
-    def __init__(self, context: Any, detector: Any, **parameters: Any) -> None:
+    def __init__(
+        self, context: Any, detector: Any, *, publishes_compressed: bool = False, **parameters: Any
+    ) -> None:
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         self.node = RetrieverNode(detector=detector, context=context, parameter_overrides=overrides)
         self.client = rclpy.create_node("client", context=context)
@@ -55,9 +57,9 @@ class Bench:
         sensor = QoSProfile(depth=5, reliability=ReliabilityPolicy.RELIABLE)
         base = ("camera/color/image_raw", "camera/aligned_depth_to_color/image_raw")
         kinds = (Image, Image)
-        if parameters.get("color_transport") == "compressed":
+        if publishes_compressed or parameters.get("color_transport") == "compressed":
             base, kinds = (f"{base[0]}/compressed", base[1]), (CompressedImage, kinds[1])
-        if parameters.get("depth_transport") == "compressedDepth":
+        if publishes_compressed or parameters.get("depth_transport") == "compressedDepth":
             base, kinds = (base[0], f"{base[1]}/compressedDepth"), (kinds[0], CompressedImage)
         self.color = self.client.create_publisher(kinds[0], base[0], sensor)
         self.depth = self.client.create_publisher(kinds[1], base[1], sensor)
@@ -215,6 +217,11 @@ def test_who_leaves_and_returns_is_the_same_person(context):
 
 def test_compressed_colour_and_depth_are_followed(start):
     bench = start(take.person(), color_transport="compressed", depth_transport="compressedDepth")
+    bench.send_until(bench.followed, color=take.compressed_color, depth=take.compressed_depth)
+
+
+def test_what_is_published_compressed_alone_is_found_by_itself(start):
+    bench = start(take.person(), publishes_compressed=True)
     bench.send_until(bench.followed, color=take.compressed_color, depth=take.compressed_depth)
 
 
