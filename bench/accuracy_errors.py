@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from accuracy_methods import Estimate
 from accuracy_takes import TakeFrame
+from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.body_25 import BODY_25
@@ -32,6 +33,8 @@ class Errors(NamedTuple):
     """by the truth. Shape (m, n)"""
     ratio: FloatArray
     """error over sigma along x, y and z. Shape (m, n, 3)"""
+    status: NDArray[np.uint8]
+    """of `KeypointStatus`. Shape (m, n)"""
 
     def joined(self, others: Sequence[Errors]) -> Errors:
         """Put images of several takes together."""
@@ -43,6 +46,7 @@ class Errors(NamedTuple):
             depth=np.concatenate([part.depth for part in parts]),
             visible=np.concatenate([part.visible for part in parts]),
             ratio=np.concatenate([part.ratio for part in parts]),
+            status=np.concatenate([part.status for part in parts]),
         )
 
     def of(self, *parts: str) -> Errors:
@@ -55,16 +59,14 @@ class Errors(NamedTuple):
             self.depth[:, rows],
             self.visible[:, rows],
             self.ratio[:, rows],
+            self.status[:, rows],
         )
 
-    def where(self, visible: bool) -> Errors:
-        """Keep what was visible, or what was hidden."""
-        drop = self.visible != visible
-        arrays = [np.where(drop, np.nan, array) for array in (self.distance, self.sideways, self.depth)]
-        return self._replace(
-            distance=arrays[0], sideways=arrays[1], depth=arrays[2],
-            ratio=np.where(drop[..., None], np.nan, self.ratio),
-        )  # fmt: skip
+    def where(self, chosen: BoolArray) -> Errors:
+        """Keep those that are chosen. Shape (m, n)."""
+        arrays = [np.where(chosen, array, np.nan) for array in (self.distance, self.sideways, self.depth)]
+        ratio = np.where(chosen[..., None], self.ratio, np.nan)
+        return self._replace(distance=arrays[0], sideways=arrays[1], depth=arrays[2], ratio=ratio)
 
 
 def body_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> Errors:
@@ -72,7 +74,8 @@ def body_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> E
     truth = np.array([frame.truth.body[ARM_ROWS] for frame in frames])
     visible = np.array([frame.truth.body_visible[ARM_ROWS] for frame in frames])
     sigma = np.array([estimate.sigma[ARM_ROWS] for estimate in estimates])
-    return _errors(list(ARMS), truth, np.array([e.body[ARM_ROWS] for e in estimates]), visible, sigma)
+    status = np.array([estimate.status[ARM_ROWS] for estimate in estimates])
+    return _errors(list(ARMS), truth, np.array([e.body[ARM_ROWS] for e in estimates]), visible, sigma, status)
 
 
 def hand_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> Errors:
@@ -82,7 +85,8 @@ def hand_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> E
         [np.concatenate([f.truth.left_hand_visible, f.truth.right_hand_visible]) for f in frames]
     )
     sigma = np.array([estimate.sigma[25:] for estimate in estimates])
-    return _errors(HAND_NAMES, truth, np.array([e.hands for e in estimates]), visible, sigma)
+    status = np.array([estimate.status[25:] for estimate in estimates])
+    return _errors(HAND_NAMES, truth, np.array([e.hands for e in estimates]), visible, sigma, status)
 
 
 def face_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> Errors:
@@ -91,14 +95,20 @@ def face_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> E
     visible = np.array([frame.truth.face_visible for frame in frames])
     names = [f"Face{i}" for i in range(truth.shape[1])]
     found = np.array([estimate.face for estimate in estimates])
-    return _errors(names, truth, found, visible, np.full(truth.shape, np.nan))
+    nothing = np.zeros(visible.shape, dtype=np.uint8)
+    return _errors(names, truth, found, visible, np.full(truth.shape, np.nan), nothing)
 
 
 def _errors(
-    names: list[str], truth: FloatArray, found: FloatArray, visible: BoolArray, sigma: FloatArray
+    names: list[str],
+    truth: FloatArray,
+    found: FloatArray,
+    visible: BoolArray,
+    sigma: FloatArray,
+    status: NDArray[np.uint8],
 ) -> Errors:
     ray = truth / np.linalg.norm(truth, axis=-1, keepdims=True)
     off = found - truth
     along = (off * ray).sum(axis=-1)
     across = np.linalg.norm(off - along[..., None] * ray, axis=-1)
-    return Errors(names, np.linalg.norm(off, axis=-1), across, along, visible, off / sigma)
+    return Errors(names, np.linalg.norm(off, axis=-1), across, along, visible, off / sigma, status)

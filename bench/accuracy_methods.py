@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 from accuracy_takes import TakeFrame
+from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.body_25 import BODY_25
@@ -32,6 +33,8 @@ class Estimate(NamedTuple):
     """[m]. Shape (70, 3)"""
     sigma: FloatArray
     """of body and hands [m]; NaN where the method gives none. Shape (67, 3)"""
+    status: NDArray[np.uint8]
+    """of `KeypointStatus`, of body and hands; lost where the method gives none. Shape (67,)"""
 
 
 def detected(frame: TakeFrame) -> tuple[Person2D, ...]:
@@ -103,7 +106,7 @@ def one_pixel(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
         depths = np.full(len(keypoints), np.nan)
         depths[seen] = depth[rows[seen], columns[seen]]
         points = frame.camera.unproject(keypoints[:, :2], depths)
-        estimates.append(Estimate(points[:25], points[25:67], points[67:], np.full((67, 3), np.nan)))
+        estimates.append(Estimate(points[:25], points[25:67], points[67:], *_untold()))
     return estimates
 
 
@@ -130,8 +133,14 @@ def _of_parts(body: Keypoints3D, left: Keypoints3D, right: Keypoints3D, face: Ke
         np.concatenate([left.points, right.points]),
         face.points,
         np.concatenate([body.sigma, left.sigma, right.sigma]),
+        np.concatenate([body.status, left.status, right.status]),
     )
 
 
 def _nothing() -> Estimate:
-    return Estimate(*(np.full((n, 3), np.nan) for n in (25, 42, 70, 67)))
+    body, hands, face = (np.full((n, 3), np.nan) for n in (25, 42, 70))
+    return Estimate(body, hands, face, *_untold())
+
+
+def _untold() -> tuple[FloatArray, NDArray[np.uint8]]:
+    return np.full((67, 3), np.nan), np.zeros(67, dtype=np.uint8)

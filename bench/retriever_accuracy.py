@@ -22,6 +22,7 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.retriever import KeypointStatus
 
 # (script, start of each of its takes [s]); what the body does there is in none of the takes of calibration.
 _MOTIONS = {
@@ -97,11 +98,21 @@ def rows(results: Results) -> list[tuple[str, str, str, str, dict[str, float]]]:
     for (part, detector, method), errors in results.items():
         splits: dict[str, Errors] = {"all": errors}
         if part != "face":
-            splits |= {"visible": errors.where(True), "hidden": errors.where(False)}
+            splits |= {
+                "visible": errors.where(errors.visible),
+                "hidden": errors.where(~errors.visible),
+                "given by one pixel too": errors.where(
+                    np.isfinite(results[part, detector, "one pixel"].distance)
+                ),
+            }
+            splits |= {
+                status.name.lower(): errors.where(errors.status == status)
+                for status in (KeypointStatus.MEASURED, KeypointStatus.OPTIMISED, KeypointStatus.HELD)
+            }
             names = (
                 ("Shoulder", "Elbow", "Wrist")
                 if part == "body"
-                else ("Wrist", "CMC", "MCP", "PIP", "DIP", "IP", "Tip")
+                else ("Wrist", "CMC", "MCP", "PIP", "DIP", "ThumbIP", "Tip")
             )
             splits |= {name: errors.of(name) for name in names}
         lines += [
@@ -129,6 +140,8 @@ def main() -> None:
     parser.add_argument("--takes", type=int, default=len(TEST_TAKES), help="only so many")
     arguments = parser.parse_args()
     console = Console()
+    if not console.is_terminal:
+        console = Console(width=160)  # a log that is not cut
     results = evaluate(TEST_TAKES[: arguments.takes], arguments.cache, console)
     lines = rows(results)
     print_table(lines, console)

@@ -22,7 +22,7 @@ of 1.7 m after Drillis and Contini, "Body Segment Parameters" (1966): 0.29, 0.25
 _GROWTH = {"upper arm": 0.5, "forearm": 1.0, "thigh": 0.5, "shank": 0.5}
 """Power of the shoulders' width that a limb grows with: broad shoulders are not long arms."""
 _ASSUMED = 5.0  # lengths seen across the view that outweigh what is assumed of a person: a third of a second
-_LENGTH_SIGMA = (0.010, 0.025)  # [m] of a limb whose length was measured, and of one that was not
+_LENGTH_SIGMA = (0.010, 0.04)  # [m] of a limb whose length was measured, and of one that was not
 _SCALE_RANGE = (0.55, 1.35)  # a child of six; a man of 2.1 m with broad shoulders
 
 _ROWS = {limb: [(BODY_25.index[a], BODY_25.index[b]) for a, b in pairs] for limb, pairs in _LIMBS.items()}

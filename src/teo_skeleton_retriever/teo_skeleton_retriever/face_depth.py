@@ -12,6 +12,7 @@ from teo_skeleton_retriever.depth_lookup import Surfaces
 _HEAD = 0.13  # [m] from the nose's tip to the ear: nothing of a face is farther from its middle
 _OUTLIER = 0.015  # [m] off a smooth surface: half a nose
 _SURFACE_SIGMA = 0.008  # [m] of a face about a smooth surface
+_BEFORE = 0.04  # [m] no more of a face is before its middle: a nose
 _ITERATIONS = 4
 _LEAST = 8  # measured keypoints for a surface of six numbers
 
@@ -53,7 +54,8 @@ def face_depths(rays: FloatArray, surfaces: Surfaces, expected: float) -> FaceDe
     x, y = np.nan_to_num((rays - centre) * middle / 0.1).T  # about -1 to 1 on a face
     terms = np.column_stack([np.ones(n), x, y, x * x, x * y, y * y])
     fitted = np.full(n, middle)
-    weight = usable.astype(np.float64)
+    # What hides a part of a face is nearer than it.
+    weight = usable * (np.nan_to_num(nearest.depth) > middle - _BEFORE)
     for _ in range(_ITERATIONS):
         normal = (terms * weight[:, None]).T @ terms + 1e-3 * np.diag([0.0, 1.0, 1.0, 1.0, 1.0, 1.0])
         fitted = terms @ np.linalg.solve(normal, terms.T @ (weight * np.nan_to_num(nearest.depth)))
