@@ -6,13 +6,18 @@ import platform
 
 import driver_rate
 import planning
+import retriever_node
 import robot_model
 import text_to_trajectory
 import translation
 from rich.console import Console
 from rich.table import Table
 
+<<<<<<< HEAD
 BENCHES = (robot_model, planning, driver_rate, text_to_trajectory, translation)
+=======
+BENCHES = (robot_model, planning, driver_rate, text_to_trajectory, retriever_node)
+>>>>>>> 7c7543ae99a1ae4e8985ce6cb115b66bbcb43bee
 
 
 def main() -> None:

@@ -55,11 +55,13 @@ install_requirements() {
         "$python" -m venv "${options[@]}" .venv
         echo "$made_for" >.venv/.made-for
     fi
-    options=(-r requirements/build.txt -r requirements/run.txt -r requirements/train.txt -r requirements/capture.txt -r requirements/test.txt)
+    options=(-r requirements/build.txt -r requirements/run.txt -r requirements/train.txt -r requirements/capture.txt
+        -r requirements/retriever.txt -r requirements/test.txt)
     # A sourced ROS 2 Jazzy is built against NumPy 1; its messages do not load beside NumPy 2.
     if [ "$ros" = sourced ]; then options+=('numpy<2'); else options+=(-r requirements/ros.txt -c requirements/constraints.txt); fi
-    echo "setup: installing Python packages (a few minutes and 2.5 GB the first time)"
+    echo "setup: installing Python packages (a few minutes and 3 GB the first time)"
     .venv/bin/pip install --disable-pip-version-check --quiet "${options[@]}"
+    .venv/bin/pip install --disable-pip-version-check --quiet --no-deps -r requirements/retriever-alone.txt
     repair_wheel_exports
     echo "$want" >.venv/.ready
 }

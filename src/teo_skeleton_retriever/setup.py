@@ -16,9 +16,16 @@ setup(
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description=(
-        "From colour and depth images to 3D keypoints of people: "
-        "keypoint layouts, depth, projection, filters, limb lengths."
+        "From colour and depth images to 3D keypoints of people's bodies, hands and faces: "
+        "node, detectors, offline tools, synthetic signer."
     ),
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": [
+            "retrieve = teo_skeleton_retriever.retrieve_cli:main",
+            "synthesize = teo_skeleton_retriever.synthetic.synthesize_cli:main",
+            "retriever_node = teo_skeleton_retriever.retriever_node:main",
+        ],
+    },
 )

@@ -1,53 +1,94 @@
-"""The depth at a keypoint, from what is around it: holes, contours and things in front do not fool it."""
+"""The depth at keypoints, from what is around them: holes, contours and things in front do not fool it."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from teo_skeleton_retriever.arrays import DepthArray, FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.errors import DepthError
 
 _MAD_TO_SIGMA = 1.4826  # of a normal distribution
-_DENSE_RADIUS = 8.0  # [px] of larger discs every second pixel, third and so on is read: 200 are enough
+_RINGS = (
+    4  # samples from the centre of a disc to its edge: 49 in all, enough for a median to a tenth of the noise
+)
+_LAYERS = 3  # surfaces told apart around a keypoint: a hand, the arm or chest behind it, the wall
 
 
-class DepthSample(NamedTuple):
-    """What is known of the depth at a keypoint."""
+def _template() -> tuple[FloatArray, FloatArray]:
+    """Give the samples of a disc of radius 1, from the centre outwards. Shapes (m, 2), (m,)."""
+    steps = np.arange(-_RINGS, _RINGS + 1) / _RINGS
+    grid = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    distance = np.hypot(grid[:, 0], grid[:, 1])
+    order = np.argsort(distance, kind="stable")
+    order = order[distance[order] <= 1.0]
+    return grid[order], distance[order]
 
-    depth: float
-    """[m]; NaN if nothing was measured around it"""
-    sigma: float
-    """standard deviation along the optical axis [m]; NaN likewise"""
-    support: float
-    """share of the measured pixels around that belong to the surface chosen, 0 to 1"""
+
+_OFFSETS, _DISTANCES = _template()
 
 
-UNKNOWN = DepthSample(math.nan, math.nan, 0.0)
+class DepthSamples(NamedTuple):
+    """What is known of the depth at n keypoints."""
+
+    depth: FloatArray
+    """[m]; NaN where nothing was measured around. Shape (n,)"""
+    sigma: FloatArray
+    """standard deviation along the optical axis [m]; NaN likewise. Shape (n,)"""
+    support: FloatArray
+    """share of the measured pixels around that belong to the surface, 0 to 1. Shape (n,)"""
+
+
+class Surfaces(NamedTuple):
+    """The surfaces around n keypoints, from near to far; what there are fewer of is NaN and support 0."""
+
+    depth: FloatArray
+    """[m]. Shape (n, 3)"""
+    sigma: FloatArray
+    """standard deviation along the optical axis [m]. Shape (n, 3)"""
+    support: FloatArray
+    """share of the measured pixels around that belong to each, 0 to 1. Shape (n, 3)"""
+
+    def part(self, rows: slice) -> Surfaces:
+        """Keep some of the keypoints."""
+        return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
+
+    def nearest(self) -> DepthSamples:
+        """Choose the nearest: keypoints lie on the body, and what is behind its contour is background."""
+        return DepthSamples(self.depth[:, 0], self.sigma[:, 0], self.support[:, 0])
+
+    def closest(self, expected: FloatArray) -> DepthSamples:
+        """Choose the surface closest to an expected depth, so that a hand before an elbow does not pull it.
+
+        Args:
+            expected: [m]; where it is NaN the nearest surface is chosen. Shape (n,).
+        """
+        misfit = np.abs(self.depth - np.where(np.isfinite(expected), expected, 0.0)[:, None])
+        best = np.argmin(np.where(np.isfinite(misfit), misfit, np.inf), axis=1)
+        rows = np.arange(len(best))
+        return DepthSamples(self.depth[rows, best], self.sigma[rows, best], self.support[rows, best])
 
 
 @dataclass(frozen=True, kw_only=True)
 class DepthLookup:
-    """Splits the depths around a pixel into surfaces and chooses one.
-
-    Without an expectation it is the nearest surface that is more than specks: keypoints lie on the body, and
-    what is behind the body's contour is background. With one (the last depth, or that of the limb's other
-    end) it is the surface closest to it, so that a hand before an elbow does not pull the elbow forward.
+    """Splits the depths in a disc around each keypoint into surfaces.
 
     Attributes:
         radius: of the disc that is looked at [m], at the depth in question: half a wrist.
         min_radius_px: but no smaller than this: single pixels are holes or flying pixels [px].
-        max_radius_px: and no larger, for the time it takes [px].
+        max_radius_px: and no larger: that is what is looked at where the smaller disc is a hole [px].
         gap: depths that are this far apart belong to different surfaces [m]: less than a forearm before a
             chest, more than the steps of noise and slopes of a body within the disc.
         min_support: a surface with a smaller share of the disc's measured pixels is specks (flying pixels at
             an edge lie between foreground and background).
         noise: smallest sigma, at 1 m [m]; grows with the square of the depth, as stereo noise does. 2 mm is
             the data sheet figure of the D435.
+        nearest: nearer is not measured but noise [m].
+        farthest: farther is background [m].
 
     Raises:
         DepthError: a value makes no lookup.
@@ -57,8 +98,10 @@ class DepthLookup:
     min_radius_px: float = 1.5
     max_radius_px: float = 20.0
     gap: float = 0.06
-    min_support: float = 0.15
+    min_support: float = 0.1
     noise: float = 0.002
+    nearest: float = 0.01
+    farthest: float = 100.0
 
     def __post_init__(self) -> None:
         values = (self.radius, self.min_radius_px, self.max_radius_px, self.gap, self.noise)
@@ -68,82 +111,113 @@ class DepthLookup:
             raise DepthError(
                 "bad_lookup", "expected min_radius_px <= max_radius_px and a min_support from 0 to below 1"
             )
+        if not 0.0 < self.nearest < self.farthest < math.inf:
+            raise DepthError(
+                "bad_range", f"expected 0 < nearest < farthest, got {self.nearest}, {self.farthest}"
+            )
 
-    def at(
-        self, depth: DepthArray, pixel: FloatArray, *, focal: float, expected: float | None = None
-    ) -> DepthSample:
-        """Tell the depth at a keypoint.
+    def surfaces(
+        self,
+        depth: DepthArray,
+        pixels: FloatArray,
+        *,
+        focal: float,
+        distance: FloatArray | None = None,
+        radius: FloatArray | None = None,
+        gap: FloatArray | None = None,
+    ) -> Surfaces:
+        """Find the surfaces around keypoints.
 
         Args:
             depth: [m], NaN where unknown. Shape (height, width).
-            pixel: x, y [px]. Shape (2,).
+            pixels: x, y [px]; NaN or outside the image is nothing seen. Shape (n, 2).
             focal: length of the camera [px].
-            expected: depth that the keypoint should have about [m]; None or not finite if there is none.
-
-        Returns:
-            `UNKNOWN` if the pixel is outside the image or nothing was measured around it.
+            distance: about where the keypoints are [m], which sets the size of the discs; NaN or None if not
+                known: then it is measured first. Shape (n,).
+            radius: of each disc [m], instead of the same for all. Shape (n,).
+            gap: at each keypoint [m], instead of the same for all. Shape (n,).
         """
-        x, y = float(pixel[0]), float(pixel[1])
+        pixels = np.asarray(pixels, dtype=np.float64)
+        gap = np.full(len(pixels), self.gap) if gap is None else gap
+        if distance is None:
+            distance = np.full(len(pixels), np.nan)
+        unknown = ~(distance > 0.0)
+        if unknown.any():
+            coarse = np.full(int(unknown.sum()), self.max_radius_px / 2.0)
+            distance = np.array(distance, dtype=np.float64)
+            distance[unknown] = self._split(depth, pixels[unknown], coarse, gap[unknown]).depth[:, 0]
+        radii = np.clip(
+            (self.radius if radius is None else radius) * focal / np.where(distance > 0.0, distance, np.inf),
+            self.min_radius_px,
+            self.max_radius_px,
+        )
+        found = self._split(depth, pixels, radii, gap)
+        holes = np.isnan(found.depth[:, 0]) & np.isfinite(pixels).all(axis=1)
+        if holes.any():
+            whole = np.full(int(holes.sum()), self.max_radius_px)
+            wide = self._split(depth, pixels[holes], whole, gap[holes])
+            for all_rows, rows in zip(found, wide, strict=True):
+                all_rows[holes] = rows
+        return found
+
+    def _split(self, depth: DepthArray, pixels: FloatArray, radii: FloatArray, gap: FloatArray) -> Surfaces:
+        values = self._disc(depth, pixels, radii)
+        order = np.argsort(values, axis=1)
+        values = np.take_along_axis(values, order, axis=1)
+        n, m = values.shape
+        known = np.isfinite(values)
+        with np.errstate(invalid="ignore"):
+            starts = values[:, 1:] - values[:, :-1] > gap[:, None]
+        labels = np.zeros((n, m), dtype=np.int64)
+        np.cumsum(starts, axis=1, out=labels[:, 1:])
+        sizes = np.bincount((labels + m * np.arange(n)[:, None])[known], minlength=n * m).reshape(n, m)
+        total = known.sum(axis=1, keepdims=True)
+        # Very torn discs have no solid surface: then the largest piece is the best there is.
+        solid = (sizes >= self.min_support * total) | (sizes == sizes.max(axis=1, keepdims=True, initial=0))
+        solid &= sizes > 0
+        rank = np.cumsum(solid, axis=1) * solid
+        found = Surfaces(np.full((n, _LAYERS), np.nan), np.full((n, _LAYERS), np.nan), np.zeros((n, _LAYERS)))
+        for layer in range(_LAYERS):
+            rows, chosen = np.nonzero(rank == layer + 1)
+            if not len(rows):
+                break
+            member = (labels[rows] == chosen[:, None]) & known[rows]
+            found.depth[rows, layer], found.sigma[rows, layer] = self._sample(
+                values[rows], order[rows], member
+            )
+            found.support[rows, layer] = sizes[rows, chosen] / total[rows, 0]
+        return found
+
+    def _disc(self, depth: DepthArray, pixels: FloatArray, radii: FloatArray) -> FloatArray:
+        """Give the depths in discs around pixels, infinite where unknown. Shape (n, m)."""
         height, width = depth.shape
-        if not (-0.5 <= x < width - 0.5 and -0.5 <= y < height - 0.5):
-            return UNKNOWN
-        expectation = (
-            expected if expected is not None and math.isfinite(expected) and expected > 0.0 else None
-        )
-        values, distances = self._disc(depth, x, y, self._radius_px(expectation, focal))
-        if not len(values):
-            values, distances = self._disc(depth, x, y, self.max_radius_px)
-        elif expectation is None:
-            # The disc's size follows from the depth that it is to find: look again at the size that fits.
-            values, distances = self._disc(depth, x, y, self._radius_px(float(values.min()), focal))
-        if not len(values):
-            return UNKNOWN
-        return self._choose(values, distances, expectation)
+        inside = np.all((pixels >= -0.5) & (pixels < [width - 0.5, height - 0.5]), axis=1)
+        centres = np.where(inside[:, None], pixels, 0.0)
+        places = np.rint(centres[:, None] + radii[:, None, None] * _OFFSETS).astype(np.int64)
+        columns, rows = places[..., 0], places[..., 1]
+        seen = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height) & inside[:, None]
+        values = depth[np.where(seen, rows, 0), np.where(seen, columns, 0)].astype(np.float64)
+        seen &= (values >= self.nearest) & (values <= self.farthest)  # NaN is neither
+        return np.where(seen, values, np.inf)
 
-    def _radius_px(self, depth: float | None, focal: float) -> float:
-        if depth is None:
-            return self.max_radius_px / 2.0
-        return min(max(self.radius * focal / depth, self.min_radius_px), self.max_radius_px)
-
-    @staticmethod
-    def _disc(depth: DepthArray, x: float, y: float, radius: float) -> tuple[FloatArray, FloatArray]:
-        """Give the measured depths around a pixel, ascending, and their squared distances to it [px^2]."""
-        stride = math.ceil(radius / _DENSE_RADIUS)
-        left, top = max(math.ceil(x - radius), 0), max(math.ceil(y - radius), 0)
-        patch = depth[top : math.floor(y + radius) + 1 : stride, left : math.floor(x + radius) + 1 : stride]
-        rows = np.arange(patch.shape[0]) * stride + (top - y)
-        columns = np.arange(patch.shape[1]) * stride + (left - x)
-        distances = rows[:, None] ** 2 + columns**2
-        chosen = (patch > 0.0) & (distances <= radius * radius)  # NaN is not above zero
-        values = patch[chosen].astype(np.float64)
-        order = values.argsort(kind="stable")
-        return values[order], distances[chosen][order]
-
-    def _choose(self, values: FloatArray, distances: FloatArray, expected: float | None) -> DepthSample:
-        cuts = np.flatnonzero(values[1:] - values[:-1] > self.gap) + 1
-        edges = [0, *cuts.tolist(), len(values)]
-        surfaces = list(pairwise(edges))
-        solid = [(i, k) for i, k in surfaces if k - i >= self.min_support * len(values)]
-        # Very torn patches have no solid surface: then the largest piece is the best there is.
-        candidates = solid or [max(surfaces, key=lambda surface: surface[1] - surface[0])]
-        first, last = candidates[0]
-        if expected is not None and len(candidates) > 1:
-            first, last = min(candidates, key=lambda s: abs(_median(values[s[0] : s[1]]) - expected))
-        return self._sample(values[first:last], distances[first:last], (last - first) / len(values))
-
-    def _sample(self, values: FloatArray, distances: FloatArray, support: float) -> DepthSample:
+    def _sample(
+        self, values: FloatArray, order: NDArray[np.int64], member: BoolArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Give depth and sigma of one surface in each disc. Shapes (k,)."""
         # The nearest half of the surface: of a slope cut by a contour the median lies to one side.
-        half = (len(values) - 1) // 2
-        near = values[distances <= np.partition(distances, half)[half]]
-        depth = _median(near)
-        deviations = np.abs(values - depth)
-        deviations.sort()
-        return DepthSample(
-            depth, math.hypot(_MAD_TO_SIGMA * _median(deviations), self.noise * depth * depth), support
-        )
+        distances = np.where(member, _DISTANCES[order], np.inf)
+        near = member & (distances <= _middle(np.sort(distances, axis=1), member.sum(axis=1))[0][:, None])
+        count = near.sum(axis=1)
+        ascending = np.sort(np.where(near, values, np.inf), axis=1)
+        low, high = _middle(ascending, count)
+        depth = (low + high) / 2.0
+        with np.errstate(invalid="ignore"):
+            deviations = np.where(near, np.abs(values - depth[:, None]), np.inf)
+        low, high = _middle(np.sort(deviations, axis=1), count)
+        return depth, np.hypot(_MAD_TO_SIGMA * (low + high) / 2.0, self.noise * depth * depth)
 
 
-def _median(ascending: FloatArray) -> float:
-    """Median of values in order; many times as fast as one that has to sort."""
-    n = len(ascending)
-    return float(ascending[(n - 1) // 2] + ascending[n // 2]) / 2.0
+def _middle(ascending: FloatArray, count: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the two values in the middle of the first `count` of each row (the same one if it is odd)."""
+    rows = np.arange(len(ascending))
+    return ascending[rows, (count - 1) // 2], ascending[rows, count // 2]

@@ -39,3 +39,27 @@ class LimbError(RetrieverError):
 
 class TrackingError(RetrieverError):
     """Settings or times with which nobody can be followed."""
+
+
+class ParameterError(RetrieverError):
+    """A parameter that is not of its kind or outside its range."""
+
+
+class FrameError(RetrieverError):
+    """An image whose parts do not fit together."""
+
+
+class DetectorError(RetrieverError):
+    """A detector that cannot be made, or an image that it cannot tell about."""
+
+
+class ImageError(RetrieverError):
+    """A colour image that cannot be decoded."""
+
+
+class BagError(RetrieverError):
+    """A bag that cannot be opened, or in which the topics are not found."""
+
+
+class OutputError(RetrieverError):
+    """A result that cannot be written."""

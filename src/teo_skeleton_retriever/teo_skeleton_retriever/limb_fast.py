@@ -35,11 +35,15 @@ class FastLimbSolver:
     def __init__(self) -> None:
         self._compiled: dict[int, _Compiled] = {}
 
+    def prepare(self, joints: int) -> None:
+        """Compile for limbs of so many keypoints now, not at the first of them."""
+        if joints not in self._compiled:
+            self._compiled[joints] = _Compiled(joints)
+
     def solve(self, chain: LimbChain) -> LimbSolution:
         """Solve one limb. Takes about 0.03 ms, the first of each number of keypoints half a second."""
         joints = len(chain.rays)
-        if joints not in self._compiled:
-            self._compiled[joints] = _Compiled(joints)
+        self.prepare(joints)
         depths = self._compiled[joints](chain)
         inside = (depths >= chain.lower - _ROUNDING) & (depths <= chain.upper + _ROUNDING)  # NaN is not
         return LimbSolution(depths, bool(inside.all()))

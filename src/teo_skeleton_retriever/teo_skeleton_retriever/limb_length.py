@@ -44,7 +44,8 @@ class LimbLength:
     """Weighted median of recent lengths.
 
     A limb across the view is measured by pixels, one along the view by its two depths, which err by
-    centimetres: each length counts by the square of the share that lies across.
+    centimetres and which the limb's own far end may hide: each length counts by the fourth power of the share
+    that lies across.
     """
 
     def __init__(self, settings: LimbLengthSettings | None = None) -> None:
@@ -64,7 +65,7 @@ class LimbLength:
         if not self._settings.shortest <= length <= self._settings.longest:
             return
         # A floor, so that an arm that only ever points at the camera is estimated too.
-        self._samples.append((length, (across / length) ** 2 + 0.01))
+        self._samples.append((length, (across / length) ** 4 + 0.001))
         if len(self._samples) >= self._settings.min_samples:
             self._value = _weighted_median(np.array(self._samples))
 
@@ -72,6 +73,11 @@ class LimbLength:
     def value(self) -> float | None:
         """The estimate [m]; None while too few lengths were seen."""
         return self._value
+
+    @property
+    def weight(self) -> float:
+        """How many lengths the estimate rests on, seen across the view; others count for less."""
+        return sum(weight for _, weight in self._samples)
 
     @property
     def spread(self) -> float:

@@ -75,7 +75,8 @@ def person_from_holistic(
     left_hand: FloatArray | None = None,
     right_hand: FloatArray | None = None,
     face: FloatArray | None = None,
-    hand_confidence: float = 1.0,
+    left_hand_confidence: float = 1.0,
+    right_hand_confidence: float = 1.0,
     face_confidence: float = 1.0,
 ) -> Person2D:
     """Bring one person's landmarks into OpenPose's order and into pixels.
@@ -87,7 +88,8 @@ def person_from_holistic(
         left_hand: x, y likewise; the person's own left. Shape (21, 2).
         right_hand: likewise.
         face: likewise. Shape (468, 2) or (478, 2).
-        hand_confidence: MediaPipe gives a hand whole or not at all, with no figure for each landmark.
+        left_hand_confidence: MediaPipe gives a hand whole or not at all, with one figure for all landmarks.
+        right_hand_confidence: likewise.
         face_confidence: likewise for the face.
 
     Raises:
@@ -97,8 +99,10 @@ def person_from_holistic(
     size = np.array([width, height], dtype=np.float64)
     return Person2D(
         body=_body(_checked(pose, "pose", (POSE_LANDMARKS,), 3), size),
-        left_hand=_part(_checked(left_hand, "left_hand", (HAND_LANDMARKS,), 2), size, hand_confidence),
-        right_hand=_part(_checked(right_hand, "right_hand", (HAND_LANDMARKS,), 2), size, hand_confidence),
+        left_hand=_part(_checked(left_hand, "left_hand", (HAND_LANDMARKS,), 2), size, left_hand_confidence),
+        right_hand=_part(
+            _checked(right_hand, "right_hand", (HAND_LANDMARKS,), 2), size, right_hand_confidence
+        ),
         face=_face(_checked(face, "face", FACE_LANDMARKS, 2), size, face_confidence),
     )
 

@@ -35,6 +35,9 @@ class Person2D:
         left_hand_3d: likewise.
         right_hand_3d: likewise.
         face_3d: likewise.
+        left_hand_world: the hand's shape as the detector imagines it: x, y, z [m] along the camera's axes,
+            from an origin in the hand; its size is that of a usual hand. Shape (21, 3), or None.
+        right_hand_world: likewise.
         person_id: of the detector's own tracking; -1 if it does not track.
     """
 
@@ -47,6 +50,8 @@ class Person2D:
     right_hand_3d: FloatArray = field(default_factory=lambda: _absent(4))
     face_3d: FloatArray = field(default_factory=lambda: _absent(4))
     person_id: int = UNKNOWN_ID
+    left_hand_world: FloatArray | None = None
+    right_hand_world: FloatArray | None = None
 
     def __post_init__(self) -> None:
         sizes = {
@@ -67,3 +72,12 @@ class Person2D:
                 if not np.isfinite(array).all():
                     raise KeypointError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
                 object.__setattr__(self, name, frozen(array))
+        for name in ("left_hand_world", "right_hand_world"):
+            if getattr(self, name) is None:
+                continue
+            world = np.asarray(getattr(self, name), dtype=np.float64)
+            if world.shape != (len(HAND_21), 3):
+                raise KeypointError("wrong_shape", f"{name}: expected (21, 3), got {world.shape}")
+            if not np.isfinite(world).all():
+                raise KeypointError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
+            object.__setattr__(self, name, frozen(world))

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -8,6 +9,8 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.skeleton_std import SKELETON_STD
+
+sys.path.insert(0, str(Path(__file__).parent))  # for helpers that several tests share
 
 RECORDING = Path(__file__).parents[4] / "shared" / "data" / "golden" / "skeleton_retriever_abduction_left.log"
 TOKEN = re.compile(r'\(|\)|"[^"]*"|[^\s()]+')

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.depth_lookup import UNKNOWN, DepthLookup
+from teo_skeleton_retriever.depth_lookup import DepthLookup
 from teo_skeleton_retriever.errors import DepthError
 
 FOCAL = 600.0
@@ -24,15 +24,24 @@ def with_arm(depth: np.ndarray, distance: float = 2.0) -> np.ndarray:
     return depth
 
 
+def sample(
+    depth: np.ndarray, x: float, y: float, *, expected: float | None = None, **settings: Any
+) -> tuple[float, float, float]:
+    """Depth, sigma and support at one pixel."""
+    surfaces = DepthLookup(**settings).surfaces(depth, np.array([[x, y]]), focal=FOCAL)
+    found = surfaces.nearest() if expected is None else surfaces.closest(np.array([expected]))
+    return float(found.depth[0]), float(found.sigma[0]), float(found.support[0])
+
+
 def look(depth: np.ndarray, x: float, y: float, **more: Any) -> float:
-    return DepthLookup().at(depth, np.array([x, y]), focal=FOCAL, **more).depth
+    return sample(depth, x, y, **more)[0]
 
 
 def test_on_a_surface_it_gives_its_depth() -> None:
-    sample = DepthLookup().at(with_arm(wall()), np.array([80.0, 60.0]), focal=FOCAL)
-    assert sample.depth == pytest.approx(2.0)
-    assert sample.support == 1.0
-    assert sample.sigma == pytest.approx(0.008)  # 2 mm at 1 m, four times that at 2 m
+    depth, sigma, support = sample(with_arm(wall()), 80, 60)
+    assert depth == pytest.approx(2.0)
+    assert support == 1.0
+    assert sigma == pytest.approx(0.008)  # 2 mm at 1 m, four times that at 2 m
 
 
 def test_in_a_hole_it_looks_around() -> None:
@@ -82,31 +91,50 @@ def test_two_thirds_of_the_depth_may_be_missing(seed: int) -> None:
 @settings(max_examples=60, deadline=None)
 def test_no_pixel_and_no_expectation_breaks_it(x: float, y: float, expected: float | None) -> None:
     depth = with_arm(wall())
-    sample = DepthLookup().at(depth, np.array([x, y]), focal=FOCAL, expected=expected)
+    found = look(depth, x, y, expected=expected)
     inside = -0.5 <= x < 159.5 and -0.5 <= y < 119.5
-    assert (sample is UNKNOWN) != inside
-    assert not inside or any(abs(sample.depth - distance) < 1e-6 for distance in (2.0, 3.5))
+    assert math.isnan(found) != inside
+    assert not inside or any(abs(found - distance) < 1e-6 for distance in (2.0, 3.5))
 
 
 @pytest.mark.parametrize("pixel", [(math.nan, 60.0), (-1.0, 60.0), (200.0, 60.0)])
 def test_outside_the_image_nothing_is_known(pixel: tuple[float, float]) -> None:
-    assert DepthLookup().at(wall(), np.array(pixel), focal=FOCAL) is UNKNOWN
+    assert math.isnan(look(wall(), *pixel))
 
 
 def test_without_any_depth_nothing_is_known() -> None:
-    assert DepthLookup().at(wall(math.nan), np.array([80.0, 60.0]), focal=FOCAL) is UNKNOWN
+    assert math.isnan(look(wall(math.nan), 80, 60))
 
 
 def test_an_uncertain_surface_says_so() -> None:
     random = np.random.default_rng(1)
     rough = (2.0 + random.normal(0, 0.03, (120, 160))).astype(np.float32)
-    sample = DepthLookup(gap=0.5).at(rough, np.array([80.0, 60.0]), focal=FOCAL)
-    assert sample.sigma == pytest.approx(0.03, rel=0.3)
+    sigmas = [sample(rough, x, 60, gap=0.5)[1] for x in range(20, 140)]
+    assert np.mean(sigmas) == pytest.approx(0.03, rel=0.15)
 
 
 @pytest.mark.parametrize(
-    "changes", [{"radius": 0.0}, {"gap": math.nan}, {"min_support": 1.0}, {"min_radius_px": 99.0}]
+    "changes",
+    [
+        {"nearest": 2.0, "farthest": 1.0},
+        {"radius": 0.0},
+        {"gap": math.nan},
+        {"min_support": 1.0},
+        {"min_radius_px": 99.0},
+    ],
 )
 def test_values_that_make_no_lookup_are_refused(changes: dict[str, float]) -> None:
     with pytest.raises(DepthError):
         DepthLookup(**changes)
+
+
+def test_many_keypoints_are_as_each_by_itself() -> None:
+    random = np.random.default_rng(3)
+    depth = with_arm(wall()) + random.normal(0, 0.005, (120, 160)).astype(np.float32)
+    pixels = random.uniform(-5, 160, (40, 2))
+    together = DepthLookup().surfaces(depth, pixels, focal=FOCAL).nearest().depth
+    np.testing.assert_array_equal(together, [look(depth, x, y) for x, y in pixels])
+
+
+def test_no_keypoints_are_no_surfaces() -> None:
+    assert DepthLookup().surfaces(wall(), np.zeros((0, 2)), focal=FOCAL).depth.shape == (0, 3)

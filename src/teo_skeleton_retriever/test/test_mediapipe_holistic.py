@@ -57,7 +57,7 @@ def test_nobody_gives_a_person_without_parts() -> None:
 def test_hands_keep_their_order_and_side() -> None:
     left = np.full((21, 2), 0.25)
     left[8] = (0.5, 0.5)
-    person = person_from_holistic(width=100, height=10, left_hand=left, hand_confidence=0.9)
+    person = person_from_holistic(width=100, height=10, left_hand=left, left_hand_confidence=0.9)
     assert person.left_hand[8].tolist() == [50.0, 5.0, 0.9]
     assert len(person.right_hand) == 0
 

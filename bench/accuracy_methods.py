@@ -1,0 +1,146 @@
+"""Ways from keypoints and depth to joints, with the same in and out: ours and what it is held against."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from accuracy_takes import TakeFrame
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.body_25 import BODY_25
+from teo_skeleton_retriever.body_layouts import as_body_25
+from teo_skeleton_retriever.compat.parameters import OriginalParameters
+from teo_skeleton_retriever.compat.retriever import OriginalRetriever
+from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.retriever import Frame, Keypoints3D, Retriever, RetrieverParameters
+from teo_skeleton_retriever.skeleton_std import FROM_BODY_25, SKELETON_STD
+
+BODY_ROW = BODY_25.index
+Detections = Callable[[TakeFrame], tuple[Person2D, ...]]
+
+
+class Estimate(NamedTuple):
+    """What a method says of one image; NaN where it says nothing."""
+
+    body: FloatArray
+    """[m]. Shape (25, 3)"""
+    hands: FloatArray
+    """left, then right [m]. Shape (42, 3)"""
+    face: FloatArray
+    """[m]. Shape (70, 3)"""
+    sigma: FloatArray
+    """of body and hands [m]; NaN where the method gives none. Shape (67, 3)"""
+    status: NDArray[np.uint8]
+    """of `KeypointStatus`, of body and hands; lost where the method gives none. Shape (67,)"""
+
+
+def detected(frame: TakeFrame) -> tuple[Person2D, ...]:
+    """What the detector saw."""
+    return frame.people
+
+
+def perfect(frame: TakeFrame) -> tuple[Person2D, ...]:
+    """What a perfect detector would see: the truth, projected.
+
+    Of hands only those that the real one found, and their shape as it imagines it.
+    """
+
+    def seen(points: FloatArray) -> FloatArray:
+        return np.nan_to_num(np.column_stack([frame.camera.project(points), np.ones(len(points))]))
+
+    truth = frame.truth
+    body, left, right, face = map(seen, (truth.body, truth.left_hand, truth.right_hand, truth.face))
+    real = frame.people[0] if frame.people else Person2D()
+    return (
+        Person2D(
+            body=body,
+            left_hand=left if len(real.left_hand) else real.left_hand,
+            right_hand=right if len(real.right_hand) else real.right_hand,
+            face=face,
+            left_hand_world=real.left_hand_world,
+            right_hand_world=real.right_hand_world,
+        ),
+    )
+
+
+def ours(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
+    """The retriever as it is set by default, but that somebody is a person from the first image on."""
+    detector = "other" if see is perfect else "mediapipe"
+    retriever = Retriever(RetrieverParameters(newcomer_images=1, detector=detector))
+    estimates = []
+    for frame in frames:
+        found = retriever.process(Frame(frame.stamp, see(frame), frame.depth(), frame.camera))
+        signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
+        estimates.append(_of_parts(*_parts(signers[0])) if signers else _nothing())
+    return estimates
+
+
+def _parts(skeleton: object) -> tuple[Keypoints3D, ...]:
+    return tuple(getattr(skeleton, name) for name in ("body", "left_hand", "right_hand", "face"))
+
+
+def one_pixel(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
+    """The usual way: the depth of the one pixel at each keypoint, taken as it is."""
+    estimates = []
+    for frame in frames:
+        people = see(frame)
+        if not people:
+            estimates.append(_nothing())
+            continue
+        depth = frame.depth()
+        person = people[0]
+        keypoints = np.concatenate(
+            [
+                as_body_25(person.body),
+                *(
+                    part if len(part) else np.zeros((n, 3))
+                    for part, n in ((person.left_hand, 21), (person.right_hand, 21), (person.face, 70))
+                ),
+            ]
+        )
+        columns, rows = np.rint(keypoints[:, :2]).astype(int).T
+        seen = (keypoints[:, 2] >= 0.3) & frame.camera.contains(keypoints[:, :2])
+        depths = np.full(len(keypoints), np.nan)
+        depths[seen] = depth[rows[seen], columns[seen]]
+        points = frame.camera.unproject(keypoints[:, :2], depths)
+        estimates.append(Estimate(points[:25], points[25:67], points[67:], *_untold()))
+    return estimates
+
+
+def original(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
+    """The processing of skeletonRetriever with the defaults of its code; it knows neither hands nor faces."""
+    retriever = OriginalRetriever(frames[0].camera, OriginalParameters())
+    estimates = []
+    for frame in frames:
+        found = retriever.step(frame.stamp, see(frame), frame.depth())
+        estimate = _nothing()
+        if found:
+            skeleton = found[max(found)]
+            for name, tag in FROM_BODY_25.items():
+                row = SKELETON_STD.index[tag]
+                if skeleton.updated[row]:
+                    estimate.body[BODY_ROW[name]] = skeleton.points[row]
+        estimates.append(estimate)
+    return estimates
+
+
+def _of_parts(body: Keypoints3D, left: Keypoints3D, right: Keypoints3D, face: Keypoints3D) -> Estimate:
+    return Estimate(
+        body.points,
+        np.concatenate([left.points, right.points]),
+        face.points,
+        np.concatenate([body.sigma, left.sigma, right.sigma]),
+        np.concatenate([body.status, left.status, right.status]),
+    )
+
+
+def _nothing() -> Estimate:
+    body, hands, face = (np.full((n, 3), np.nan) for n in (25, 42, 70))
+    return Estimate(body, hands, face, *_untold())
+
+
+def _untold() -> tuple[FloatArray, NDArray[np.uint8]]:
+    return np.full((67, 3), np.nan), np.zeros(67, dtype=np.uint8)

@@ -1,0 +1,59 @@
+"""What every detector offers, and what it may rely on."""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.person_2d import Person2D
+
+ImageArray = NDArray[np.uint8]
+
+
+class Detector(Protocol):
+    """Finds people in colour images, one image after the other."""
+
+    @property
+    def name(self) -> str:
+        """What `make_detector` calls it."""
+
+    @property
+    def images_at_once(self) -> int:
+        """From how many threads `detect` may be called at the same time."""
+
+    def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
+        """Find the people of one image.
+
+        Args:
+            image: RGB. Shape (height, width, 3).
+            stamp: when it was taken [s].
+
+        Returns:
+            BODY_25 bodies, hands and faces [px], in no particular order; empty if nobody is there.
+
+        Raises:
+            DetectorError: the image is none, the detector is closed, or it cannot tell; the next image may be
+                tried all the same.
+        """
+
+    def close(self) -> None:
+        """Release what it holds; a second call does nothing."""
+
+
+def check_image(image: ImageArray, stamp: float) -> None:
+    """Refuse what no detector can work on.
+
+    Raises:
+        DetectorError: not an RGB image of bytes, an empty one, or a time that is none.
+    """
+    if not isinstance(image, np.ndarray) or image.dtype != np.uint8:
+        got = getattr(image, "dtype", type(image).__name__)
+        raise DetectorError("bad_image", f"expected an image of uint8, got {got}")
+    if image.ndim != 3 or image.shape[2] != 3 or 0 in image.shape:
+        raise DetectorError("bad_image", f"expected RGB of shape (height, width, 3), got {image.shape}")
+    if not math.isfinite(stamp):
+        raise DetectorError("bad_stamp", f"expected a finite time [s], got {stamp}")

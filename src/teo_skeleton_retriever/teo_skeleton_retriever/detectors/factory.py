@@ -1,0 +1,47 @@
+"""Detectors by name."""
+
+from __future__ import annotations
+
+import inspect
+from importlib import import_module
+from typing import cast
+
+from teo_skeleton_retriever.detectors.detector import Detector
+from teo_skeleton_retriever.errors import DetectorError
+
+_CLASSES = {
+    "mediapipe": "mediapipe_detector.MediaPipeDetector",
+    "openpose_json": "openpose_json_detector.OpenPoseJsonDetector",
+    "openpose_onnx": "openpose_onnx_detector.OpenPoseOnnxDetector",
+    "replay": "replay_detector.ReplayDetector",
+}
+DETECTORS = tuple(_CLASSES)
+"""The names that `make_detector` knows."""
+
+
+def make_detector(name: str, **options: object) -> Detector:
+    """Make a detector.
+
+    Args:
+        name: one of `DETECTORS`.
+        options: of that detector's constructor.
+
+    Raises:
+        DetectorError: the name or an option is unknown, or the detector cannot be made.
+    """
+    if name not in _CLASSES:
+        raise DetectorError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")
+    module, class_name = _CLASSES[name].split(".")
+    # Imported only when asked for: MediaPipe takes a second to load.
+    detector = getattr(import_module(f"teo_skeleton_retriever.detectors.{module}"), class_name)
+    try:
+        inspect.signature(detector).bind(**options)
+    except TypeError as error:
+        known = ", ".join(inspect.signature(detector).parameters)
+        raise DetectorError("bad_option", f"{name}: expected options among {known}; {error}") from error
+    try:
+        return cast(Detector, detector(**options))
+    except (
+        TypeError
+    ) as error:  # options come from users, as JSON: a text where a number should be, and the like
+        raise DetectorError("bad_option", f"{name}: an option is of the wrong kind: {error}") from error

@@ -1,0 +1,220 @@
+"""The depths of a hand's 21 keypoints, from what is measured of them and the hand's own shape.
+
+Every keypoint lies on its viewing ray; its depth minimises the sum of
+- its misfit to the measured surface (robust: fingers hide each other, pixels beside a finger see the chest),
+- the misfit of each bone to its length, which grows with the person,
+- the misfit of each bone's step in depth to the shape that the detector imagines (MediaPipe's world
+  landmarks), scaled to the hand,
+- the misfit of the wrist to where it is by the arm, which counts where nothing is measured.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.depth_lookup import Surfaces
+from teo_skeleton_retriever.hand_21 import HAND_21
+from teo_skeleton_retriever.skin import HAND_DEPTHS
+
+N = len(HAND_21)
+_CHILD = np.arange(1, N)
+_PARENT = np.array([0 if i % 4 == 1 else i - 1 for i in range(1, N)])
+BONES: FloatArray = np.array(
+    [
+        *(0.040, 0.042, 0.032, 0.026),  # thumb
+        *(0.091, 0.041, 0.025, 0.020),
+        *(0.088, 0.045, 0.028, 0.021),
+        *(0.082, 0.042, 0.027, 0.021),
+        *(0.078, 0.033, 0.020, 0.018),
+    ]
+)
+"""[m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
+the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""
+
+_BONE_SIGMA = 0.006  # [m] people's proportions differ, and a pixel is 2 to 3 mm
+_SHAPE_SIGMA = 0.012  # [m] the detector's imagination of a bone's step in depth
+_FLAT_SIGMA = 0.03  # [m] without it: a hand is about across the view
+_DATA_SIGMA = 0.006  # [m] how far the skin of a finger differs from a tube
+_OUTLIER = 0.02  # [m] beyond it a measured surface is another's: two fingers' thickness
+_NARROWING = (0.12, 0.06, 0.03, 0.02)
+"""[m] The same, from step to step of the solution: from half a hand, so that a shape imagined wrongly is put
+right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
+_ANCHOR_SIGMA = 0.03  # [m] of the wrist's depth by the arm, as far as the hand is concerned
+_EXPECTED_SIGMA = 0.1  # [m] how far a hand moves in depth from image to image, and more
+_IMAGINED = 2.0  # errors over sigma of what follows from the shape alone, on rendered people
+_CERTAIN = 10  # measured keypoints that agree on the hand's shape: half of them
+_FINGER = 0.012  # [m] less than the thickness of a finger with its skin
+_LAYER_WEIGHTS = np.array([1.0, 0.5, 0.25])
+
+
+class HandView(NamedTuple):
+    """What one image shows of a hand."""
+
+    rays: FloatArray
+    """x/z, y/z; NaN where the detector did not see the keypoint. Shape (21, 2)"""
+    surfaces: Surfaces
+    """measured around each keypoint"""
+    world: FloatArray | None
+    """what the detector imagines of the shape [m]. Shape (21, 3), or None"""
+    expected: float
+    """depth of the hand by the images before [m]; NaN if there were none"""
+    wrist: float
+    """depth of the wrist's joint by the arm [m]; NaN if not known"""
+
+
+class HandFit(NamedTuple):
+    """A hand in space."""
+
+    points: FloatArray
+    """its keypoints [m]. Shape (21, 3)"""
+    sigma: FloatArray
+    """standard deviations of their depths [m]. Shape (21,)"""
+    measured: BoolArray
+    """keypoints whose own surface was measured; the others follow from the shape. Shape (21,)"""
+
+    @property
+    def certain(self) -> bool:
+        """Whether so much was measured that nothing hides the hand as a whole."""
+        return int(self.measured.sum()) >= _CERTAIN
+
+
+def fit_hands(hands: list[HandView], scale: float) -> list[HandFit | None]:
+    """Find the depths of hands, all at once for the time it takes.
+
+    Args:
+        hands: in one image.
+        scale: of the person against an average adult.
+
+    Returns:
+        One for each hand; None if too little of it is seen to tell anything.
+    """
+    radius = HAND_DEPTHS * scale
+    starts = [_start(hand, radius, scale) for hand in hands]
+    usable = [(hand, start) for hand, start in zip(hands, starts, strict=True) if start is not None]
+    if not usable:
+        return [None] * len(hands)
+    fits = iter(_solve([hand for hand, _ in usable], [start for _, start in usable], radius, scale))
+    return [None if start is None else next(fits) for start in starts]
+
+
+class _Start(NamedTuple):
+    depths: FloatArray
+    steps: FloatArray
+    step_sigma: float
+    anchor: float
+
+
+def _start(hand: HandView, radius: FloatArray, scale: float) -> _Start | None:
+    seen = np.isfinite(hand.rays[:, 0])
+    if seen.sum() < N // 2:
+        return None
+    steps, sigma = _steps(hand, scale)
+    offsets = np.append(0.0, np.cumsum(steps.reshape(5, 4), axis=1).ravel())
+    wrist = _wrist_depth(hand, radius, offsets)
+    if not np.isfinite(wrist):
+        return None
+    return _Start(wrist + offsets, steps, sigma, hand.wrist if np.isfinite(hand.wrist) else wrist)
+
+
+def _solve(hands: list[HandView], starts: list[_Start], radius: FloatArray, scale: float) -> list[HandFit]:
+    k = len(hands)
+    bends = np.concatenate([np.stack([h.rays for h in hands]), np.ones((k, N, 1))], axis=2)
+    seen = np.isfinite(bends[..., 0])
+    bends = np.where(seen[..., None], bends, 0.0)
+    depths = np.stack([start.depths for start in starts])
+    steps = np.stack([start.steps for start in starts])
+    step_weight = np.array([1.0 / start.step_sigma for start in starts])[:, None]
+    bone_weight = np.where(seen[:, _CHILD] & seen[:, _PARENT], 1.0 / _BONE_SIGMA, 0.0)
+    slope = np.zeros((k, 2 * (N - 1), N))  # of the misfits of bones, then of steps
+    bone_row, step_row = _CHILD - 1, _CHILD + N - 2
+    slope[:, step_row, _CHILD], slope[:, step_row, _PARENT] = step_weight, -step_weight
+    surfaces = Surfaces(
+        *(np.concatenate(arrays) for arrays in zip(*(h.surfaces for h in hands), strict=True))
+    )
+    anchor = np.array([start.anchor for start in starts])
+    normal, weight = np.zeros((k, N, N)), np.zeros((k, N))
+    diagonal = np.arange(N)
+    for outlier in _NARROWING:
+        chosen = surfaces.closest((depths - radius).ravel())
+        off = chosen.depth.reshape(k, N) + radius - depths
+        known = np.isfinite(off)
+        off = np.where(known, off, 0.0)
+        certain = 1.0 / (np.where(known, chosen.sigma.reshape(k, N), 1.0) ** 2 + _DATA_SIGMA**2)
+        weight = np.where(known & seen, certain, 0.0) / (1.0 + (off / outlier) ** 2) ** 2
+        weight[_hidden(bends, depths)] = 0.0
+        bones = bends[:, _CHILD] * depths[:, _CHILD, None] - bends[:, _PARENT] * depths[:, _PARENT, None]
+        lengths = np.sqrt((bones * bones).sum(axis=2)) + 1e-9
+        unit = bones * (bone_weight / lengths)[..., None]
+        slope[:, bone_row, _CHILD] = (unit * bends[:, _CHILD]).sum(axis=2)
+        slope[:, bone_row, _PARENT] = -(unit * bends[:, _PARENT]).sum(axis=2)
+        missed = np.concatenate(
+            [
+                (lengths - scale * BONES) * bone_weight,
+                (depths[:, _CHILD] - depths[:, _PARENT] - steps) * step_weight,
+            ],
+            axis=1,
+        )
+        turned = slope.transpose(0, 2, 1)
+        normal = turned @ slope
+        normal[:, diagonal, diagonal] += weight
+        normal[:, 0, 0] += 1.0 / _ANCHOR_SIGMA**2
+        right = weight * off - (turned @ missed[..., None])[..., 0]
+        right[:, 0] += (anchor - depths[:, 0]) / _ANCHOR_SIGMA**2
+        depths = depths + np.linalg.solve(normal, right[..., None])[..., 0]
+    sigma = np.sqrt(np.linalg.inv(normal)[:, diagonal, diagonal])
+    believed = weight * _DATA_SIGMA**2 > 0.1
+    sigma[~believed] *= _IMAGINED
+    points = bends * depths[..., None]
+    points[~seen] = np.nan
+    return [HandFit(points[i], sigma[i], believed[i]) for i in range(k)]
+
+
+def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
+    """Tell which keypoints are behind another part of their hand, which is seen there. Shape (k, 21)."""
+    points = bends * depths[..., None]
+    parts = np.concatenate([points, (points[:, _CHILD] + points[:, _PARENT]) / 2.0], axis=1)
+    away = parts[:, None, :, :] - points[:, :, None, :]
+    beside = away[..., 0] ** 2 + away[..., 1] ** 2 < _FINGER**2
+    hidden: BoolArray = np.asarray((beside & (away[..., 2] < -_FINGER)).any(axis=2))
+    return hidden
+
+
+def _steps(hand: HandView, scale: float) -> tuple[FloatArray, float]:
+    """Give the step in depth along each bone by the imagined shape, and their sigma [m]. Shape (20,)."""
+    if hand.world is None:
+        return np.zeros(N - 1), _FLAT_SIGMA
+    bones = hand.world[_CHILD] - hand.world[_PARENT]
+    size = scale * float(BONES.sum()) / max(float(np.sqrt((bones**2).sum(axis=1)).sum()), 1e-6)
+    # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
+    towards = np.append(np.nanmean(hand.rays, axis=0), 1.0)
+    steps: FloatArray = size * (bones @ _turned(towards / np.linalg.norm(towards)))
+    return steps, _SHAPE_SIGMA
+
+
+def _turned(direction: FloatArray) -> FloatArray:
+    """Give what the shortest rotation that brings the optical axis to a direction makes of z. Shape (3,)."""
+    return np.array([-direction[0], -direction[1], direction[2]])
+
+
+def _wrist_depth(hand: HandView, radius: FloatArray, offsets: FloatArray) -> float:
+    """Give the depth of the wrist that most measured keypoints agree on [m]; NaN if none is measured."""
+    expected = hand.expected if np.isfinite(hand.expected) else hand.wrist
+    votes = (hand.surfaces.depth + (radius - offsets)[:, None]).ravel()
+    # The nearest surface is the hand's more likely than one behind it, and a whole one than a piece.
+    weights = (hand.surfaces.support * _LAYER_WEIGHTS).ravel()
+    known = np.isfinite(votes)
+    votes, weights = votes[known], weights[known]
+    if not len(votes):
+        return float(expected)
+    order = np.argsort(votes)
+    votes, summed = votes[order], np.append(0.0, np.cumsum(weights[order]))
+    ends = np.searchsorted(votes, votes + 2.0 * _OUTLIER)
+    agreeing = summed[ends] - summed[:-1]
+    if np.isfinite(expected):
+        # Of two surfaces the one where the hand is thought to be, unless the other is much larger.
+        agreeing *= np.exp(-0.5 * np.clip((votes - expected) / _EXPECTED_SIGMA, -1.5, 1.5) ** 2)
+    best = int(np.argmax(agreeing))
+    return float(votes[(best + ends[best] - 1) // 2])

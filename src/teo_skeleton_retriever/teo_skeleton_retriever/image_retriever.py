@@ -1,0 +1,142 @@
+"""Images in, people in space out: the detector and what comes after it, with the time that each takes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from teo_skeleton_retriever.compat_options import original_parameters_from
+from teo_skeleton_retriever.compat_retriever import CompatRetriever
+from teo_skeleton_retriever.detectors import Detector
+from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.frame import Frame
+from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.retriever import Retriever
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
+from teo_skeleton_retriever.rgbd_image import RgbdImage
+from teo_skeleton_retriever.skeleton_3d import Skeleton
+
+COMPAT_MODES = ("", "skeleton_retriever")
+"""Whose processing can be asked for: our own, or that of the original skeletonRetriever."""
+
+
+@dataclass(frozen=True, eq=False)
+class Retrieved:
+    """What was found in one image.
+
+    Attributes:
+        people: what the detector saw, in pixels.
+        skeletons: everybody who is followed, in space.
+        depth_share: part of the pixels with a depth, 0 to 1.
+        detector_time: what the detector took [s].
+        own_time: what all after it took [s].
+    """
+
+    people: tuple[Person2D, ...]
+    skeletons: tuple[Skeleton, ...]
+    depth_share: float
+    detector_time: float
+    own_time: float
+
+
+@dataclass(frozen=True, eq=False)
+class Detected:
+    """What the detector saw in one image.
+
+    Attributes:
+        image: in which it looked.
+        people: whom it saw, in pixels.
+        time: what it took [s].
+    """
+
+    image: RgbdImage
+    people: tuple[Person2D, ...]
+    time: float
+
+
+class FrameRetriever(Protocol):
+    """What follows people in space."""
+
+    def process(self, frame: Frame) -> tuple[Skeleton, ...]:
+        """Take one image."""
+
+    def lock_signer(self, track_id: int | None) -> None:
+        """Follow this person as the signer; None chooses by the rule again."""
+
+
+def make_retriever(
+    parameters: RetrieverParameters, compat: str, compat_options: Sequence[str] = ()
+) -> FrameRetriever:
+    """Make what follows people in space.
+
+    Args:
+        parameters: of ours.
+        compat: one of `COMPAT_MODES`.
+        compat_options: of the original; see `original_parameters_from`.
+
+    Raises:
+        ParameterError: no such mode or option.
+    """
+    match compat:
+        case "":
+            if any(compat_options):
+                raise ParameterError("bad_option", "expected compat with compat_options, got none")
+            return Retriever(parameters)
+        case "skeleton_retriever":
+            return CompatRetriever(parameters, original_parameters_from(compat_options))
+    raise ParameterError("unknown_choice", f"compat: expected one of {COMPAT_MODES}, got {compat!r}")
+
+
+class ImageRetriever:
+    """A detector and a retriever in a row.
+
+    `detect` may run in one thread, or as many as the detector allows, while `follow` runs in another.
+    """
+
+    def __init__(self, detector: Detector, retriever: FrameRetriever) -> None:
+        self._detector = detector
+        self._retriever = retriever
+        self.known_ids: frozenset[int] = frozenset()
+        """Who was in the last image that was processed."""
+
+    def replace(self, retriever: FrameRetriever) -> None:
+        """Go on with other parameters; everybody followed so far is forgotten."""
+        self._retriever = retriever
+
+    def lock_signer(self, track_id: int | None) -> None:
+        """Follow this person as the signer; None chooses by the rule again."""
+        self._retriever.lock_signer(track_id)
+
+    def process(self, image: RgbdImage) -> Retrieved:
+        """Take one image.
+
+        Raises:
+            RetrieverError: the detector cannot tell, or the parts do not fit together; the next image may be
+                given all the same.
+        """
+        return self.follow(self.detect(image))
+
+    def detect(self, image: RgbdImage) -> Detected:
+        """Take one image, the first half; see `process`."""
+        began = time.perf_counter()
+        people = self._detector.detect(image.color, image.stamp)
+        return Detected(image, people, time.perf_counter() - began)
+
+    def follow(self, detected: Detected) -> Retrieved:
+        """Take one image, the second half; see `process`."""
+        began = time.perf_counter()
+        image, people = detected.image, detected.people
+        skeletons = self._retriever.process(
+            Frame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
+        )
+        self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
+        share = float(np.count_nonzero(np.isfinite(image.depth)) / image.depth.size)
+        return Retrieved(people, skeletons, share, detected.time, time.perf_counter() - began)
+
+    def close(self) -> None:
+        """Release what the detector holds."""
+        self._detector.close()

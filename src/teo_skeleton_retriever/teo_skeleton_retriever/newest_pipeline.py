@@ -1,0 +1,94 @@
+"""Two stages of work in threads of their own, for the newest of what comes."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+Job = TypeVar("Job")
+Half = TypeVar("Half")
+
+
+class _Slot(Generic[Half]):
+    """A job that was begun: what its first stage gave, once it is done."""
+
+    def __init__(self) -> None:
+        self.done = False
+        self.half: Half | None = None
+
+
+class NewestPipeline(Generic[Job, Half]):
+    """Works on jobs in two stages, so that the second of one runs beside the first of the next.
+
+    Whoever submits never waits. One job may wait to be begun; a newer one takes its place. The second stage
+    sees jobs one by one, in the order in which they were begun, however many first stages run at once. No
+    more are begun than the second stage keeps up with.
+    """
+
+    def __init__(
+        self, first: Callable[[Job], Half | None], second: Callable[[Half], object], *, at_once: int = 1
+    ) -> None:
+        """Start the threads.
+
+        Args:
+            first: stage, whose result goes to the second unless it is None; must not raise.
+            second: stage; must not raise.
+            at_once: how many first stages may run at the same time.
+        """
+        self._first = first
+        self._second = second
+        self._at_once = at_once
+        self._waiting: Job | None = None
+        self._begun: deque[_Slot[Half]] = deque()
+        self._closed = False
+        self._changed = threading.Condition()
+        self._threads = [threading.Thread(target=self._run_first, daemon=True) for _ in range(at_once)]
+        self._threads.append(threading.Thread(target=self._run_second, daemon=True))
+        for thread in self._threads:
+            thread.start()
+
+    def submit(self, job: Job) -> Job | None:
+        """Give a job; returns the one that it takes the place of, if one was waiting."""
+        with self._changed:
+            replaced, self._waiting = self._waiting, job
+            self._changed.notify_all()
+        return replaced
+
+    def close(self) -> None:
+        """Finish the stages at hand and end the threads; what waits is let go."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
+        for thread in self._threads:
+            thread.join()
+
+    def _run_first(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._closed or self._may_begin())
+                if self._closed:
+                    return
+                job, self._waiting = self._waiting, None
+                slot = _Slot[Half]()
+                self._begun.append(slot)
+            assert job is not None
+            half = self._first(job)
+            with self._changed:
+                slot.done, slot.half = True, half
+                self._changed.notify_all()
+
+    def _may_begin(self) -> bool:
+        return self._waiting is not None and len(self._begun) < self._at_once
+
+    def _run_second(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._closed or (self._begun and self._begun[0].done))
+                if self._closed:
+                    return
+                half = self._begun.popleft().half
+                self._changed.notify_all()
+            if half is not None:
+                self._second(half)

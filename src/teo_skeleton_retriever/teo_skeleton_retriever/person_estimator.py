@@ -1,0 +1,213 @@
+"""One person over time: from keypoints in images and depth to joints in space."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.body_depth import BodyDepth, BodyDepths, WristView
+from teo_skeleton_retriever.body_layouts import as_body_25
+from teo_skeleton_retriever.body_size import BodySize
+from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
+from teo_skeleton_retriever.detected import Detected, detected
+from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
+from teo_skeleton_retriever.face_depth import face_depths
+from teo_skeleton_retriever.filtered import keypoints_of
+from teo_skeleton_retriever.frame import Frame
+from teo_skeleton_retriever.hand_fit import HandFit, HandView, fit_hands
+from teo_skeleton_retriever.hand_joints import mediapipe_joints
+from teo_skeleton_retriever.keypoint_filter import FilterOutput, KeypointFilter
+from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.person_layout import (
+    ACCELERATION,
+    ACROSS,
+    ARMS,
+    BIAS,
+    BODY,
+    FACE,
+    GAP,
+    HANDS,
+    JUMP,
+    LEFT_HAND,
+    PIXEL,
+    RADIUS,
+    RIGHT_HAND,
+    ROW,
+    N,
+)
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
+from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus
+from teo_skeleton_retriever.skin import HAND_DEPTHS
+
+_HEAD = [ROW[name] for name in ("Nose", "REye", "LEye")]
+_CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
+_ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
+
+
+class PersonParts(NamedTuple):
+    """The keypoints of one person at one time."""
+
+    body: Keypoints3D
+    left_hand: Keypoints3D
+    right_hand: Keypoints3D
+    face: Keypoints3D
+
+
+class PersonEstimator:
+    """Follows one person, of whom it is known which detection is theirs."""
+
+    def __init__(self, parameters: RetrieverParameters) -> None:
+        self._parameters = parameters
+        self._size = BodySize()
+        self._body = BodyDepth(parameters)
+        self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
+        self._filter = KeypointFilter(
+            N,
+            acceleration=ACCELERATION,
+            hold_time=parameters.hold_time,
+            smoothing=parameters.smoothing,
+        )
+        self._confidence = np.zeros(N)
+        self._from_wrist = np.full((N, 3), np.nan)  # of the hands' keypoints, as last seen [m]
+
+    def step(self, frame: Frame, person: Person2D, distance: float) -> PersonParts:
+        """Take one image.
+
+        Args:
+            frame: the image.
+            person: who was seen in it.
+            distance: of the person along the optical axis [m].
+        """
+        before = self._filter.predict(frame.stamp)
+        seen = self._seen(frame, person)
+        seen = seen.only(self._filter.believable(frame.stamp, seen.rays, JUMP))
+        surfaces = self._lookup.surfaces(
+            frame.depth,
+            seen.pixels,
+            focal=frame.camera.fx,
+            distance=np.where(np.isfinite(before.depth), before.depth, distance),
+            radius=RADIUS,
+            gap=GAP,
+        )
+        depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
+        optimised = np.zeros(N, dtype=bool)
+        fits = self._fit_hands(person, seen, surfaces, before)
+        body = self._find_body(seen, surfaces, before, fits)
+        depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
+        rays = np.concatenate([body.rays, seen.rays[BODY.stop :]])
+        for side, fit in fits.items():
+            wrist = ARMS[side][2]
+            # A hand that nothing was measured of is where its arm ends.
+            moved = body.depths[wrist] - fit.points[0, 2] if body.optimised[wrist] else 0.0
+            rays[HANDS[side]] = fit.points[:, :2] / fit.points[:, 2:]
+            depth[HANDS[side]], sigma[HANDS[side]] = fit.points[:, 2] + moved, fit.sigma
+            optimised[HANDS[side]] = ~fit.measured
+        if seen.seen[FACE].any():
+            about = _middle(np.append(before.depth[FACE], body.depths[_HEAD]))
+            face = face_depths(seen.rays[FACE], surfaces.part(FACE), about)
+            depth[FACE], sigma[FACE] = face.depths, face.sigma
+            optimised[FACE] = ~face.measured
+        near = np.where(np.isfinite(depth), depth, distance)
+        across = np.hypot(ACROSS / near, PIXEL / frame.camera.fx)
+        output = self._filter.step(
+            frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
+        )
+        self._size.step(body.measured)
+        self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
+        found = keypoints_of(
+            output,
+            seen,
+            optimised=optimised,
+            bias=np.where((_ON_HANDS & ~seen.seen)[:, None], np.hypot(BIAS, _CARRIED), BIAS),
+            max_sigma=self._parameters.max_sigma,
+            memory=self._confidence,
+        )
+        found = self._with_held_hands(found)
+        return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
+
+    def _seen(self, frame: Frame, person: Person2D) -> Detected:
+        keypoints = np.zeros((N, 3))
+        keypoints[BODY] = as_body_25(person.body)
+        if self._parameters.detector == "mediapipe":
+            keypoints[BODY] = unbiased(keypoints[BODY], MEDIAPIPE)
+        for rows, part in (
+            (LEFT_HAND, person.left_hand),
+            (RIGHT_HAND, person.right_hand),
+            (FACE, person.face),
+        ):
+            if len(part):
+                keypoints[rows] = part
+        return detected(keypoints, frame.camera, self._parameters.min_confidence)
+
+    def _fit_hands(
+        self, person: Person2D, seen: Detected, surfaces: Surfaces, before: FilterOutput
+    ) -> dict[str, HandFit]:
+        """Find the hands that are seen."""
+        sides = [side for side, rows in HANDS.items() if seen.seen[rows].any()]
+        worlds = {"L": person.left_hand_world, "R": person.right_hand_world}
+        views = [
+            HandView(
+                seen.rays[HANDS[side]],
+                surfaces.part(HANDS[side]),
+                worlds[side],
+                _middle(before.depth[HANDS[side]]),
+                float(before.depth[ARMS[side][2]]),
+            )
+            for side in sides
+        ]
+        if self._parameters.fit_hands:
+            fits = fit_hands(views, self._size.scale)
+        else:
+            fits = [_unfitted(view, self._size.scale) for view in views]
+        found = {side: fit for side, fit in zip(sides, fits, strict=True) if fit is not None}
+        if self._parameters.detector == "mediapipe":
+            return {
+                side: fit._replace(points=mediapipe_joints(fit.points, left=side == "L"))
+                for side, fit in found.items()
+            }
+        return found
+
+    def _find_body(
+        self, seen: Detected, surfaces: Surfaces, before: FilterOutput, fits: dict[str, HandFit]
+    ) -> BodyDepths:
+        wrists = {
+            side: WristView(
+                fit.points[0, :2] / fit.points[0, 2],
+                float(fit.points[0, 2]),
+                float(fit.sigma[0]),
+                fit.certain,
+            )
+            for side, fit in fits.items()
+            if np.isfinite(fit.points[0]).all()
+        }
+        return self._body.find(
+            seen.part(BODY), surfaces.part(BODY), before.part(BODY), self._size, wrists=wrists
+        )
+
+    def _with_held_hands(self, found: Keypoints3D) -> Keypoints3D:
+        """Put hands that are held where they were on the arm, not where they were in space."""
+        points = found.points.copy()
+        for side, rows in HANDS.items():
+            wrist = found.points[ARMS[side][2]]
+            if not np.isfinite(wrist).all():
+                continue
+            held = (found.status[rows] == KeypointStatus.HELD)[:, None]
+            self._from_wrist[rows] = np.where(held, self._from_wrist[rows], found.points[rows] - wrist)
+            moved = wrist + self._from_wrist[rows]
+            points[rows] = np.where(held & np.isfinite(moved), moved, points[rows])
+        return replace(found, points=points)
+
+
+def _unfitted(hand: HandView, scale: float) -> HandFit:
+    nearest = hand.surfaces.nearest()
+    depths = nearest.depth + scale * HAND_DEPTHS
+    points = np.column_stack([hand.rays, np.ones(len(depths))]) * depths[:, None]
+    return HandFit(points, nearest.sigma, np.isfinite(depths))
+
+
+def _middle(values: FloatArray) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else float("nan")

@@ -1,0 +1,123 @@
+"""The retriever: 2D keypoints and depth of one image after the other in, tracked 3D people out."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.body_25 import BODY_25
+from teo_skeleton_retriever.body_frame import BodyFrame, body_frame
+from teo_skeleton_retriever.body_layouts import as_body_25
+from teo_skeleton_retriever.depth_lookup import DepthLookup
+from teo_skeleton_retriever.detected import detected
+from teo_skeleton_retriever.frame import Frame
+from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.person_estimator import PersonEstimator
+from teo_skeleton_retriever.person_tracker import PersonTracker, TrackerSettings
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
+from teo_skeleton_retriever.signer_choice import SignerChoice
+from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+
+__all__ = ["Frame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
+
+_TRUNK = [BODY_25.index[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
+_USUAL = 1.5  # [m] distance of a signer; only sets how much around a keypoint is looked at
+_LEAST_TRUNK = 2  # keypoints of the trunk that say where it is; with fewer everything that is seen is asked
+
+
+class Retriever:
+    """Follows people in space. Knows the time from the stamps of the frames alone.
+
+    Not safe to share between threads.
+    """
+
+    def __init__(self, parameters: RetrieverParameters | None = None) -> None:
+        """Build a retriever that has seen nobody yet."""
+        self._parameters = parameters or RetrieverParameters()
+        self._lookup = DepthLookup(nearest=self._parameters.min_depth, farthest=self._parameters.max_depth)
+        self._signer = SignerChoice(
+            rule="central" if self._parameters.signer_rule == "central" else "nearest",
+            patience=self._parameters.signer_patience,
+        )
+        self._tracker = PersonTracker(TrackerSettings(newcomer_images=int(self._parameters.newcomer_images)))
+        self._people: dict[int, PersonEstimator] = {}
+        self._time: float | None = None
+
+    def process(self, frame: Frame) -> tuple[Skeleton, ...]:
+        """Take one image. A stamp before the last forgets everybody: a bag was set back.
+
+        Returns:
+            Everybody who is seen in it, or was within the time that keypoints are held, by ascending id.
+        """
+        if self._time is not None and frame.stamp < self._time:
+            self._people = {}
+        self._time = frame.stamp
+        positions = [self._position(frame, person) for person in frame.people]
+        ids = self._tracker.step(frame.stamp, positions)
+        remembered = self._tracker.people
+        self._people = {i: person for i, person in self._people.items() if i in remembered}
+        seen = {i: place for i, place in zip(ids, positions, strict=True) if i is not None}
+        signer = self._signer.step(frame.stamp, seen)
+        people = {i: person for i, person in zip(ids, frame.people, strict=True) if i is not None}
+        hold = self._parameters.hold_time
+        held = [i for i in self._people if i not in people and frame.stamp - remembered[i].last_seen <= hold]
+        skeletons = [
+            self._skeleton(frame, people[i], i, float(seen[i][2]), is_signer=i == signer) for i in people
+        ]
+        skeletons += [
+            self._skeleton(frame, Person2D(), i, float(remembered[i].position[2]), is_signer=i == self.signer)
+            for i in held
+        ]
+        return tuple(sorted(skeletons, key=lambda skeleton: skeleton.track_id))
+
+    @property
+    def signer(self) -> int | None:
+        """Id of the signer, seen or waited for; None if there is none."""
+        return self._signer.signer
+
+    def lock_signer(self, track_id: int | None) -> None:
+        """Follow this person as the signer and nobody else; None chooses by the rule again."""
+        if track_id is None:
+            self._signer.unlock()
+        else:
+            self._signer.lock(track_id)
+
+    def _position(self, frame: Frame, person: Person2D) -> FloatArray:
+        """Give about where a person's trunk is [m]; NaN if no depth tells. Shape (3,)."""
+        body = as_body_25(person.body)
+        seen = detected(body, frame.camera, self._parameters.min_confidence)
+        for rows in (_TRUNK, list(range(len(body)))):
+            surfaces = self._lookup.surfaces(
+                frame.depth, seen.pixels[rows], focal=frame.camera.fx, distance=np.full(len(rows), _USUAL)
+            )
+            depth = surfaces.nearest().depth
+            known = np.isfinite(depth)
+            if known.sum() >= (_LEAST_TRUNK if rows is _TRUNK else 1):
+                middle = float(np.median(depth[known]))
+                return np.append(seen.rays[rows][known].mean(axis=0), 1.0) * middle
+        return np.full(3, np.nan)
+
+    def _skeleton(
+        self, frame: Frame, person: Person2D, track_id: int, distance: float, *, is_signer: bool
+    ) -> Skeleton:
+        estimator = self._people.setdefault(track_id, PersonEstimator(self._parameters))
+        parts = estimator.step(frame, person, distance)
+        return Skeleton(
+            track_id=track_id,
+            is_signer=is_signer,
+            body=parts.body,
+            left_hand=parts.left_hand,
+            right_hand=parts.right_hand,
+            face=parts.face,
+            body_frame=_frame_of(parts.body.points),
+        )
+
+
+def _frame_of(body: FloatArray) -> BodyFrame | None:
+    row = BODY_25.index
+    return body_frame(
+        left_shoulder=body[row["LShoulder"]],
+        right_shoulder=body[row["RShoulder"]],
+        left_hip=body[row["LHip"]],
+        right_hip=body[row["RHip"]],
+    )

@@ -1,0 +1,136 @@
+"""Which depth image belongs to which colour image: by their stamps, within a bound, whatever came first."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any, NamedTuple
+
+NO_DEPTH = "no_depth"
+"""Colour images for which there is no depth image near enough."""
+NO_COLOR = "no_color"
+"""Depth images that no colour image asked for."""
+OVERTAKEN = "overtaken"
+"""Colour images of before one that was given out already: late, or a second one of the same time."""
+
+_BACKWARDS = 1_000_000_000  # [ns] A stamp so much earlier is a clock or a bag set back, not a late message.
+
+
+class Pair(NamedTuple):
+    """A colour image and the depth image of its time.
+
+    Attributes:
+        stamp: of the colour image [ns].
+        depth_stamp: [ns].
+        color: as it was given.
+        depth: as it was given.
+    """
+
+    stamp: int
+    depth_stamp: int
+    color: Any
+    depth: Any
+
+
+class _Stamped(NamedTuple):
+    stamp: int
+    item: Any
+
+
+class Synchroniser:
+    """Pairs each colour image with the nearest depth image, and waits for it no longer than it must.
+
+    A colour image waits until a depth image of its very stamp or of a later one has come: then no nearer one
+    can come any more (a topic's stamps ascend). Pairs come out with ascending stamps. All times are those of
+    stamps; when messages arrive does not matter. Stamps that jump back by more than a second start it anew.
+    """
+
+    def __init__(self, *, slop: int, capacity: int) -> None:
+        """Wait for nothing yet.
+
+        Args:
+            slop: greatest difference between the stamps of a pair [ns].
+            capacity: most images of each kind that wait.
+        """
+        if slop < 0 or capacity < 1:
+            raise ValueError(f"expected slop >= 0 ns and capacity >= 1, got {slop} and {capacity}")
+        self._slop = slop
+        self._capacity = capacity
+        self._colors: list[_Stamped] = []
+        self._depths: list[_Stamped] = []
+        self._given: int | None = None
+        self.dropped: Counter[str] = Counter()
+        """How many images were dropped, by reason."""
+
+    def add_color(self, stamp: int, color: Any) -> list[Pair]:
+        """Take a colour image; give the pairs that it completes, at most one."""
+        if self._set_back(stamp):
+            self._restart()
+        if (self._given is not None and stamp <= self._given) or any(c.stamp == stamp for c in self._colors):
+            self.dropped[OVERTAKEN] += 1
+            return []
+        _insert(self._colors, _Stamped(stamp, color))
+        return self._match()
+
+    def add_depth(self, stamp: int, depth: Any) -> list[Pair]:
+        """Take a depth image; give the pairs that it completes, the oldest first."""
+        if self._set_back(stamp):
+            self._restart()
+        if any(d.stamp == stamp for d in self._depths):
+            self.dropped[NO_COLOR] += 1
+            return []
+        _insert(self._depths, _Stamped(stamp, depth))
+        return self._match()
+
+    def finish(self) -> list[Pair]:
+        """Give the pairs among what waits; for the end of a recording, where nothing is to come."""
+        pairs = [pair for color in list(self._colors) if (pair := self._pair(color)) is not None]
+        self._restart()
+        return pairs
+
+    def _match(self) -> list[Pair]:
+        pairs = []
+        while self._colors and self._depths and self._depths[-1].stamp >= self._colors[0].stamp:
+            pair = self._pair(self._colors[0])
+            if pair is not None:
+                pairs.append(pair)
+        while len(self._colors) > self._capacity:
+            # Depth is late by more images than may wait. The nearest there is may still be near enough.
+            pair = self._pair(self._colors[0])
+            if pair is not None:
+                pairs.append(pair)
+        while len(self._depths) > self._capacity:
+            self._depths.pop(0)
+            self.dropped[NO_COLOR] += 1
+        return pairs
+
+    def _pair(self, color: _Stamped) -> Pair | None:
+        """Take a colour image from those that wait, with its depth image and what is older."""
+        self._colors.remove(color)
+        nearest = min(self._depths, key=lambda depth: abs(depth.stamp - color.stamp), default=None)
+        if nearest is None or abs(nearest.stamp - color.stamp) > self._slop:
+            self.dropped[NO_DEPTH] += 1
+            return None
+        before = self._depths.index(nearest)
+        self.dropped[NO_COLOR] += before
+        del self._depths[: before + 1]
+        self._given = color.stamp
+        return Pair(color.stamp, nearest.stamp, color.item, nearest.item)
+
+    def _set_back(self, stamp: int) -> bool:
+        latest = max([s.stamp for s in (*self._colors, *self._depths)], default=self._given)
+        if self._given is not None and latest is not None:
+            latest = max(latest, self._given)
+        return latest is not None and stamp < latest - _BACKWARDS
+
+    def _restart(self) -> None:
+        self.dropped[NO_DEPTH] += len(self._colors)
+        self.dropped[NO_COLOR] += len(self._depths)
+        self._colors, self._depths, self._given = [], [], None
+
+
+def _insert(waiting: list[_Stamped], new: _Stamped) -> None:
+    """Keep ascending stamps, also where one comes late."""
+    place = len(waiting)
+    while place and waiting[place - 1].stamp > new.stamp:
+        place -= 1
+    waiting.insert(place, new)

@@ -1,0 +1,168 @@
+"""Motion between key poses."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation, Slerp
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.synthetic.keys import ArmKey, Key, KeyResolver
+from teo_skeleton_retriever.synthetic.pose import ArmPose, BodyPose, Poser
+from teo_skeleton_retriever.synthetic.rig import SIDES
+
+_STEP_HEIGHT = 0.06
+"""How far a foot is lifted for a step [m]."""
+
+# Nobody stands still: the trunk sways and breathes. Amplitudes [rad] and frequencies [Hz] of quiet standing.
+_SWAY = ((0.008, 0.27), (0.006, 0.19), (0.006, 0.23))
+_NOD = ((0.012, 0.31), (0.010, 0.43), (0.008, 0.17))
+_BLINK_EVERY, _BLINK_FOR = 3.4, 0.2  # [s]
+
+
+def minimum_jerk(share: float) -> float:
+    """Give how far a movement is along its way after a share of its time.
+
+    Source: Flash and Hogan, The coordination of arm movements, J. Neurosci. 5(7), 1985.
+    """
+    return min(1.0, share**3 * (10.0 - 15.0 * share + 6.0 * share**2))  # rounding must not overshoot
+
+
+@dataclass(frozen=True)
+class _Stage:
+    """A key pose of one person, resolved."""
+
+    key: Key
+    start: float  # when the movement to it starts [s]
+    arms: dict[str, ArmPose]
+    feet: dict[str, tuple[float, float, float]]
+
+    @property
+    def arrival(self) -> float:
+        return self.start + self.key.move
+
+    @property
+    def end(self) -> float:
+        return self.arrival + self.key.hold
+
+
+class Motion:
+    """A script played by one person: the pose at any time."""
+
+    def __init__(self, poser: Poser, keys: Sequence[Key]) -> None:
+        """Resolve key poses; the first is where the person starts and must name both arms.
+
+        Raises:
+            SyntheticError: a place, point or shape that does not exist.
+        """
+        self._poser = poser
+        resolver = KeyResolver(poser)
+        self._stages: list[_Stage] = []
+        now = 0.0
+        for key in keys:
+            before = self._stages[-1] if self._stages else None
+            arms = dict(before.arms) if before else {}
+            wanted: dict[str, ArmKey | None] = {"R": key.right, "L": key.left}
+            # The arm that refers to the other is resolved after it.
+            for side in sorted(SIDES, key=lambda side: (wanted[side] or ArmKey()).at.startswith("other")):
+                arm = wanted[side]
+                if arm is not None:
+                    arms[side] = resolver.arm(side, arm, arms.get("L" if side == "R" else "R"))
+            stage = _Stage(key, now - (0.0 if before else key.move), arms, self._feet(poser, key))
+            self._stages.append(stage)
+            now = stage.end
+        self.duration = now
+        """How long the script is [s]."""
+        self._starts = [stage.start for stage in self._stages]
+
+    @staticmethod
+    def _feet(poser: Poser, key: Key) -> dict[str, tuple[float, float, float]]:
+        cosine, sine = math.cos(key.heading), math.sin(key.heading)
+        return {
+            side: (key.place[0] + cosine * x - sine * y, key.place[1] + sine * x + cosine * y, z)
+            for side, (x, y, z) in poser.standing_feet().items()
+        }
+
+    def pose(self, time: float) -> BodyPose:
+        """Give the pose at a time after the start [s]; before and after the script, its first and last."""
+        index = max(1, min(bisect_right(self._starts, time) - 1, len(self._stages) - 1))
+        before, stage = self._stages[index - 1], self._stages[index]
+        done = min(1.0, max(0.0, (time - stage.start) / stage.key.move))
+        share = minimum_jerk(done)
+        arms = {
+            side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key.arc) for side in SIDES
+        }
+        mix = _Mix(share)
+        face = dict.fromkeys([*before.key.face, *stage.key.face], 0.0)
+        for name in face:
+            face[name] = mix(before.key.face.get(name, 0.0), stage.key.face.get(name, 0.0))
+        blink = _blink(time)
+        if blink > 0.0:
+            face |= {"eyeBlinkLeft": blink, "eyeBlinkRight": blink}
+        feet = {}
+        for side in SIDES:
+            lifted = _STEP_HEIGHT * math.sin(math.pi * share) if stage.key.step == side else 0.0
+            foot = mix.all(before.feet[side], stage.feet[side])
+            feet[side] = (foot[0], foot[1], foot[2] + lifted)
+        lean = mix.all(before.key.lean, stage.key.lean)
+        head = mix.all(before.key.head, stage.key.head)
+        place = mix.all(before.key.place, stage.key.place)
+        return BodyPose(
+            arms=arms,
+            place=(place[0], place[1]),
+            heading=mix(before.key.heading, stage.key.heading),
+            lean=_swayed(lean, _SWAY, time),
+            head=_swayed(head, _NOD, time),
+            feet=feet,
+            face=face,
+        )
+
+    def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, arc: float) -> ArmPose:
+        """Go from one pose of an arm to another; the forearm rolls and the wrist bends as joints do."""
+        if share in (0.0, 1.0):
+            return end if share else start
+        arm, poser = self._poser.arms[side], self._poser
+        rolls, swings = zip(
+            *(arm.wrist_joint(*poser.limb(side, at.wrist, at.swivel), at.hand) for at in (start, end)),
+            strict=True,
+        )
+        mix = _Mix(share)
+        way: FloatArray = end.wrist - start.wrist
+        bulge = 4.0 * share * (1.0 - share) * arc * float(np.linalg.norm(way))
+        wrist = start.wrist + share * way + np.array([bulge, 0.0, 0.0])
+        swivel = mix(start.swivel, end.swivel)
+        swing = Slerp([0.0, 1.0], Rotation.from_matrix(np.array(swings)))(share).as_matrix()
+        hand = arm.hand_at(*poser.limb(side, wrist, swivel), mix(*rolls), swing)
+        return ArmPose(wrist, hand, swivel, start.shape.blend(end.shape, share))
+
+
+class _Mix:
+    """Goes from one number to another."""
+
+    def __init__(self, share: float) -> None:
+        self._share = share
+
+    def __call__(self, start: float, end: float) -> float:
+        return (1.0 - self._share) * start + self._share * end
+
+    def all(self, start: Sequence[float], end: Sequence[float]) -> tuple[float, ...]:
+        return tuple(self(a, b) for a, b in zip(start, end, strict=True))
+
+
+def _swayed(
+    angles: tuple[float, ...], waves: tuple[tuple[float, float], ...], time: float
+) -> tuple[float, float, float]:
+    a, b, c = (
+        angle + size * math.sin(2.0 * math.pi * rate * time)
+        for angle, (size, rate) in zip(angles, waves, strict=True)
+    )
+    return a, b, c
+
+
+def _blink(time: float) -> float:
+    since = (time + 1.0) % _BLINK_EVERY
+    return math.sin(math.pi * since / _BLINK_FOR) ** 2 if since < _BLINK_FOR else 0.0

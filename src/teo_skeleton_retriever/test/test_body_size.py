@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from capsule_person import FOREARM, SHOULDERS, UPPER_ARM, pose
+
+from teo_skeleton_retriever.body_size import BodySize
+
+
+def seen(size: float, images: int = 60, *, noise: float = 0.008) -> BodySize:
+    random = np.random.default_rng(2)
+    body = pose((-0.5, 0.2, -0.1), (0.5, 0.2, -0.1), size=size).body
+    estimate = BodySize()
+    for _ in range(images):
+        estimate.step(body + random.normal(0.0, noise, body.shape))
+    return estimate
+
+
+@pytest.mark.parametrize("size", [0.75, 1.0, 1.15])
+def test_lengths_are_those_of_the_person(size: float) -> None:
+    estimate = seen(size)
+    assert estimate.length("upper arm")[0] == pytest.approx(size * UPPER_ARM, abs=0.01)
+    assert estimate.length("forearm")[0] == pytest.approx(size * FOREARM, abs=0.01)
+    assert estimate.scale == pytest.approx(size * SHOULDERS / 0.36, rel=0.05)
+
+
+def test_before_anything_is_seen_a_person_is_average_and_that_is_uncertain() -> None:
+    assert BodySize().scale == 1.0
+    assert BodySize().length("forearm")[1] > 3 * seen(1.0).length("forearm")[1]
+
+
+def test_a_forearm_that_was_never_seen_grows_with_the_shoulders() -> None:
+    body = pose((-0.5, 0.2, -0.1), (0.5, 0.2, -0.1), size=1.2).body
+    body[[4, 7]] = math.nan
+    estimate = BodySize()
+    for _ in range(60):
+        estimate.step(body)
+    assert estimate.length("forearm")[0] > 1.05 * BodySize().length("forearm")[0]
+
+
+def test_a_leg_twice_as_long_is_beyond_belief() -> None:
+    estimate = seen(1.0)
+    assert estimate.too_long("thigh", 0.9)
+    assert not estimate.too_long("thigh", 0.45)

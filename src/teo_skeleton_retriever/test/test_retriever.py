@@ -1,0 +1,281 @@
+from __future__ import annotations
+
+import math
+import resource
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from capsule_person import CAMERA, ROW, Pose, face, frame, person_2d, pose
+
+from teo_skeleton_retriever.camera_model import CameraModel
+from teo_skeleton_retriever.errors import FrameError
+from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.retriever import Frame, KeypointStatus, Retriever, RetrieverParameters, Skeleton
+
+RATE = 30.0  # [1/s]
+ARMS = [ROW[side + joint] for side in "RL" for joint in ("Shoulder", "Elbow", "Wrist")]
+AT_ONCE = RetrieverParameters(newcomer_images=1)
+
+
+def signing(time: float, at: tuple[float, float, float] = (0.0, -0.25, 1.6)) -> Pose:
+    """Both hands move before the chest."""
+    right = (-0.15 + 0.12 * math.sin(4 * time), 0.12 + 0.12 * math.cos(4 * time), -0.28)
+    left = (0.25, 0.05 + 0.12 * math.sin(5 * time), -0.25)
+    return pose(right, left, at=at)
+
+
+def follow(
+    retriever: Retriever, seconds: float, make: Callable[[float], Frame], start: float = 0.0
+) -> list[tuple[Skeleton, ...]]:
+    return [retriever.process(make(start + i / RATE)) for i in range(round(seconds * RATE))]
+
+
+def only(skeletons: tuple[Skeleton, ...]) -> Skeleton:
+    assert len(skeletons) == 1
+    return skeletons[0]
+
+
+def error(found: np.ndarray, truth: np.ndarray) -> float:
+    return float(np.linalg.norm(found - truth, axis=1).mean())
+
+
+def test_joints_are_found_behind_the_skin_that_the_camera_sees() -> None:
+    retriever = Retriever(AT_ONCE)
+    errors, hands = [], []
+    for i, found in enumerate(
+        follow(retriever, 2.0, lambda t: frame(t, signing(t), noise=0.004, jitter=0.35))
+    ):
+        truth, skeleton = signing(i / RATE), only(found)
+        errors.append(error(skeleton.body.points[ARMS], truth.body[ARMS]))
+        hands.append(error(skeleton.left_hand.points, truth.left_hand))
+        hands.append(error(skeleton.right_hand.points, truth.right_hand))
+    assert np.mean(errors[15:]) < 0.025
+    assert np.mean(hands[30:]) < 0.015
+
+
+def test_two_thirds_of_the_depth_may_be_missing() -> None:
+    retriever = Retriever(AT_ONCE)
+    found = follow(retriever, 1.0, lambda t: frame(t, signing(t), noise=0.004, missing=0.66))
+    skeleton, truth = only(found[-1]), signing(29 / RATE)
+    assert error(skeleton.body.points[ARMS], truth.body[ARMS]) < 0.03
+    assert error(skeleton.right_hand.points, truth.right_hand) < 0.02
+
+
+def test_hands_are_found_without_an_imagined_shape() -> None:
+    retriever = Retriever(AT_ONCE)
+    found = follow(retriever, 1.0, lambda t: frame(t, signing(t), noise=0.003, imagined=False))
+    skeleton, truth = only(found[-1]), signing(29 / RATE)
+    assert error(skeleton.left_hand.points, truth.left_hand) < 0.02
+
+
+def test_a_face_is_measured_on_its_skin() -> None:
+    found = follow(Retriever(AT_ONCE), 0.5, lambda t: frame(t, signing(t), noise=0.003))
+    assert error(only(found[-1]).face.points, face(signing(14 / RATE))) < 0.012
+
+
+def test_the_body_frame_looks_out_of_the_chest() -> None:
+    skeleton = only(Retriever(AT_ONCE).process(frame(0.0, signing(0.0))))
+    assert skeleton.body_frame is not None
+    np.testing.assert_allclose(skeleton.body_frame.rotation @ [1, 0, 0], [0, 0, -1], atol=0.2)
+    np.testing.assert_allclose(skeleton.body_frame.rotation @ [0, 1, 0], [1, 0, 0], atol=0.1)
+
+
+def test_sigma_tells_how_far_joints_are_off() -> None:
+    ratios = []
+    for seed in range(6):
+        at = (0.3 * math.sin(seed), -0.25, 1.3 + 0.15 * seed)
+        retriever = Retriever(AT_ONCE)
+        for i in range(20):
+            time = i / RATE + seed
+            truth = signing(time, at)
+            skeleton = only(retriever.process(frame(time, truth, noise=0.002 * at[2] ** 2, jitter=1.0)))
+            off = skeleton.body.points[ARMS] - truth.body[ARMS]
+            ratios.append(off / skeleton.body.sigma[ARMS])
+    spread = float(np.sqrt(np.mean(np.array(ratios) ** 2)))
+    assert 0.3 < spread < 1.5
+
+
+def test_an_elbow_behind_the_hand_is_found_by_the_lengths_of_the_arm() -> None:
+    retriever = Retriever(AT_ONCE)
+
+    def moving(time: float) -> Pose:
+        swing = min(time / 1.5, 1.0)
+        return pose((-0.55 + 0.2 * swing, 0.12 + 0.12 * swing, -0.05 - 0.2 * swing), (0.4, 0.35, -0.1))
+
+    last = follow(retriever, 2.0, lambda t: frame(t, moving(t), noise=0.002))[-1]
+    off = only(last).body.points[ROW["RElbow"]] - moving(2.0).body[ROW["RElbow"]]
+    assert float(np.linalg.norm(off)) < 0.05
+
+
+def test_what_is_not_seen_is_held_for_a_while_with_growing_doubt_and_then_lost() -> None:
+    retriever = Retriever(AT_ONCE)
+    follow(retriever, 0.5, lambda t: frame(t, signing(t)))
+    without_hands = [frame(0.5 + i / RATE, signing(0.5)) for i in range(12)]
+    seen = []
+    for image in without_hands:
+        person = replace(image.people[0], left_hand=np.zeros((0, 3)), left_hand_world=None)
+        seen.append(only(retriever.process(replace(image, people=(person,)))).left_hand)
+    assert (seen[0].status == KeypointStatus.HELD).all()
+    assert (seen[4].sigma > seen[2].sigma).all()
+    assert (seen[-1].status == KeypointStatus.LOST).all()
+    assert np.isnan(seen[-1].points).all()
+
+
+def test_a_held_hand_goes_where_its_wrist_goes() -> None:
+    retriever = Retriever(AT_ONCE)
+    still, moved = pose((-0.2, 0.1, -0.25), (0.25, 0.1, -0.25)), pose((-0.2, 0.1, -0.25), (0.25, 0.0, -0.25))
+    follow(retriever, 0.4, lambda t: frame(t, still))
+    for i in range(5):
+        image = frame(0.4 + i / RATE, moved)
+        person = replace(image.people[0], left_hand=np.zeros((0, 3)), left_hand_world=None)
+        skeleton = only(retriever.process(replace(image, people=(person,))))
+    step = skeleton.left_hand.points.mean(axis=0) - still.left_hand.mean(axis=0)
+    assert step[1] == pytest.approx(-0.1, abs=0.03)
+
+
+@pytest.mark.parametrize("value", [0.0, math.nan, math.inf, -1.0])
+def test_without_depth_nothing_is_invented_and_it_recovers(value: float) -> None:
+    retriever = Retriever(AT_ONCE)
+    follow(retriever, 0.5, lambda t: frame(t, signing(t)))
+    for i in range(40):
+        image = frame(0.5 + i / RATE, signing(0.5))
+        found = retriever.process(replace(image, depth=np.full_like(image.depth, value)))
+    assert not any((skeleton.body.status == KeypointStatus.MEASURED).any() for skeleton in found)
+    last = follow(retriever, 0.5, lambda t: frame(t, signing(t)), start=2.0)[-1]
+    assert error(only(last).body.points[ARMS], signing(2.0 + 14 / RATE).body[ARMS]) < 0.025
+
+
+def test_an_empty_scene_is_nobody() -> None:
+    assert follow(Retriever(), 0.3, lambda t: frame(t)) == [()] * 9
+
+
+def test_someone_in_a_single_image_is_nobody_unless_that_is_asked_for() -> None:
+    assert Retriever().process(frame(0.0, signing(0.0))) == ()
+    assert len(Retriever(AT_ONCE).process(frame(0.0, signing(0.0)))) == 1
+
+
+def test_half_a_person_is_seen_as_far_as_they_are_in_the_image() -> None:
+    found = follow(Retriever(AT_ONCE), 0.5, lambda t: frame(t, signing(t, at=(-0.85, -0.25, 1.6))))
+    body = only(found[-1]).body
+    assert body.status[ROW["LShoulder"]] == KeypointStatus.MEASURED
+    assert body.status[ROW["RWrist"]] == KeypointStatus.LOST
+    assert np.isnan(body.points[ROW["RWrist"]]).all()
+
+
+def test_ten_people_keep_their_ids() -> None:
+    places = [(x, -0.2, z) for z in (2.2, 3.4) for x in (-0.9, -0.45, 0.0, 0.45, 0.9)]
+
+    def make(time: float) -> Frame:
+        people = [pose((-0.2, 0.3, -0.15), (0.2, 0.3, -0.15), at=at) for at in places]
+        image = frame(time, *people)
+        return replace(image, people=image.people[:: 1 if int(time * RATE) % 2 else -1])
+
+    retriever = Retriever(RetrieverParameters(max_depth=6.0))
+    found = follow(retriever, 0.4, make)
+    ids = [tuple(skeleton.track_id for skeleton in skeletons) for skeletons in found[3:]]
+    assert ids == [tuple(range(10))] * len(ids)
+    nearest = min(found[-1], key=lambda skeleton: float(np.linalg.norm(skeleton.body.points[1])))
+    assert [skeleton.track_id for skeleton in found[-1] if skeleton.is_signer] == [nearest.track_id]
+
+
+def test_the_resolution_may_change_in_mid_stream() -> None:
+    large = CameraModel(width=640, height=480, fx=600.0, fy=600.0, cx=319.5, cy=239.5)
+    retriever = Retriever(AT_ONCE)
+    before = follow(retriever, 0.4, lambda t: frame(t, signing(t)))[-1]
+    after = follow(retriever, 0.4, lambda t: frame(t, signing(t), camera=large), start=0.4)[-1]
+    assert only(after).track_id == only(before).track_id
+    assert error(only(after).body.points[ARMS], signing(0.4 + 11 / RATE).body[ARMS]) < 0.03
+
+
+def test_a_lens_that_bends_rays_is_undone() -> None:
+    camera = replace(
+        CAMERA, distortion_model="plumb_bob", distortion=np.array([0.1, -0.05, 0.001, 0.001, 0.0])
+    )
+    found = follow(Retriever(AT_ONCE), 0.5, lambda t: frame(t, signing(t), camera=camera))
+    assert error(only(found[-1]).body.points[ARMS], signing(14 / RATE).body[ARMS]) < 0.025
+
+
+def test_time_that_runs_backwards_begins_anew() -> None:
+    retriever = Retriever(AT_ONCE)
+    follow(retriever, 0.5, lambda t: frame(t, signing(t)), start=100.0)
+    found = follow(retriever, 0.5, lambda t: frame(t, signing(t)))[-1]
+    assert only(found).track_id == 1
+    assert error(only(found).body.points[ARMS], signing(14 / RATE).body[ARMS]) < 0.025
+
+
+def test_time_that_stands_still_harms_nothing() -> None:
+    retriever = Retriever(AT_ONCE)
+    for i in range(10):
+        found = retriever.process(replace(frame(i / RATE, signing(0.0)), stamp=1.0))
+    assert error(only(found).body.points[ARMS], signing(0.0).body[ARMS]) < 0.03
+    assert np.isfinite(only(found).body.sigma[ARMS]).all()
+
+
+def test_who_leaves_and_returns_within_the_memory_keeps_their_id_later_they_get_a_new_one() -> None:
+    for gap, same in ((1.0, True), (5.0, False)):
+        retriever = Retriever(AT_ONCE)
+        first = only(follow(retriever, 0.3, lambda t: frame(t, signing(t)))[-1])
+        follow(retriever, gap, lambda t: replace(frame(t), people=()), start=0.3)
+        second = only(retriever.process(frame(0.3 + gap, signing(0.0))))
+        assert (first.track_id == second.track_id) is same
+
+
+def test_a_locked_signer_stays_when_somebody_nearer_comes() -> None:
+    retriever = Retriever(AT_ONCE)
+    far, near = signing(0.0, at=(-0.4, -0.25, 2.2)), signing(0.0, at=(0.4, -0.25, 1.4))
+    first = only(retriever.process(frame(0.0, far)))
+    retriever.lock_signer(first.track_id)
+    found = retriever.process(frame(0.1, far, near))
+    assert [skeleton.track_id for skeleton in found if skeleton.is_signer] == [first.track_id]
+    assert retriever.process(replace(frame(5.0, near), people=(person_2d(near),)))[0].is_signer is False
+    retriever.lock_signer(None)
+    assert retriever.process(frame(9.0, near))[0].is_signer is True
+
+
+def test_every_layout_of_bodies_is_taken() -> None:
+    coco = np.zeros((18, 3))
+    full = person_2d(signing(0.0)).body
+    coco[:8] = full[:8]
+    mpi = np.zeros((15, 3))
+    mpi[1:8] = full[1:8]
+    for body in (coco, mpi):
+        image = replace(frame(0.0, signing(0.0)), people=(Person2D(body=body),))
+        skeleton = only(Retriever(AT_ONCE).process(image))
+        assert (skeleton.body.status[ARMS] == KeypointStatus.MEASURED).all()
+
+
+def test_a_person_of_whom_nothing_is_seen_is_nobody() -> None:
+    assert Retriever(AT_ONCE).process(replace(frame(0.0, signing(0.0)), people=(Person2D(),))) == ()
+
+
+def test_depth_of_another_size_than_the_cameras_is_refused() -> None:
+    with pytest.raises(FrameError) as caught:
+        Frame(0.0, (), np.zeros((10, 10), np.float32), CAMERA)
+    assert caught.value.code == "wrong_size"
+
+
+@pytest.mark.parametrize("stamp", [math.nan, math.inf])
+def test_a_stamp_that_is_no_time_is_refused(stamp: float) -> None:
+    with pytest.raises(FrameError) as caught:
+        Frame(stamp, (), np.zeros((240, 320), np.float32), CAMERA)
+    assert caught.value.code == "bad_stamp"
+
+
+def test_memory_is_bounded_over_ten_thousand_images() -> None:
+    retriever = Retriever(replace(AT_ONCE, optimise_limbs=False))
+    image = frame(0.0, signing(0.0))
+    seen = (Person2D(body=image.people[0].body),)
+
+    def play(start: int, end: int) -> int:
+        for i in range(start, end):
+            gone = (
+                i % 200 > 150
+            )  # they leave for longer than they are remembered, and come back as somebody else
+            retriever.process(replace(image, stamp=i / 10.0, people=() if gone else seen))
+        return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
+
+    before = play(0, 2000)
+    assert play(2000, 10_000) - before < 2_000_000  # [bytes]

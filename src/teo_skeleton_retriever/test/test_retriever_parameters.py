@@ -1,0 +1,36 @@
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
+
+
+def test_every_parameter_says_what_it_does_and_within_which_range() -> None:
+    for name, info in parameter_info().items():
+        assert len(info.description) > 30, name
+        assert info.choices or (info.lowest is None) == (info.highest is None), name
+
+
+def test_defaults_are_within_their_ranges() -> None:
+    RetrieverParameters()
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"min_confidence": 1.5}, "out_of_range"),
+        ({"hold_time": math.nan}, "out_of_range"),
+        ({"max_depth": "far"}, "wrong_type"),
+        ({"skin_offset": 1}, "wrong_type"),
+        ({"smoothing": True}, "wrong_type"),
+        ({"signer_rule": "loudest"}, "unknown_choice"),
+        ({"min_depth": 3.0, "max_depth": 2.0}, "bad_range"),
+    ],
+)
+def test_what_is_no_value_of_a_parameter_is_refused(changes: dict[str, object], code: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        RetrieverParameters(**changes)  # type: ignore[arg-type]
+    assert caught.value.code == code
