@@ -8,16 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.robot import Robot
-from teo_lut_executor.composer import REST, Composition, compose
-from teo_lut_executor.detour import DETOURS, Route, with_detour
+from teo_lut_executor.composer import ARMS, REST, Composition, compose
+from teo_lut_executor.detour import Route, detours, with_detour
 from teo_lut_executor.idle_rule import settle_idle_limbs
 from teo_lut_executor.joint_motion import JointMotion
-from teo_lut_executor.lexicon import Lexicon
+from teo_lut_executor.lexicon import DEFAULT_STANDING, Lexicon
 from teo_lut_executor.motion_limits import MotionLimits
 from teo_lut_executor.plan import Plan, Samples, TokenTiming, sample_at, sample_times
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.self_collision import SelfCollision
 from teo_lut_executor.sign import Sign
+from teo_lut_executor.sign_schema import Standing
 from teo_lut_executor.signing_style import SigningStyle
 from teo_lut_executor.state_to_state import ROUNDING, State
 from teo_lut_executor.station_timing import StationTiming
@@ -40,8 +41,22 @@ DEFAULT_CLEARANCE = 0.0
 # error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).
 START_TOLERANCE = 0.01
 
-# So many transitions of one sentence may be led around the robot's body before it is refused.
-_MOST_DETOURS = 4
+# A sentence may be led around the robot's body by so many postures for each of its signs.
+_DETOURS_PER_TOKEN = 2
+
+
+class _InTheWayError(Exception):
+    """The robot touches itself where no detour helps.
+
+    Attributes:
+        error: What to say if nothing else helps either.
+        token: Index of the token that is signed there, or is signed next; their number after the last.
+    """
+
+    def __init__(self, error: PlanError, token: int) -> None:
+        super().__init__(str(error))
+        self.error = error
+        self.token = token
 
 
 class Planner:
@@ -57,6 +72,7 @@ class Planner:
         least_clearance: float = DEFAULT_CLEARANCE,
         period: float = DEFAULT_PERIOD,
         max_duration: float = DEFAULT_MAX_DURATION,
+        least_standing: Standing = DEFAULT_STANDING,
     ) -> None:
         """Prepare.
 
@@ -68,6 +84,7 @@ class Planner:
             least_clearance: Distance that parts of the robot keep [m].
             period: Most time between two samples of a plan [s].
             max_duration: A longer motion is refused [s].
+            least_standing: Signs of a lower standing are spelled.
 
         Raises:
             PlanError: The period or the duration is not above 0 ("bad_period"), or the limits leave no room
@@ -79,7 +96,7 @@ class Planner:
         self.limits = MotionLimits.of_robot() if limits is None else limits
         self.style = SigningStyle() if style is None else style
         self._bounds = self.limits.for_points(period)
-        self._lexicon = Lexicon(signs)
+        self._lexicon = Lexicon(signs, least_standing)
         self._collision_model = None if robot is None else SelfCollision(robot)
         self._least_clearance = least_clearance
         self._period = period
@@ -149,35 +166,81 @@ class Planner:
         first_look = StationTiming(
             composition.targets, composition.nominal, composition.strokes, start, self._bounds
         )
-        targets = settle_idle_limbs(
-            composition, times=first_look.times, limits=self.limits, arm_rest=self.style.arm_rest
-        )
-        route = Route(
-            targets=targets,
-            nominal=composition.nominal,
-            strokes=composition.strokes,
-            spans=composition.spans,
-        )
+        cleared: set[tuple[int, int]] = set()
+        while True:
+            targets = settle_idle_limbs(
+                composition,
+                times=first_look.times,
+                limits=self.limits,
+                arm_rest=self.style.arm_rest,
+                cleared=cleared,
+            )
+            route = Route(
+                targets=targets,
+                nominal=composition.nominal,
+                strokes=composition.strokes,
+                spans=composition.spans,
+            )
+            try:
+                return self._clear(route, start)
+            except _InTheWayError as collision:
+                more = _idle_arms(composition, collision) - cleared
+                if not more:
+                    raise collision.error from None
+                cleared |= more
+
+    def _clear(self, route: Route, start: State) -> Plan:
+        """Time a route, and lead its transitions around the robot's body where they would touch it.
+
+        Raises:
+            _InTheWayError: That is not enough.
+        """
         plan, times = self._solve(route, start)
-        for _ in range(_MOST_DETOURS):
+        for _ in range(_DETOURS_PER_TOKEN * (len(route.spans) + 1)):
             if self._is_clear(plan):
                 return plan
             route, plan, times = self._avoid(route, plan, times, start)
         if self._is_clear(plan):
             return plan
-        raise self._collision(plan, route, times)
+        raise self._in_the_way(plan, route, times)
 
     def _avoid(self, route: Route, plan: Plan, times: Array, start: State) -> tuple[Route, Plan, Array]:
         """Lead the transition with the worst collision around the body."""
         step = _step(plan, times)
         if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
-            posture = plan.at(float(times[step] + times[step + 1]) / 2.0)[0]
-            for change in DETOURS:
-                other = with_detour(route, step, posture=posture, change=change, limits=self.limits)
+            begin, end = float(times[step]), float(times[step + 1])
+            first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
+            for postures in detours(first, middle, second, self.limits):
+                other = route
+                for posture in reversed(postures):
+                    other = with_detour(other, step, posture)
                 other_plan, other_times = self._solve(other, start)
-                if self._is_clear(other_plan) or _step(other_plan, other_times) not in (step, step + 1):
+                round_here = range(step, step + len(postures) + 1)
+                if self._is_clear(other_plan) or _step(other_plan, other_times) not in round_here:
                     return other, other_plan, other_times
-        raise self._collision(plan, route, times)
+        raise self._in_the_way(plan, route, times)
+
+    def _in_the_way(self, plan: Plan, route: Route, times: Array) -> _InTheWayError:
+        """What touches, and where: in a sign if one of its postures does, else on the way between two."""
+        near, step = plan.nearest, _step(plan, times)
+        assert near is not None
+        guilty = next(
+            (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
+        )
+        if guilty is None:
+            where = f"on the way from {route.name_at(step)} to {route.name_at(step + 1)}"
+        else:
+            where = f"in {route.name_at(guilty)}"
+        error = PlanError(
+            "self_collision",
+            f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "
+            f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm",
+        )
+        station = step + 1 if guilty is None else guilty
+        token = next(
+            (index for index, span in enumerate(route.spans) if station <= span.last), len(route.spans)
+        )
+        return _InTheWayError(error, token)
 
     def _solve(self, route: Route, start: State) -> tuple[Plan, Array]:
         timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
@@ -254,22 +317,17 @@ class Planner:
         found = self._collision_model.nearest(sample_at(plan.motions, times))
         return found.distance >= self._least_clearance
 
-    def _collision(self, plan: Plan, route: Route, times: Array) -> PlanError:
-        """What touches, and where: in a sign if one of its postures does, else on the way between two."""
-        near, step = plan.nearest, _step(plan, times)
-        assert near is not None
-        guilty = next(
-            (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
-        )
-        if guilty is None:
-            where = f"on the way from {route.name_at(step)} to {route.name_at(step + 1)}"
-        else:
-            where = f"in {route.name_at(guilty)}"
-        return PlanError(
-            "self_collision",
-            f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "
-            f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm",
-        )
+
+def _idle_arms(composition: Composition, collision: _InTheWayError) -> set[tuple[int, int]]:
+    """Arms that a token does not use, each with the station at which it begins."""
+    if collision.token >= len(composition.spans):
+        return set()
+    first = composition.spans[collision.token].first
+    return {
+        (span.limb, first)
+        for span in composition.idle
+        if span.limb in ARMS and span.first < first < span.last
+    }
 
 
 def _step(plan: Plan, times: Array) -> int:

@@ -31,8 +31,9 @@ def test_list_has_a_line_for_every_sign() -> None:
 
 def test_list_can_be_of_one_kind() -> None:
     output = run("list", "--lut", TABLE, "--kind", "lexical").output
-    assert "3 signs" in output
+    assert "NOMBRE" in output
     assert "spoken-to-signed" not in output
+    assert "3 recorded" in output  # what TEO has signed in public
 
 
 def test_show_tells_everything() -> None:
