@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS
-from teo_lut_executor.composer import ARMS, LIMBS, TokenSpan
+from teo_lut_executor.composer import ARMS, LIMBS, REST, TokenSpan
 from teo_lut_executor.motion_limits import MotionLimits
 
 Array = NDArray[np.float64]
@@ -82,7 +82,8 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
     """Postures to pass through between two others, the least far out of the way first.
 
     Arms wider, further in front, hands away from the body; then one arm before the other; then hands apart,
-    and from there one arm before the other, which takes any two hands out of each other's way.
+    and from there one arm before the other, which takes any two hands out of each other's way; last the same
+    by way of rest, to which every sign has a way.
 
     Args:
         first: Positions where the way begins [rad]. Shape (28,).
@@ -94,18 +95,20 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
         yield (_changed(middle, angle, ways, limits),)
     for arm in ARMS:
         yield (_with_arm(first, arm, second),)
-    apart = middle.copy()
+    apart, rest = middle.copy(), middle.copy()
     for arm in ARMS:
         apart[list(LIMBS[arm])] = 0.0
+        rest[list(LIMBS[arm])] = REST[list(LIMBS[arm])]
     for name, angle in _APART.items():
         apart[COMMANDED_JOINTS.index(name)] = angle
-    yield (apart,)
-    for arm in ARMS:
-        yield apart, _with_arm(apart, arm, second)
-    for arm in ARMS:
-        yield _with_arm(first, arm, apart), apart
-        for later in ARMS:
-            yield _with_arm(first, arm, apart), apart, _with_arm(apart, later, second)
+    for away in (apart, rest):
+        yield (away,)
+        for arm in ARMS:
+            yield away, _with_arm(away, arm, second)
+        for arm in ARMS:
+            yield _with_arm(first, arm, away), away
+            for later in ARMS:
+                yield _with_arm(first, arm, away), away, _with_arm(away, later, second)
 
 
 def _with_arm(posture: Array, arm: int, other: Array) -> Array:

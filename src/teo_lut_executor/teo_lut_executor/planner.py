@@ -211,6 +211,8 @@ class Planner:
             begin, end = float(times[step]), float(times[step + 1])
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
             for postures in detours(first, middle, second, self.limits):
+                if any(self._touches(posture) for posture in postures):
+                    continue
                 other = route
                 for posture in reversed(postures):
                     other = with_detour(other, step, posture)
@@ -308,6 +310,10 @@ class Planner:
         return Samples(
             times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
         )
+
+    def _touches(self, posture: Array) -> bool:
+        assert self._collision_model is not None
+        return self._collision_model.distance(posture) < self._least_clearance
 
     def _is_clear(self, plan: Plan) -> bool:
         return plan.nearest is None or plan.nearest.distance >= self._least_clearance
