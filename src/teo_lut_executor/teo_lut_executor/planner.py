@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,10 @@ START_TOLERANCE = 0.01
 
 # A sentence may be led around the robot's body by so many postures for each of its signs.
 _DETOURS_PER_TOKEN = 2
+
+
+# Looks at a straight way between two postures before its motion is timed.
+_LOOKS = 9
 
 
 class _InTheWayError(Exception):
@@ -210,9 +215,9 @@ class Planner:
         if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
             begin, end = float(times[step]), float(times[step + 1])
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
-            for postures in detours(first, middle, second, self.limits):
-                if any(self._touches(posture) for posture in postures):
-                    continue
+            ways = detours(first, middle, second, self.limits)
+            # First those that are free in straight lines, which is seen in a hundredth of the time of a motion.
+            for postures in sorted(ways, key=lambda way: self._touches([first, *way, second])):
                 other = route
                 for posture in reversed(postures):
                     other = with_detour(other, step, posture)
@@ -311,9 +316,14 @@ class Planner:
             times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
         )
 
-    def _touches(self, posture: Array) -> bool:
+    def _touches(self, postures: Sequence[Array]) -> bool:
+        """Whether the robot would touch itself on straight ways from posture to posture."""
         assert self._collision_model is not None
-        return self._collision_model.distance(posture) < self._least_clearance
+        return any(
+            self._collision_model.distance(begin + share * (end - begin)) < self._least_clearance
+            for begin, end in pairwise(postures)
+            for share in np.linspace(0.0, 1.0, _LOOKS)
+        )
 
     def _is_clear(self, plan: Plan) -> bool:
         return plan.nearest is None or plan.nearest.distance >= self._least_clearance
