@@ -216,7 +216,7 @@ class Planner:
             begin, end = float(times[step]), float(times[step + 1])
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
             ways = detours(first, middle, second, self.limits)
-            # First those that are free in straight lines, which is seen in a hundredth of the time of a motion.
+            # First those that are free in straight lines, which is seen in a hundredth of a motion's time.
             for postures in sorted(ways, key=lambda way: self._touches([first, *way, second])):
                 other = route
                 for posture in reversed(postures):

@@ -23,8 +23,9 @@ from teo_lut_executor.sign_schema import Provenance
 
 Array = NDArray[np.float64]
 
-_CLEARANCE = 0.006
-"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees."""
+_CLEARANCE = 0.012
+"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the
+planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close."""
 _PUSH, _MOST_PUSHES = 0.012, 12
 """[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
 8 cm beyond the middle of its palm."""
