@@ -142,6 +142,59 @@ def test_a_bad_score_is_refused_with_line_and_field(
     assert said in str(caught.value)
 
 
+SECOND = GOOD.replace("PRUEBA", "OTRA").replace("hands: right", "hands: mirrored").replace("10 up", "10 down")
+COMPOUND = """\
+gloss: LAS_DOS
+standing: sketched
+source: made up
+signs: [PRUEBA, OTRA]
+"""
+
+
+def test_a_compound_is_its_signs_one_after_the_other(robot: Robot, tmp_path: Path) -> None:
+    write(tmp_path, GOOD)
+    write(tmp_path, SECOND, "OTRA")
+    sign = score_sign(robot, read_score(write(tmp_path, COMPOUND, "LAS_DOS")))
+    first, second = (score_sign(robot, read_score(tmp_path / f"{name}.yaml")) for name in ("PRUEBA", "OTRA"))
+    assert sign.gloss == "LAS_DOS"
+    assert sign.handedness == "both"
+    assert first.duration + second.duration < sign.duration < first.duration + second.duration + 0.5
+    right = [sign.joints.index(joint) for joint in RIGHT_ARM]
+    for part, knot, other in ((first, 0, 0), (first, len(first.times) - 1, -1), (second, -1, -1)):
+        at = knot if part is first else -1
+        np.testing.assert_allclose(sign.knots[at, right], part.knots[other, : len(right)], atol=0.05)
+    # The left hand takes no part in the first, and is low.
+    assert palm(robot, sign, 0, "left")[2, 3] < palm(robot, sign, 0)[2, 3] - 0.10
+    np.testing.assert_allclose(palm(robot, sign, -1, "left")[2, 3], palm(robot, sign, -1)[2, 3], atol=0.03)
+
+
+def test_a_compound_of_one_is_the_same_sign_under_a_second_name(robot: Robot, tmp_path: Path) -> None:
+    write(tmp_path, GOOD)
+    again = read_score(write(tmp_path, COMPOUND.replace("PRUEBA, OTRA", "PRUEBA"), "LAS_DOS"))
+    kept, other = score_sign(robot, read_score(tmp_path / "PRUEBA.yaml")), score_sign(robot, again)
+    assert other.gloss == "LAS_DOS"
+    np.testing.assert_array_equal(other.knots, kept.knots)
+    np.testing.assert_array_equal(other.times, kept.times)
+
+
+@pytest.mark.parametrize(
+    ("signs", "said"),
+    [
+        ("[PRUEBA, NADA]", ":4: signs.1: expected a sign with a score beside this one, got 'NADA'"),
+        ("[LAS_DOS]", ":4: signs.0: expected a sign that is not made of itself"),
+        ("[ANILLO]", "ANILLO.yaml:4: signs.0: expected a sign that is not made of itself, got 'LAS_DOS'"),
+        ("[]", ":4: signs:"),
+    ],
+)
+def test_a_compound_of_what_is_not_there_is_refused(tmp_path: Path, signs: str, said: str) -> None:
+    write(tmp_path, GOOD)
+    write(tmp_path, COMPOUND.replace("LAS_DOS", "ANILLO").replace("[PRUEBA, OTRA]", "[LAS_DOS]"), "ANILLO")
+    with pytest.raises(LutError) as caught:
+        read_score(write(tmp_path, COMPOUND.replace("[PRUEBA, OTRA]", signs), "LAS_DOS"))
+    assert caught.value.code == "bad_score"
+    assert said in str(caught.value)
+
+
 def test_directions_add_up() -> None:
     np.testing.assert_allclose(direction("2 up front"), np.array([1.0, 0.0, 2.0]) / np.sqrt(5.0))
     np.testing.assert_allclose(direction("out"), [0.0, -1.0, 0.0])

@@ -24,8 +24,8 @@ from teo_lut_executor.sign_schema import Provenance
 Array = NDArray[np.float64]
 
 _CLEARANCE = 0.012
-"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the
-planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close."""
+"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that
+the planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close."""
 _PUSH, _MOST_PUSHES = 0.012, 12
 """[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
 8 cm beyond the middle of its palm."""
@@ -272,11 +272,13 @@ def _round_obstacles(
 def _way_round(
     performance: _Performance, joints: tuple[str, ...], first: Array, second: Array, start: float
 ) -> Array:
-    """Half-way between two knots, the elbows opened until nothing touches."""
+    """Half-way between two knots: the elbows opened until nothing touches, or one arm before the other."""
     limits = joint_limits(joints)
     elbows = np.array(["Elbow" in joint for joint in joints])
-    for opened in _OPENED_ELBOWS:
-        middle: Array = np.minimum((first + second) / 2.0 + opened * elbows, limits.upper)
+    left = np.array(["Left" in joint for joint in joints])
+    middle: Array
+    opened = [np.minimum((first + second) / 2.0 + angle * elbows, limits.upper) for angle in _OPENED_ELBOWS]
+    for middle in (*opened, np.where(left, first, second), np.where(left, second, first)):
         if performance.nearest(joints, [first, middle, second]) >= _CLEARANCE / 2.0:
             return middle
     raise LutError(

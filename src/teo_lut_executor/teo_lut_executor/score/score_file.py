@@ -10,7 +10,8 @@ from pydantic import ValidationError
 
 from teo_lut_executor.lut import default_lut_directory
 from teo_lut_executor.lut_error import LutError
-from teo_lut_executor.score.score_schema import Score
+from teo_lut_executor.score.compound import performed
+from teo_lut_executor.score.score_schema import Compound, Score
 from teo_lut_executor.sign import gloss_key
 
 #: A score of a dozen steps is 2 kB; this is no score.
@@ -28,13 +29,18 @@ def default_scores_directory() -> Path:
 
 
 def read_score(path: Path) -> Score:
-    """Read and check one score.
+    """Read and check one score; those it is made of, if any, are read beside it.
 
     Raises:
         LutError: "unreadable", "too_large", "not_utf8", "not_yaml", "bad_score", "gloss_mismatch"; the
         message
             begins with file and line and names the field.
     """
+    return _read(path, ())
+
+
+def _read(path: Path, within: tuple[str, ...]) -> Score:
+    """Read a score that is part of compounds of those names."""
     try:
         data = path.read_bytes()
     except OSError as error:
@@ -55,8 +61,10 @@ def read_score(path: Path) -> Score:
         ) from error
     if not isinstance(root, yaml.MappingNode):
         raise LutError("bad_score", f"{path.name}:1: expected fields such as 'gloss: YO', got none")
+    compound = any(key.value == "signs" for key, _ in root.value)
+    score: Compound | Score
     try:
-        score = Score.model_validate(content)
+        score = (Compound if compound else Score).model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
         where = [part for part in first["loc"] if not (isinstance(part, str) and part in ("Step", "Repeat"))]
@@ -66,7 +74,21 @@ def read_score(path: Path) -> Score:
     if gloss_key(score.gloss) != path.stem:
         message = f"{path.name}:1: gloss: expected {path.stem!r}, the file's name, got {score.gloss!r}"
         raise LutError("gloss_mismatch", message)
-    return score
+    if isinstance(score, Score):
+        return score
+    return performed(score, [_part(path, root, score, index, within) for index in range(len(score.signs))])
+
+
+def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
+    gloss = compound.signs[index]
+    beside = path.with_name(f"{gloss_key(gloss)}.yaml")
+    where = f"{path.name}:{_line(root, ['signs', index])}: signs.{index}"
+    within = (*within, compound.gloss)
+    if gloss in within:
+        raise LutError("bad_score", f"{where}: expected a sign that is not made of itself, got {gloss!r}")
+    if not beside.is_file():
+        raise LutError("bad_score", f"{where}: expected a sign with a score beside this one, got {gloss!r}")
+    return _read(beside, within)
 
 
 def read_scores(directory: Path) -> Iterator[Score]:

@@ -116,21 +116,32 @@ class Repeat(BaseModel):
     steps: list[Step] = Field(min_length=1)
 
 
-class Score(BaseModel):
-    """A sign as its form is described."""
+class _Heading(BaseModel):
+    """What every score says of its sign."""
 
     model_config = _STRICT
 
     gloss: Gloss = Field(description="Name of the sign; equal to the file's name.")
     standing: Standing = Field(description=STANDING_MEANING)
     source: Text = Field(description="What the form was taken from.")
-    hands: Literal["right", "both", "mirrored"] = Field(
-        description="One hand; both, each written; or the left as the mirror of the right."
-    )
     face: str = Field(
         "", description="What the face does, in words: TEO has none, a viewer of the text does."
     )
     notes: str = Field("", description="What a reader must know.")
+
+
+class Compound(_Heading):
+    """A sign that is made of others, or that is another under a second name."""
+
+    signs: list[Gloss] = Field(min_length=1, max_length=4, description="Scores it is made of, in order.")
+
+
+class Score(_Heading):
+    """A sign as its form is described."""
+
+    hands: Literal["right", "both", "mirrored"] = Field(
+        description="One hand; both, each written; or the left as the mirror of the right."
+    )
     steps: list[Step | Repeat] = Field(min_length=1)
 
     @model_validator(mode="after")
