@@ -142,6 +142,25 @@ def render(
 
 
 @app.command()
+def overview(
+    out: Annotated[Path, typer.Option(help="A .png file.")],
+    kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "lexical",
+    lut: Directory = None,
+) -> None:
+    """Draw all signs of a kind on one small picture, each as it begins and ends."""
+    from teo_lut_executor.lut_pictures import save_overview
+
+    signs = _of_kind(_open(lut), kind)
+    if not signs:
+        _fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
+    try:
+        save_overview(out, signs)
+    except OSError as error:
+        _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+    _output.print(f"wrote {out}: {len(signs)} signs", soft_wrap=True)
+
+
+@app.command()
 def nearest(
     count: Annotated[int, typer.Option(help="How many pairs.", min=1)] = 15,
     kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "letter",

@@ -1,17 +1,16 @@
-"""Plans sentences: tokens in, motion out. See `composer`, `idle_rule` and `station_timing` for how."""
+"""Plans sentences: tokens in, motion out. See `composer`, `station_timing` and `clear_way` for how."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.robot import Robot
-from teo_lut_executor.composer import ARMS, REST, Composition, compose
-from teo_lut_executor.detour import Route, detours, with_detour
-from teo_lut_executor.idle_rule import settle_idle_limbs
+from teo_lut_executor.clear_way import ClearWay, TimedRoute
+from teo_lut_executor.composer import REST, Composition, compose
+from teo_lut_executor.detour import Route
 from teo_lut_executor.joint_motion import JointMotion
 from teo_lut_executor.lexicon import DEFAULT_STANDING, Lexicon
 from teo_lut_executor.motion_limits import MotionLimits
@@ -41,27 +40,6 @@ DEFAULT_CLEARANCE = 0.0
 # A start this far outside the limits is taken to be on the limit [rad]: encoders of 0.0015 rad and a control
 # error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).
 START_TOLERANCE = 0.01
-
-# A sentence may be led around the robot's body by so many postures for each of its signs.
-_DETOURS_PER_TOKEN = 2
-
-
-# Looks at a straight way between two postures before its motion is timed.
-_LOOKS = 9
-
-
-class _InTheWayError(Exception):
-    """The robot touches itself where no detour helps.
-
-    Attributes:
-        error: What to say if nothing else helps either.
-        token: Index of the token that is signed there, or is signed next; their number after the last.
-    """
-
-    def __init__(self, error: PlanError, token: int) -> None:
-        super().__init__(str(error))
-        self.error = error
-        self.token = token
 
 
 class Planner:
@@ -103,7 +81,12 @@ class Planner:
         self._bounds = self.limits.for_points(period)
         self._lexicon = Lexicon(signs, least_standing)
         self._collision_model = None if robot is None else SelfCollision(robot)
-        self._least_clearance = least_clearance
+        self._clear_way = ClearWay(
+            self._collision_model,
+            limits=self.limits,
+            least_clearance=least_clearance,
+            arm_rest=self.style.arm_rest,
+        )
         self._period = period
         self._max_duration = max_duration
 
@@ -167,89 +150,12 @@ class Planner:
         )
 
     def _route(self, composition: Composition, start: State) -> Plan:
-        """Time a composition, and lead its transitions around the robot's body where they would touch it."""
         first_look = StationTiming(
             composition.targets, composition.nominal, composition.strokes, start, self._bounds
         )
-        cleared: set[tuple[int, int]] = set()
-        while True:
-            targets = settle_idle_limbs(
-                composition,
-                times=first_look.times,
-                limits=self.limits,
-                arm_rest=self.style.arm_rest,
-                cleared=cleared,
-            )
-            route = Route(
-                targets=targets,
-                nominal=composition.nominal,
-                strokes=composition.strokes,
-                spans=composition.spans,
-            )
-            try:
-                return self._clear(route, start)
-            except _InTheWayError as collision:
-                more = _idle_arms(composition, collision) - cleared
-                if not more:
-                    raise collision.error from None
-                cleared |= more
+        return self._clear_way.plan(composition, first_look.times, lambda route: self._solve(route, start))
 
-    def _clear(self, route: Route, start: State) -> Plan:
-        """Time a route, and lead its transitions around the robot's body where they would touch it.
-
-        Raises:
-            _InTheWayError: That is not enough.
-        """
-        plan, times = self._solve(route, start)
-        for _ in range(_DETOURS_PER_TOKEN * (len(route.spans) + 1)):
-            if self._is_clear(plan):
-                return plan
-            route, plan, times = self._avoid(route, plan, times, start)
-        if self._is_clear(plan):
-            return plan
-        raise self._in_the_way(plan, route, times)
-
-    def _avoid(self, route: Route, plan: Plan, times: Array, start: State) -> tuple[Route, Plan, Array]:
-        """Lead the transition with the worst collision around the body."""
-        step = _step(plan, times)
-        if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
-            begin, end = float(times[step]), float(times[step + 1])
-            first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
-            ways = detours(first, middle, second, self.limits)
-            # First those that are free in straight lines, which is seen in a hundredth of a motion's time.
-            for postures in sorted(ways, key=lambda way: self._touches([first, *way, second])):
-                other = route
-                for posture in reversed(postures):
-                    other = with_detour(other, step, posture)
-                other_plan, other_times = self._solve(other, start)
-                round_here = range(step, step + len(postures) + 1)
-                if self._is_clear(other_plan) or _step(other_plan, other_times) not in round_here:
-                    return other, other_plan, other_times
-        raise self._in_the_way(plan, route, times)
-
-    def _in_the_way(self, plan: Plan, route: Route, times: Array) -> _InTheWayError:
-        """What touches, and where: in a sign if one of its postures does, else on the way between two."""
-        near, step = plan.nearest, _step(plan, times)
-        assert near is not None
-        guilty = next(
-            (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
-        )
-        if guilty is None:
-            where = f"on the way from {route.name_at(step)} to {route.name_at(step + 1)}"
-        else:
-            where = f"in {route.name_at(guilty)}"
-        error = PlanError(
-            "self_collision",
-            f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "
-            f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm",
-        )
-        station = step + 1 if guilty is None else guilty
-        token = next(
-            (index for index, span in enumerate(route.spans) if station <= span.last), len(route.spans)
-        )
-        return _InTheWayError(error, token)
-
-    def _solve(self, route: Route, start: State) -> tuple[Plan, Array]:
+    def _solve(self, route: Route, start: State) -> TimedRoute:
         timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
         timing.solve()
         times = timing.times
@@ -280,7 +186,7 @@ class Planner:
             stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
             nearest=None if self._collision_model is None else self._collision_model.nearest(samples),
         )
-        return plan, times
+        return TimedRoute(route, plan, times)
 
     def _check(self, motions: tuple[JointMotion, ...]) -> None:
         """Look at the extremes of the motion itself, whatever is known of how it was made."""
@@ -315,41 +221,6 @@ class Planner:
         return Samples(
             times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
         )
-
-    def _touches(self, postures: Sequence[Array]) -> bool:
-        """Whether the robot would touch itself on straight ways from posture to posture."""
-        assert self._collision_model is not None
-        return any(
-            self._collision_model.distance(begin + share * (end - begin)) < self._least_clearance
-            for begin, end in pairwise(postures)
-            for share in np.linspace(0.0, 1.0, _LOOKS)
-        )
-
-    def _is_clear(self, plan: Plan) -> bool:
-        return plan.nearest is None or plan.nearest.distance >= self._least_clearance
-
-    def _is_clear_at(self, plan: Plan, times: Array) -> bool:
-        assert self._collision_model is not None
-        found = self._collision_model.nearest(sample_at(plan.motions, times))
-        return found.distance >= self._least_clearance
-
-
-def _idle_arms(composition: Composition, collision: _InTheWayError) -> set[tuple[int, int]]:
-    """Arms that a token does not use, each with the station at which it begins."""
-    if collision.token >= len(composition.spans):
-        return set()
-    first = composition.spans[collision.token].first
-    return {
-        (span.limb, first)
-        for span in composition.idle
-        if span.limb in ARMS and span.first < first < span.last
-    }
-
-
-def _step(plan: Plan, times: Array) -> int:
-    """The station before the place where the robot comes closest to itself."""
-    assert plan.nearest is not None
-    return min(int(np.searchsorted(times, plan.nearest.time, side="right")) - 1, len(times) - 2)
 
 
 def plan(
