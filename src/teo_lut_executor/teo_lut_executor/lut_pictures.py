@@ -38,7 +38,7 @@ _STILL_FILM = 1.0
 _SHEET_COLUMNS = 6
 _OVERVIEW_COLUMNS = 16
 _OVERVIEW_SIZE = 200  # [px]
-_OVERVIEW_COLOURS = 128
+_OVERVIEW_COLOURS = 256
 
 
 def pose_at(sign: Sign, time: float) -> dict[str, float]:
@@ -95,7 +95,10 @@ def save_overview(path: Path, signs: Iterable[Sign]) -> None:
         captions += [sign.gloss, ""]
     sheet = film_strip(frames, captions, columns=_OVERVIEW_COLUMNS)
     # A picture of grey robots needs no 16 million colours, and a page of documentation no 8 MB.
-    few = PILImage.fromarray(sheet).quantize(_OVERVIEW_COLOURS, dither=PILImage.Dither.NONE)
+    # Chosen to cover all colours there are: the finger tips' blue is a thousandth of the picture.
+    few = PILImage.fromarray(sheet).quantize(
+        _OVERVIEW_COLOURS, method=PILImage.Quantize.MAXCOVERAGE, dither=PILImage.Dither.NONE
+    )
     written = BytesIO()
     few.save(written, "PNG", optimize=True)
     write_atomically(path, written.getvalue())
