@@ -5,13 +5,14 @@ from __future__ import annotations
 import platform
 
 import driver_rate
+import lexicon
 import planning
 import robot_model
 import text_to_trajectory
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = (robot_model, planning, driver_rate, text_to_trajectory)
+BENCHES = (robot_model, planning, lexicon, driver_rate, text_to_trajectory)
 
 
 def main() -> None:
