@@ -82,6 +82,8 @@ build_workspace() {
         export LD_LIBRARY_PATH="$PWD/.venv/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
     fi
     echo "setup: building the workspace (about half a minute the first time)"
+    # Links to files that are gone would stop the build.
+    { find build install -xtype l -delete 2>/dev/null || true; }
     PATH="$PWD/.venv/bin:$PATH" .venv/bin/colcon --log-level error build --merge-install --symlink-install \
         --event-handlers console_direct- console_start_end- status- summary- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" ||
         fail "the build failed; its log is in log/latest_build"

@@ -1,8 +1,8 @@
-"""Commands that fill the look-up table: `capture_letters`, `capture_numbers`, `capture_demonstration`."""
+"""Commands that fill the look-up table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -59,6 +59,45 @@ def capture_demonstration(out: Out, replace: Replace = False) -> None:
     _save(demonstrated_signs(Robot.load()), out, replace=replace)
 
 
+def capture_scores(
+    out: Out,
+    scores: Annotated[
+        Path | None, typer.Option(help="Directory of scores (YAML); the package's without it.")
+    ] = None,
+    only: Annotated[
+        list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
+    ] = None,
+    replace: Replace = False,
+) -> None:
+    """Bring sign scores, written descriptions of signs, onto TEO."""
+    from teo_lut_executor.score.retarget import score_sign
+    from teo_lut_executor.score.score_file import default_scores_directory, read_scores
+
+    robot = Robot.load()
+    try:
+        found = {score.gloss: score for score in read_scores(scores or default_scores_directory())}
+        unknown = [gloss for gloss in only or [] if gloss not in found]
+        if unknown:
+            message = f"expected glosses with a score ({len(found)} there are), got {', '.join(unknown)}"
+            raise LutError("unknown_sign", message)
+    except LutError as error:
+        _fail(error)
+    failed: list[str] = []
+
+    def signs() -> Iterator[Sign]:
+        for gloss in only or found:
+            try:
+                yield score_sign(robot, found[gloss])
+            except LutError as error:
+                failed.append(gloss)
+                _errors.print(f"{error.code}: {error}", soft_wrap=True)
+
+    _save(signs(), out, replace=replace)
+    if failed:
+        _errors.print(f"{len(failed)} of {len(only or found)} scores left out: {', '.join(failed)}")
+        raise typer.Exit(1)
+
+
 def letters_main() -> None:
     """Run `capture_letters`."""
     _run(capture_letters)
@@ -72,6 +111,11 @@ def numbers_main() -> None:
 def demonstration_main() -> None:
     """Run `capture_demonstration`."""
     _run(capture_demonstration)
+
+
+def scores_main() -> None:
+    """Run `capture_scores`."""
+    _run(capture_scores)
 
 
 def _run(command: Callable[..., None]) -> None:

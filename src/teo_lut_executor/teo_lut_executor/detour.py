@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS
-from teo_lut_executor.composer import ARMS, LIMBS, TokenSpan
+from teo_lut_executor.composer import ARMS, LIMBS, REST, TokenSpan
 from teo_lut_executor.motion_limits import MotionLimits
 
 Array = NDArray[np.float64]
@@ -48,37 +49,96 @@ class Route:
         return "rest" if station == len(self.targets) - 1 else "a posture between two signs"
 
 
-# How far the upper arms are lifted sideways and the forearms forward, half way, to pass the body [rad].
+# What lifts the upper arms sideways, brings them forward, opens the elbows; half way, to pass the body.
 _SIDEWAYS = {"SagittalLeftShoulder": 1.0, "SagittalRightShoulder": -1.0}
 _FORWARD = {"FrontalLeftShoulder": -1.0, "FrontalRightShoulder": -1.0}
-DETOURS: tuple[dict[str, float], ...] = (
-    {name: 0.25 * sign for name, sign in _SIDEWAYS.items()},
-    {name: 0.3 * sign for name, sign in _FORWARD.items()},
-    {name: 0.5 * sign for name, sign in _SIDEWAYS.items()},
-    {name: 0.4 * sign for name, sign in (_SIDEWAYS | _FORWARD).items()},
+_OPEN = {"FrontalLeftElbow": 1.0, "FrontalRightElbow": 1.0}
+# Changes of posture to try, the smallest first [rad].
+_CHANGES = (
+    (0.25, (_SIDEWAYS,)),
+    (0.3, (_FORWARD,)),
+    (0.3, (_OPEN,)),
+    (0.5, (_SIDEWAYS,)),
+    (0.6, (_OPEN,)),
+    (0.4, (_SIDEWAYS, _FORWARD)),
+    (0.5, (_FORWARD, _OPEN)),
+    (0.8, (_SIDEWAYS, _OPEN)),
+    (0.9, (_OPEN, _FORWARD, _SIDEWAYS)),
 )
-"""Changes of posture to try, the smallest first: both arms wider, both further in front, more of either."""
 
 
-def with_detour(
-    route: Route, step: int, *, posture: Array, change: dict[str, float], limits: MotionLimits
-) -> Route:
+# Both hands well in front of the shoulders, out of the way of everything [rad].
+_APART = {
+    "FrontalLeftShoulder": -0.7,
+    "FrontalRightShoulder": -0.7,
+    "SagittalLeftShoulder": 0.4,
+    "SagittalRightShoulder": -0.4,
+    "FrontalLeftElbow": -0.8,
+    "FrontalRightElbow": -0.8,
+}
+
+
+def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) -> Iterator[tuple[Array, ...]]:
+    """Postures to pass through between two others, the least far out of the way first.
+
+    Arms wider, further in front, hands away from the body; then one arm before the other; then hands apart,
+    and from there one arm before the other, which takes any two hands out of each other's way; last the same
+    by way of rest, to which every sign has a way.
+
+    Args:
+        first: Positions where the way begins [rad]. Shape (28,).
+        middle: Half way as it is. Shape (28,).
+        second: Where it ends. Shape (28,).
+        limits: Limits of the joints, which the postures keep.
+    """
+    for angle, ways in _CHANGES:
+        yield (_changed(middle, angle, ways, limits),)
+    for arm in ARMS:
+        yield (_with_arm(first, arm, second),)
+    apart, rest = middle.copy(), middle.copy()
+    for arm in ARMS:
+        apart[list(LIMBS[arm])] = 0.0
+        rest[list(LIMBS[arm])] = REST[list(LIMBS[arm])]
+    for name, angle in _APART.items():
+        apart[COMMANDED_JOINTS.index(name)] = angle
+    for away in (apart, rest):
+        yield (away,)
+        for arm in ARMS:
+            yield away, _with_arm(away, arm, second)
+        for arm in ARMS:
+            yield _with_arm(first, arm, away), away
+            for later in ARMS:
+                yield _with_arm(first, arm, away), away, _with_arm(away, later, second)
+
+
+def _with_arm(posture: Array, arm: int, other: Array) -> Array:
+    """A posture with one arm of another."""
+    columns = list(LIMBS[arm])
+    mixed = posture.copy()
+    mixed[columns] = other[columns]
+    return mixed
+
+
+def _changed(posture: Array, angle: float, ways: tuple[dict[str, float], ...], limits: MotionLimits) -> Array:
+    changed = posture.copy()
+    for way in ways:
+        for name, sign in way.items():
+            changed[COMMANDED_JOINTS.index(name)] += sign * angle
+    kept: Array = np.clip(changed, limits.lower, limits.upper)
+    return kept
+
+
+def with_detour(route: Route, step: int, posture: Array) -> Route:
     """Pass through another posture of the arms half way between two stations.
 
     Args:
         route: The stations.
         step: The station before the detour.
-        posture: Positions half way as they are without it [rad]. Shape (28,).
-        change: What is added to it, by joint [rad]; within the limits, as far as they go.
-        limits: Limits of the joints.
+        posture: Positions to pass through [rad]; those of the arms are used. Shape (28,).
     """
-    wider = posture.copy()
-    for name, angle in change.items():
-        wider[COMMANDED_JOINTS.index(name)] += angle
-    wider = np.clip(wider, limits.lower, limits.upper)
-    row = np.full(len(wider), np.nan)
+    row = np.full(len(posture), np.nan)
     columns = [column for arm in ARMS for column in LIMBS[arm]]
-    row[columns] = wider[columns]
+    row[columns] = posture[columns]
     half = route.nominal[step] / 2.0
     return Route(
         targets=np.insert(route.targets, step + 1, row, axis=0),

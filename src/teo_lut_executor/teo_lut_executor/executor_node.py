@@ -42,6 +42,7 @@ from teo_lut_executor.executor_parameters import (
     Value,
     limits_from,
     queue_settings_from,
+    standing_from,
     style_from,
 )
 from teo_lut_executor.live_lut import LiveLut
@@ -236,6 +237,7 @@ class ExecutorNode(Node):
             least_clearance=float(values["least_clearance"]),
             period=float(values["period"]),
             max_duration=float(values["max_duration"]),
+            least_standing=standing_from(values),
         )
 
     def _values(self) -> dict[str, Value]:

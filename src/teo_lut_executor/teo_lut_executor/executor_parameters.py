@@ -7,9 +7,12 @@ from dataclasses import dataclass, fields
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 
+from teo_lut_executor.lexicon import DEFAULT_STANDING
 from teo_lut_executor.motion_limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
+from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
 from teo_lut_executor.queue_settings import QueueSettings
+from teo_lut_executor.sign_schema import STANDINGS, Standing
 from teo_lut_executor.signing_style import SigningStyle
 
 Value = str | int | float
@@ -55,6 +58,11 @@ PARAMETERS = (
         default="",
         description="Directory of the look-up table; empty for the package's table of LSE.",
         read_only=True,
+    ),
+    ParameterRow(
+        name="least_standing",
+        default=DEFAULT_STANDING,
+        description=f"Lowest standing of signs ({', '.join(STANDINGS)}); words of a lower one are spelled.",
     ),
     # Motion.
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
@@ -116,6 +124,19 @@ def limits_from(values: Mapping[str, Value]) -> MotionLimits:
         PlanError: See `MotionLimits`.
     """
     return MotionLimits.of_robot(acceleration=float(values["acceleration"]), jerk=float(values["jerk"]))
+
+
+def standing_from(values: Mapping[str, Value]) -> Standing:
+    """Lowest standing of a sign.
+
+    Raises:
+        PlanError: It is none ("bad_standing").
+    """
+    for standing in STANDINGS:
+        if values["least_standing"] == standing:
+            return standing
+    got = values["least_standing"]
+    raise PlanError("bad_standing", f"least_standing: expected one of {', '.join(STANDINGS)}, got {got!r}")
 
 
 def style_from(values: Mapping[str, Value]) -> SigningStyle:

@@ -5,11 +5,14 @@
 * An arm goes to rest only if it can stay there for a while (`SigningStyle.arm_rest`); otherwise it waits
   where its last sign left it.
 * After its last sign every limb goes to rest.
+* An arm that would be in the way of a sign waits until that sign's turn, and is at rest before it begins.
 
 A limb on its way does not hold up the signs meanwhile: it passes their stations freely.
 """
 
 from __future__ import annotations
+
+from collections.abc import Collection
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +22,12 @@ from teo_lut_executor.motion_limits import MotionLimits
 
 
 def settle_idle_limbs(
-    composition: Composition, *, times: NDArray[np.float64], limits: MotionLimits, arm_rest: float
+    composition: Composition,
+    *,
+    times: NDArray[np.float64],
+    limits: MotionLimits,
+    arm_rest: float,
+    cleared: Collection[tuple[int, int]] = (),
 ) -> NDArray[np.float64]:
     """Fix the free joints of a composition.
 
@@ -28,6 +36,7 @@ def settle_idle_limbs(
         times: When each station is reached, as far as the limbs in use ask for it [s]. Shape (n,).
         limits: Limits of the joints.
         arm_rest: Least time at rest that is worth an arm's way there and back [s].
+        cleared: Arms that must be out of the way, each with the station at which it must be at rest.
 
     Returns:
         The targets with idle limbs in place; still NaN where a limb is on its way. Shape (n, 28).
@@ -37,6 +46,13 @@ def settle_idle_limbs(
     for span in composition.idle:
         columns = list(LIMBS[span.limb])
         before = targets[span.first, columns]
+        wanted = [
+            station for limb, station in cleared if limb == span.limb and span.first < station < span.last
+        ]
+        if wanted:
+            targets[span.first + 1 : min(wanted), columns] = before
+            targets[min(wanted) : span.last, columns] = REST[columns]
+            continue
         way = float(np.max(fastest_moves(REST[columns] - before, columns, limits)))
         between = slice(span.first + 1, span.last)
         arrived = between.start + int(np.searchsorted(times[between], times[span.first] + way))

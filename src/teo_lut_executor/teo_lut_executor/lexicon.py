@@ -10,10 +10,16 @@ from dataclasses import dataclass
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.sign import Sign, gloss_key
+from teo_lut_executor.sign_schema import STANDINGS, Standing
 from teo_lut_executor.tokens import Kind, Token, check_tokens
 
 _SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
 _TILDE = "\N{COMBINING TILDE}"
+
+#: Signs of a lower standing are spelled instead. A sketch has no source: a viewer who knows LSE would read
+#: something
+#: else, or nothing, where letters tell the word.
+DEFAULT_STANDING: Standing = "described"
 
 # Signs that can spell have names this short: "A", "CH", "10". Longer entries are not read when spelling.
 _LONGEST_SPELLER = 2
@@ -32,12 +38,19 @@ class Lexicon:
 
     A lexical gloss that the table lacks is spelled with the table's own letters, longest match first, so
     that CH, LL and RR are one sign where the table has them; digits in it become number signs and "_" a
-    pause. Accents are dropped first, except on Ñ, which is a letter of its own.
+    pause. Accents are dropped first, except on Ñ, which is a letter of its own. So is a gloss whose sign is
+    of too low a standing; letters and numbers are always used, for nothing could stand for them.
     """
 
-    def __init__(self, signs: Mapping[str, Sign]) -> None:
-        """Use a table, which may change between two calls of `resolve`."""
+    def __init__(self, signs: Mapping[str, Sign], least_standing: Standing = DEFAULT_STANDING) -> None:
+        """Use a table, which may change between two calls of `resolve`.
+
+        Args:
+            signs: The table.
+            least_standing: The lowest standing that a lexical sign may have.
+        """
         self._signs = signs
+        self._good_enough = STANDINGS[: STANDINGS.index(least_standing) + 1]
 
     def resolve(self, tokens: Sequence[Token]) -> tuple[SignedToken, ...]:
         """Find a sign for every token.
@@ -73,6 +86,8 @@ class Lexicon:
             sign = self._signs[gloss]
         except LutError as error:
             raise PlanError("invalid_sign", f"the entry of {gloss!r} cannot be used: {error}") from error
+        if kind == Kind.LEXICAL and sign.provenance.standing not in self._good_enough:
+            return None
         return sign if sign.kind == _SIGN_KIND[kind] else None
 
     def _spell(self, token: Token, text: str) -> list[SignedToken]:

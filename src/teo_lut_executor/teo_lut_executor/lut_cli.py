@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -14,7 +15,7 @@ from rich.table import Table
 from teo_lut_executor.lut import Lut, LutError, Sign, default_lut_directory
 from teo_lut_executor.sign import sign_warnings
 from teo_lut_executor.sign_file import format_sign
-from teo_lut_executor.sign_schema import Kind, sign_json_schema
+from teo_lut_executor.sign_schema import STANDINGS, Kind, sign_json_schema
 
 app = typer.Typer(
     help="Look into a table of signs.",
@@ -35,26 +36,33 @@ _errors = Console(stderr=True, highlight=False)
 def list_signs(
     lut: Directory = None, kind: Annotated[str | None, typer.Option(help="lexical, letter or number.")] = None
 ) -> None:
-    """One line a sign: gloss, kind, hands, duration, knots, source."""
+    """One line a sign: gloss, kind, hands, duration, knots, standing, source; and how many of each."""
     table = Table(box=None)
-    for name in ("gloss", "kind", "hands", "duration [s]", "knots"):
+    for name in ("gloss", "kind", "hands", "duration [s]", "knots", "standing"):
         table.add_column(name, no_wrap=True)
     table.add_column("source")
-    count = bad = 0
+    standings: Counter[str] = Counter()
+    bad = 0
     signs = _open(lut)
     for gloss in signs.glosses():
         try:
             sign = signs[gloss]
         except LutError as error:
             bad += 1
-            table.add_row(gloss, "[red]not valid[/red]", "", "", "", error.code)
+            table.add_row(gloss, "[red]not valid[/red]", "", "", "", "", error.code)
             continue
         if kind is None or sign.kind == kind:
-            count += 1
-            duration, source = f"{sign.duration:.2f}", sign.provenance.source.partition(",")[0]
-            table.add_row(gloss, sign.kind, sign.handedness, duration, str(len(sign.times)), source)
+            standing, source = sign.provenance.standing, sign.provenance.source.partition(",")[0]
+            standings[standing] += 1
+            figures = (f"{sign.duration:.2f}", str(len(sign.times)))
+            table.add_row(gloss, sign.kind, sign.handedness, *figures, standing, source)
     _output.print(table)
-    _output.print(f"{count} signs in {signs.directory}" + (f", {bad} entries not valid" if bad else ""))
+    counts = ", ".join(f"{standings[standing]} {standing}" for standing in STANDINGS if standings[standing])
+    _output.print(
+        f"{standings.total()} signs in {signs.directory}: {counts}"
+        + (f"; {bad} entries not valid" if bad else ""),
+        soft_wrap=True,
+    )
 
 
 @app.command()
@@ -131,6 +139,25 @@ def render(
         _fail(error)
     except OSError as error:
         _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+
+
+@app.command()
+def overview(
+    out: Annotated[Path, typer.Option(help="A .png file.")],
+    kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "lexical",
+    lut: Directory = None,
+) -> None:
+    """Draw all signs of a kind on one small picture, each as it begins and ends."""
+    from teo_lut_executor.lut_pictures import save_overview
+
+    signs = _of_kind(_open(lut), kind)
+    if not signs:
+        _fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
+    try:
+        save_overview(out, signs)
+    except OSError as error:
+        _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+    _output.print(f"wrote {out}: {len(signs)} signs", soft_wrap=True)
 
 
 @app.command()

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
+from PIL import Image as PILImage
 
+from teo_description.files import write_atomically
 from teo_description.rendering import Camera, Image, film_strip, render_pose, save_png, write_video
 from teo_lut_executor.sign import Sign
 
@@ -33,6 +36,9 @@ _MOVES = np.radians(3.0)
 _STILL_FILM = 1.0
 """[s] Shortest film: a still sign would be over in a blink."""
 _SHEET_COLUMNS = 6
+_OVERVIEW_COLUMNS = 16
+_OVERVIEW_SIZE = 200  # [px]
+_OVERVIEW_COLOURS = 256
 
 
 def pose_at(sign: Sign, time: float) -> dict[str, float]:
@@ -77,6 +83,25 @@ def save_sheet(path: Path, signs: Iterable[Sign]) -> None:
             frames.append(frame)
             captions.append(caption)
     save_png(path, film_strip(frames, captions, columns=_SHEET_COLUMNS))
+
+
+def save_overview(path: Path, signs: Iterable[Sign]) -> None:
+    """Draw many signs on one small picture: from the front, as each begins and ends, in few colours."""
+    camera = FRONT.sized(_OVERVIEW_SIZE, _OVERVIEW_SIZE)
+    frames: list[Image] = []
+    captions: list[str] = []
+    for sign in signs:
+        frames += [render_pose(pose_at(sign, moment), camera) for moment in (0.0, sign.duration)]
+        captions += [sign.gloss, ""]
+    sheet = film_strip(frames, captions, columns=_OVERVIEW_COLUMNS)
+    # A picture of grey robots needs no 16 million colours, and a page of documentation no 8 MB.
+    # Chosen to cover all colours there are: the finger tips' blue is a thousandth of the picture.
+    few = PILImage.fromarray(sheet).quantize(
+        _OVERVIEW_COLOURS, method=PILImage.Quantize.MAXCOVERAGE, dither=PILImage.Dither.NONE
+    )
+    written = BytesIO()
+    few.save(written, "PNG", optimize=True)
+    write_atomically(path, written.getvalue())
 
 
 def _cells(sign: Sign) -> Iterator[tuple[Image, str]]:

@@ -1,4 +1,4 @@
-"""Plans sentences: tokens in, motion out. See `composer`, `idle_rule` and `station_timing` for how."""
+"""Plans sentences: tokens in, motion out. See `composer`, `station_timing` and `clear_way` for how."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.robot import Robot
+from teo_lut_executor.clear_way import ClearWay, TimedRoute
 from teo_lut_executor.composer import REST, Composition, compose
-from teo_lut_executor.detour import DETOURS, Route, with_detour
-from teo_lut_executor.idle_rule import settle_idle_limbs
+from teo_lut_executor.detour import Route
 from teo_lut_executor.joint_motion import JointMotion
-from teo_lut_executor.lexicon import Lexicon
+from teo_lut_executor.lexicon import DEFAULT_STANDING, Lexicon
 from teo_lut_executor.motion_limits import MotionLimits
 from teo_lut_executor.plan import Plan, Samples, TokenTiming, sample_at, sample_times
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.self_collision import SelfCollision
 from teo_lut_executor.sign import Sign
+from teo_lut_executor.sign_schema import Standing
 from teo_lut_executor.signing_style import SigningStyle
 from teo_lut_executor.state_to_state import ROUNDING, State
 from teo_lut_executor.station_timing import StationTiming
@@ -40,9 +41,6 @@ DEFAULT_CLEARANCE = 0.0
 # error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).
 START_TOLERANCE = 0.01
 
-# So many transitions of one sentence may be led around the robot's body before it is refused.
-_MOST_DETOURS = 4
-
 
 class Planner:
     """Plans sentences of one look-up table for one robot."""
@@ -57,6 +55,7 @@ class Planner:
         least_clearance: float = DEFAULT_CLEARANCE,
         period: float = DEFAULT_PERIOD,
         max_duration: float = DEFAULT_MAX_DURATION,
+        least_standing: Standing = DEFAULT_STANDING,
     ) -> None:
         """Prepare.
 
@@ -68,6 +67,7 @@ class Planner:
             least_clearance: Distance that parts of the robot keep [m].
             period: Most time between two samples of a plan [s].
             max_duration: A longer motion is refused [s].
+            least_standing: Signs of a lower standing are spelled.
 
         Raises:
             PlanError: The period or the duration is not above 0 ("bad_period"), or the limits leave no room
@@ -79,9 +79,14 @@ class Planner:
         self.limits = MotionLimits.of_robot() if limits is None else limits
         self.style = SigningStyle() if style is None else style
         self._bounds = self.limits.for_points(period)
-        self._lexicon = Lexicon(signs)
+        self._lexicon = Lexicon(signs, least_standing)
         self._collision_model = None if robot is None else SelfCollision(robot)
-        self._least_clearance = least_clearance
+        self._clear_way = ClearWay(
+            self._collision_model,
+            limits=self.limits,
+            least_clearance=least_clearance,
+            arm_rest=self.style.arm_rest,
+        )
         self._period = period
         self._max_duration = max_duration
 
@@ -145,41 +150,12 @@ class Planner:
         )
 
     def _route(self, composition: Composition, start: State) -> Plan:
-        """Time a composition, and lead its transitions around the robot's body where they would touch it."""
         first_look = StationTiming(
             composition.targets, composition.nominal, composition.strokes, start, self._bounds
         )
-        targets = settle_idle_limbs(
-            composition, times=first_look.times, limits=self.limits, arm_rest=self.style.arm_rest
-        )
-        route = Route(
-            targets=targets,
-            nominal=composition.nominal,
-            strokes=composition.strokes,
-            spans=composition.spans,
-        )
-        plan, times = self._solve(route, start)
-        for _ in range(_MOST_DETOURS):
-            if self._is_clear(plan):
-                return plan
-            route, plan, times = self._avoid(route, plan, times, start)
-        if self._is_clear(plan):
-            return plan
-        raise self._collision(plan, route, times)
+        return self._clear_way.plan(composition, first_look.times, lambda route: self._solve(route, start))
 
-    def _avoid(self, route: Route, plan: Plan, times: Array, start: State) -> tuple[Route, Plan, Array]:
-        """Lead the transition with the worst collision around the body."""
-        step = _step(plan, times)
-        if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
-            posture = plan.at(float(times[step] + times[step + 1]) / 2.0)[0]
-            for change in DETOURS:
-                other = with_detour(route, step, posture=posture, change=change, limits=self.limits)
-                other_plan, other_times = self._solve(other, start)
-                if self._is_clear(other_plan) or _step(other_plan, other_times) not in (step, step + 1):
-                    return other, other_plan, other_times
-        raise self._collision(plan, route, times)
-
-    def _solve(self, route: Route, start: State) -> tuple[Plan, Array]:
+    def _solve(self, route: Route, start: State) -> TimedRoute:
         timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
         timing.solve()
         times = timing.times
@@ -210,7 +186,7 @@ class Planner:
             stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
             nearest=None if self._collision_model is None else self._collision_model.nearest(samples),
         )
-        return plan, times
+        return TimedRoute(route, plan, times)
 
     def _check(self, motions: tuple[JointMotion, ...]) -> None:
         """Look at the extremes of the motion itself, whatever is known of how it was made."""
@@ -245,37 +221,6 @@ class Planner:
         return Samples(
             times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
         )
-
-    def _is_clear(self, plan: Plan) -> bool:
-        return plan.nearest is None or plan.nearest.distance >= self._least_clearance
-
-    def _is_clear_at(self, plan: Plan, times: Array) -> bool:
-        assert self._collision_model is not None
-        found = self._collision_model.nearest(sample_at(plan.motions, times))
-        return found.distance >= self._least_clearance
-
-    def _collision(self, plan: Plan, route: Route, times: Array) -> PlanError:
-        """What touches, and where: in a sign if one of its postures does, else on the way between two."""
-        near, step = plan.nearest, _step(plan, times)
-        assert near is not None
-        guilty = next(
-            (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
-        )
-        if guilty is None:
-            where = f"on the way from {route.name_at(step)} to {route.name_at(step + 1)}"
-        else:
-            where = f"in {route.name_at(guilty)}"
-        return PlanError(
-            "self_collision",
-            f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "
-            f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm",
-        )
-
-
-def _step(plan: Plan, times: Array) -> int:
-    """The station before the place where the robot comes closest to itself."""
-    assert plan.nearest is not None
-    return min(int(np.searchsorted(times, plan.nearest.time, side="right")) - 1, len(times) - 2)
 
 
 def plan(

@@ -69,6 +69,10 @@ class SelfCollision:
             (found[closest], *(self._look(samples, item) for item in between)), key=lambda near: near.distance
         )
 
+    def distance(self, positions: NDArray[np.float64]) -> float:
+        """The closest that parts are in a posture of the commanded joints [m]."""
+        return float(self._robot.clearance(self._configuration(positions)).distance)
+
     def _look(self, samples: Samples, index: int) -> Nearness:
         distance, first, second = self._robot.clearance(self._configuration(samples.positions[index]))
         time = float(samples.times[index])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import datetime
 import unicodedata
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat
 
@@ -46,6 +46,15 @@ Date = Annotated[
     AfterValidator(_date),
 ]
 Text = Annotated[str, Field(min_length=1)]
+Gloss = Annotated[str, Field(min_length=1, max_length=MAX_GLOSS_LENGTH), AfterValidator(_gloss)]
+
+#: How well founded a sign's form is, the best first.
+Standing = Literal["recorded", "measured", "described", "sketched"]
+STANDINGS: tuple[Standing, ...] = get_args(Standing)
+STANDING_MEANING = (
+    "How well founded the form is: made from a real recording; measured on a dictionary's video; taken from "
+    "a published description; or sketched without a source, not to be trusted."
+)
 
 
 class Provenance(BaseModel):
@@ -53,6 +62,7 @@ class Provenance(BaseModel):
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
 
+    standing: Standing = Field(description=STANDING_MEANING)
     source: Text = Field(description="Recording, publication or person that the sign was taken from.")
     method: Text = Field(description="How the source became joint angles.")
     recorded: Date | None = Field(description="Day on which the source was recorded; null where not known.")
@@ -78,10 +88,8 @@ class SignFile(BaseModel):
 
     # "schema" is the field's name in the file; pydantic keeps that name for itself.
     schema_version: Literal[1] = Field(alias="schema", description="Version of this format.")
-    gloss: Annotated[str, AfterValidator(_gloss)] = Field(
-        min_length=1,
-        max_length=MAX_GLOSS_LENGTH,
-        description="Name of the sign: upper-case Spanish with accents (NFC), a space written '_'.",
+    gloss: Gloss = Field(
+        description="Name of the sign: upper-case Spanish with accents (NFC), a space written '_'."
     )
     language: str = Field(pattern=r"^[a-z]{3}$", description="Sign language: 'lse' is Spanish Sign Language.")
     kind: Kind = Field(description="A sign of its own, a letter of the manual alphabet, or a number.")

@@ -42,6 +42,7 @@ def make_sign(
     kind: str = "lexical",
 ) -> Sign:
     provenance = Provenance(
+        standing="recorded",
         source="made up",
         method="by hand",
         recorded=None,

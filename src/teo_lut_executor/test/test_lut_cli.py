@@ -31,8 +31,9 @@ def test_list_has_a_line_for_every_sign() -> None:
 
 def test_list_can_be_of_one_kind() -> None:
     output = run("list", "--lut", TABLE, "--kind", "lexical").output
-    assert "3 signs" in output
+    assert "NOMBRE" in output
     assert "spoken-to-signed" not in output
+    assert "3 recorded" in output  # what TEO has signed in public
 
 
 def test_show_tells_everything() -> None:
@@ -104,6 +105,16 @@ def test_render_all_makes_a_sheet_of_each_kind(tmp_path: Path) -> None:
         "numbers.png",
         "signs.png",
     ]
+
+
+def test_overview_shows_each_sign_as_it_begins_and_ends(tmp_path: Path) -> None:
+    result = run("overview", "--kind", "number", "--lut", TABLE, "--out", tmp_path / "all.png")
+    assert result.exit_code == 0, result.output
+    assert "11 signs" in result.output
+    picture = cv2.imread(str(tmp_path / "all.png"))
+    # Twenty-two moments, sixteen a row.
+    assert picture.shape[1] > 16 * 150 and 2 * 150 < picture.shape[0] < 3 * 250
+    assert run("overview", "--kind", "none", "--lut", TABLE, "--out", tmp_path / "no.png").exit_code == 1
 
 
 @pytest.mark.parametrize(

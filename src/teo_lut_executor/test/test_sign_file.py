@@ -33,6 +33,7 @@ def entry() -> dict[str, Any]:
         "times": [0.0, 0.5],
         "knots": [[-0.5, 0.2], [-1.0, 0.2]],
         "provenance": {
+            "standing": "recorded",
             "source": "made up",
             "method": "by hand",
             "recorded": None,

@@ -131,6 +131,7 @@ def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
         times=times,
         knots=knots,
         provenance=Provenance(
+            standing="recorded",
             source="roboticslab-uc3m/teo-demos-misc, 20191023-ttd-congress.py",
             method=(
                 "published poses and move times of the robot, hand motors to flexion by 7 deg + 78 deg * "

@@ -218,6 +218,7 @@ def _flexion_for(share: Array, joint: str) -> Array:
 
 def _provenance(clip: LetterClip, letter: str) -> Provenance:
     return Provenance(
+        standing="recorded",
         source=f"{PACKAGE} {clips_version()} (PyPI), fingerspelling lexicon, collection ssp, {clip.file}",
         method=(
             "MediaPipe landmarks of one signer, depth rescaled; bones of constant length fitted; palm, "

@@ -101,6 +101,7 @@ def _number(robot: Robot, digit: str) -> Sign:
         times=np.array([0.0, _HOLD]),
         knots=knots,
         provenance=Provenance(
+            standing="sketched" if digit == "0" else "measured",
             source=(
                 "common form"
                 if digit == "0"

@@ -1,0 +1,189 @@
+"""The arm that brings a hand where a score wants it, as well as TEO can.
+
+Bounded least squares over the six joints of an arm. What is traded against what follows what carries meaning
+in a sign: the place first, on the body above all; then the way the palm faces; then the way the fingers
+point. TEO's wrist bends sideways only, so not every hand that a person can hold is within reach; what is left
+over is measured and reported with the sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
+from teo_description.robot import Robot
+from teo_lut_executor.capture.dextra import DextraHand
+from teo_lut_executor.score.targets import HandTarget
+
+Array = NDArray[np.float64]
+
+MARGIN = np.radians(1.0)
+"""[rad] Distance kept from every limit, so that a planner may overshoot by its rounding."""
+
+# Bounds that TEO's makers call "human-inspired" (developer manual, motores-motores.csv), in the order of
+# RIGHT_ARM [deg]: beyond them the arm reaches more and looks like no person's.
+_HUMAN_LOWER = np.radians([-98.1, -75.5, -40.0, -99.6, -80.4, -70.0])
+_HUMAN_UPPER = np.radians([45.0, 22.4, 55.0, -5.0, 90.0, 44.7])
+
+_PLACE_ON_BODY, _PLACE_IN_AIR = 8.0, 5.0
+"""[rad/m] 10 cm beside a place count as much as 46 deg of orientation on the body, as 29 deg in the air."""
+_PALM, _FINGERS = 1.0, 0.7
+_POSTURE = 0.03
+"""Pull towards an easy arm: chooses among equals, moves a reachable hand by less than 1 deg."""
+_EASY = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
+_NEARNESS = 0.08
+"""[1/rad^2] What a radian of way from one posture to the next costs: of two arms that do as well, the one
+that need not swing about."""
+
+# The search has several valleys; these lead into them: easy, spelling, hand at the chest, elbow out, palm up,
+# forearm across, hand at the head [deg].
+_STARTS = np.radians(
+    [
+        [-45.0, -12.0, 10.0, -80.0, 20.0, 0.0],
+        [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],
+        [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],
+        [-42.0, -74.0, 50.0, -95.0, 20.0, -20.0],
+        [-30.0, -10.0, -20.0, -80.0, 70.0, 10.0],
+        [-55.0, -5.0, 52.0, -95.0, -56.0, 7.0],
+        [-90.0, -20.0, 30.0, -95.0, 60.0, -30.0],
+    ]
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reach:
+    """An arm for a target, seen as a right arm.
+
+    Attributes:
+        positions: The joints of the arm [rad]. Shape (6,).
+        palm_error: Angle between the ways the palm faces and should face [rad].
+        finger_error: The same of the way the fingers point [rad].
+        cost: What the search made small.
+    """
+
+    positions: Array
+    palm_error: float
+    finger_error: float
+    cost: float
+
+
+def arm_bounds(side: str) -> tuple[Array, Array]:
+    """Bounds kept by an arm, seen as a right arm [rad]. Shapes (6,)."""
+    limits = joint_limits(RIGHT_ARM if side == "right" else LEFT_ARM)
+    lower, upper = limits.lower, limits.upper
+    if side == "left":
+        lower, upper = mirrored(upper), mirrored(lower)
+        lower, upper = np.minimum(lower, upper), np.maximum(lower, upper)
+    return np.maximum(lower, _HUMAN_LOWER) + MARGIN, np.minimum(upper, _HUMAN_UPPER) - MARGIN
+
+
+def mirrored(arm: Array) -> Array:
+    """The arm that mirrors another: only frontal axes turn the same way on both sides [rad]. Shape (6,)."""
+    same = np.array([1.0 if joint.startswith("Frontal") else -1.0 for joint in RIGHT_ARM])
+    swapped: Array = same * arm
+    return swapped
+
+
+class ArmSolver:
+    """Finds arms for targets on one robot."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self._hand = DextraHand(robot)
+
+    def reaches(self, target: HandTarget, bounds: tuple[Array, Array]) -> list[Reach]:
+        """The arms that the search ends at, one for each valley, the best first."""
+        part = self.part(target)
+        found: list[Reach] = []
+        for start in _STARTS:
+            reach = self._search(target, part, start, bounds)
+            if all(np.abs(reach.positions - other.positions).max() > np.radians(2.0) for other in found):
+                found.append(reach)
+        return sorted(found, key=lambda reach: reach.cost)
+
+    def part(self, target: HandTarget) -> Array:
+        """Where the part of the hand that meets the place is, in the axes of the palm [m]. Shape (3,)."""
+        points = self._hand.points(target.shape)
+        tips = points.fingers[:, -1]
+        shown = {
+            "palm": np.zeros(3),
+            "back": np.array([0.0, 0.0, -0.03]),
+            "wrist": np.array([-0.09, 0.0, 0.0]),
+            "index": tips[0],
+            "thumb": points.thumb[-1],
+            "fingertips": tips[target.shape[2:] <= target.shape[2:].min() + np.radians(15.0)].mean(axis=0),
+            "index_side": points.fingers[0, 0] + np.array([0.0, -0.015, 0.0]),
+            "little_side": points.fingers[3, 0] + np.array([-0.02, 0.015, 0.0]),
+        }
+        return np.asarray(shown[target.part])
+
+    def palm(self, positions: Array) -> Array:
+        """Placement of the right palm in ``base_link`` with an arm. Shape (4, 4)."""
+        q = self._robot.configuration(dict(zip(RIGHT_ARM, positions.tolist(), strict=True)))
+        placement: Array = self._robot.placement(q, "right_palm")
+        return placement
+
+    def distance(self, target: HandTarget, positions: Array) -> float:
+        """How far the part of the hand is from its place [m]."""
+        placed = self.palm(positions)
+        return float(np.linalg.norm(placed[:3, :3] @ self.part(target) + placed[:3, 3] - target.point))
+
+    def hand_point(self, positions: Array, target: HandTarget, name: str) -> Array:
+        """A point of a placed hand in ``base_link``, seen as a right hand [m]. Shape (3,)."""
+        points = self._hand.points(target.shape)
+        local = {
+            "other_palm": np.array([0.0, 0.0, 0.012]),
+            "other_back": np.array([0.0, 0.0, -0.035]),
+            "other_fingertips": points.fingers[:, -1].mean(axis=0),
+            "other_index_side": points.fingers[0, 0] + np.array([0.0, -0.02, 0.0]),
+            "other_wrist": np.array([-0.10, 0.0, -0.02]),
+        }[name]
+        placed = self.palm(positions)
+        return np.asarray(placed[:3, :3] @ local + placed[:3, 3])
+
+    def _search(self, target: HandTarget, part: Array, start: Array, bounds: tuple[Array, Array]) -> Reach:
+        lower, upper = bounds
+        weight = _PLACE_ON_BODY if target.body else _PLACE_IN_AIR
+
+        def away(positions: Array) -> tuple[Array, Array, Array]:
+            placed = self.palm(positions)
+            turned = placed[:3, :3]
+            place = turned @ part + placed[:3, 3] - target.point
+            return place, turned[:, 2] - target.palm, turned[:, 0] - target.fingers
+
+        def residuals(positions: Array) -> Array:
+            place, palm, fingers = away(positions)
+            easy = _POSTURE * (positions - _EASY)
+            return np.concatenate([weight * place, _PALM * palm, _FINGERS * fingers, easy])
+
+        inside = np.clip(start, lower + 1e-3, upper - 1e-3)
+        fit = least_squares(residuals, inside, bounds=bounds, max_nfev=60, xtol=1e-5, ftol=1e-5)
+        positions = np.clip(fit.x, lower, upper)
+        _, palm, fingers = (float(np.linalg.norm(part_away)) for part_away in away(positions))
+        return Reach(
+            positions=positions,
+            palm_error=float(2.0 * np.arcsin(min(1.0, palm / 2.0))),
+            finger_error=float(2.0 * np.arcsin(min(1.0, fingers / 2.0))),
+            cost=float(fit.cost),
+        )
+
+
+def smoothest(candidates: list[list[Reach]]) -> list[Reach]:
+    """One arm a posture, such that their costs and the ways between them are least together (Viterbi)."""
+    costs = [np.array([reach.cost for reach in candidates[0]])]
+    origins: list[NDArray[np.intp]] = []
+    for before, now in pairwise(candidates):
+        ways = np.array([[np.sum((one.positions - other.positions) ** 2) for one in before] for other in now])
+        total = costs[-1][None] + _NEARNESS * ways
+        origins.append(total.argmin(axis=1))
+        costs.append(total.min(axis=1) + np.array([reach.cost for reach in now]))
+    index = int(costs[-1].argmin())
+    chosen = [index]
+    for origin in reversed(origins):
+        chosen.append(int(origin[chosen[-1]]))
+    return [reaches[index] for reaches, index in zip(candidates, reversed(chosen), strict=True)]
