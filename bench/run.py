@@ -14,15 +14,7 @@ import translation
 from rich.console import Console
 from rich.table import Table
 
-<<<<<<< HEAD
-<<<<<<< HEAD
-BENCHES = (robot_model, planning, driver_rate, text_to_trajectory, translation)
-=======
-BENCHES = (robot_model, planning, driver_rate, text_to_trajectory, retriever_node)
->>>>>>> 7c7543ae99a1ae4e8985ce6cb115b66bbcb43bee
-=======
-BENCHES = (robot_model, planning, lexicon, driver_rate, text_to_trajectory)
->>>>>>> 2bcfe4aa8307618b0334ed4604d38afecc9e2ca3
+BENCHES = (robot_model, planning, lexicon, driver_rate, translation, text_to_trajectory, retriever_node)
 
 
 def main() -> None:
