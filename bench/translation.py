@@ -94,14 +94,23 @@ def _held_out(systems: dict[str, System]) -> Iterable[Figure]:
 
 
 def _everyday(systems: dict[str, System]) -> Iterable[Figure]:
-    sentences = (_EVERYDAY / "everyday.txt").read_text(encoding="utf-8").splitlines()
-    patterns = (_EVERYDAY / "everyday.glosses").read_text(encoding="utf-8").splitlines()
-    good = [{_plain(wanted) for wanted in accepted(pattern)} for pattern in patterns]
-    right = {
-        name: sum(_plain(system(sentence)) in fine for sentence, fine in zip(sentences, good, strict=True))
-        for name, system in systems.items()
-    }
-    yield Figure(f"{len(sentences)} everyday sentences: accepted", _row(right))
+    for name, what in (
+        ("everyday", "everyday sentences"),
+        ("unseen", "more, written when the grammar was finished"),
+    ):
+        sentences = _lines(f"{name}.txt")
+        good = [{_plain(wanted) for wanted in accepted(pattern)} for pattern in _lines(f"{name}.glosses")]
+        right = {
+            name: sum(
+                _plain(system(sentence)) in fine for sentence, fine in zip(sentences, good, strict=True)
+            )
+            for name, system in systems.items()
+        }
+        yield Figure(f"{len(sentences)} {what}: accepted", _row(right))
+
+
+def _lines(file: str) -> list[str]:
+    return (_EVERYDAY / file).read_text(encoding="utf-8").splitlines()
 
 
 def _row(values: Mapping[str, object]) -> str:
@@ -139,7 +148,7 @@ def _measure_speed() -> list[Figure]:
     started = time.perf_counter()
     translator = Translator.load()
     loaded = time.perf_counter() - started
-    sentences = (_EVERYDAY / "everyday.txt").read_text(encoding="utf-8").splitlines()
+    sentences = _lines("everyday.txt")
     times = []
     for index in range(_TIMED + 20):
         begun = time.perf_counter()

@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError
 
 from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.neural.zoo import POINTER
 from teo_sign_translator.resources import models_directory
 from teo_sign_translator.seq2seq import LstmModel
 from teo_sign_translator.tables import write_atomically
 from teo_sign_translator.vocabulary import Vocabulary
 
-DEFAULT_MODEL = "lstm256"
+#: Of the models that ship: translates sentences that it has not seen.
+DEFAULT_MODEL = POINTER
 
 _SCHEMA = 1
 

@@ -20,8 +20,9 @@ from teo_sign_translator.route import DraftedSentence
 from teo_sign_translator.sentence_type import SentenceType
 from teo_sign_translator.spanish_words import SourceWord, words_of_clauses
 
-#: Translations that the model weighs against each other.
-DEFAULT_BEAM_WIDTH = 4
+#: Translations that the model weighs against each other: a second one is there where the first loses a word;
+#: four find no more right ones among 900 held-out sentences than two.
+DEFAULT_BEAM_WIDTH = 2
 
 
 class _Sentence(NamedTuple):

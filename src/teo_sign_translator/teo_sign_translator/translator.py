@@ -28,8 +28,9 @@ from teo_sign_translator.spelling import unsignable
 from teo_sign_translator.translation import Sentence, Translation
 from teo_sign_translator.word_by_word import SPELLED_CONFIDENCE
 
-#: Probability of a token below which its sentence is called uncertain.
-DEFAULT_MIN_CONFIDENCE = 0.5
+#: Probability of a token below which its sentence is called uncertain: of 900 held-out sentences, half of the
+#: wrong translations are, and 2 % of the right ones.
+DEFAULT_MIN_CONFIDENCE = 0.7
 
 #: Tokens that a `teo_sign_msgs/SignSentence` can hold; a longer sentence is divided.
 MAX_SENTENCE_TOKENS = 1024

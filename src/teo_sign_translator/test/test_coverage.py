@@ -33,6 +33,7 @@ def _lost(sentence: str, *glosses: tuple[str, tuple[int, ...]]) -> list[str]:
         ("¿Cuántos años tienes?", [("EDAD", (1,)), ("CUÁNTOS", (0,))], []),
         ("Como porque quiero", [("YO", (0,)), ("COMER", (0,)), ("MOTIVO", (1,)), ("QUERER", (2,))], []),
         ("Gato, gato, gato", [("GATO", (0, 2, 4))], ["gato", "gato"]),
+        ("Sé lengua de signos", [("LENGUA_DE_SIGNOS", (3,)), ("SABER", (0,))], []),
         ("Gatos", [("GATO", (0,)), ("GATO", (0,))], []),
         ("¡Qué bonito!", [("BONITO", (1,))], []),
         ("¿Qué comes?", [("COMER", (1,))], ["qué"]),

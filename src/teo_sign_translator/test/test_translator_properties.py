@@ -45,7 +45,11 @@ class WildModel:
         return Hypothesis(tuple(glosses), -float(seed))
 
 
-TRANSLATORS = {"published": Translator.load("lstm256"), "wild": translator_with(WildModel())}
+TRANSLATORS = {
+    "default": Translator.load(),
+    "published": Translator.load("lstm256"),
+    "wild": translator_with(WildModel()),
+}
 ALL = pytest.mark.parametrize("name", TRANSLATORS)
 REASONS = {"empty_text", "nothing_to_sign", "unsignable_text", "broken_encoding", "text_too_long"}
 TYPED = st.sampled_from(
