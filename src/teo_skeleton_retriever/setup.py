@@ -25,6 +25,7 @@ setup(
         "console_scripts": [
             "retrieve = teo_skeleton_retriever.retrieve_cli:main",
             "synthesize = teo_skeleton_retriever.synthetic.synthesize_cli:main",
+            "sensor_study = teo_skeleton_retriever.sensor_study:main",
             "retriever_node = teo_skeleton_retriever.retriever_node:main",
         ],
     },

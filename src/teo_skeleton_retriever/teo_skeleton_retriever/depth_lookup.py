@@ -138,26 +138,29 @@ class DepthLookup:
             gap: at each keypoint [m], instead of the same for all. Shape (n,).
         """
         pixels = np.asarray(pixels, dtype=np.float64)
-        gap = np.full(len(pixels), self.gap) if gap is None else gap
-        if distance is None:
-            distance = np.full(len(pixels), np.nan)
+        n = len(pixels)
+        gap = np.full(n, self.gap) if gap is None else gap
+        radius = np.full(n, self.radius) if radius is None else radius
+        distance = np.full(n, np.nan) if distance is None else np.asarray(distance, dtype=np.float64)
+        found = _nothing(n)
+        seen = np.flatnonzero(np.isfinite(pixels).all(axis=1))
+        if not len(seen):
+            return found
+        pixels, gap, radius, distance = pixels[seen], gap[seen], radius[seen], distance[seen]
         unknown = ~(distance > 0.0)
         if unknown.any():
             coarse = np.full(int(unknown.sum()), self.max_radius_px / 2.0)
-            distance = np.array(distance, dtype=np.float64)
             distance[unknown] = self._split(depth, pixels[unknown], coarse, gap[unknown]).depth[:, 0]
-        radii = np.clip(
-            (self.radius if radius is None else radius) * focal / np.where(distance > 0.0, distance, np.inf),
-            self.min_radius_px,
-            self.max_radius_px,
-        )
-        found = self._split(depth, pixels, radii, gap)
-        holes = np.isnan(found.depth[:, 0]) & np.isfinite(pixels).all(axis=1)
+        radii = radius * focal / np.where(distance > 0.0, distance, np.inf)
+        parts = self._split(depth, pixels, np.clip(radii, self.min_radius_px, self.max_radius_px), gap)
+        holes = np.isnan(parts.depth[:, 0])
         if holes.any():
             whole = np.full(int(holes.sum()), self.max_radius_px)
             wide = self._split(depth, pixels[holes], whole, gap[holes])
-            for all_rows, rows in zip(found, wide, strict=True):
-                all_rows[holes] = rows
+            for rows, wide_rows in zip(parts, wide, strict=True):
+                rows[holes] = wide_rows
+        for all_rows, rows in zip(found, parts, strict=True):
+            all_rows[seen] = rows
         return found
 
     def _split(self, depth: DepthArray, pixels: FloatArray, radii: FloatArray, gap: FloatArray) -> Surfaces:
@@ -176,7 +179,7 @@ class DepthLookup:
         solid = (sizes >= self.min_support * total) | (sizes == sizes.max(axis=1, keepdims=True, initial=0))
         solid &= sizes > 0
         rank = np.cumsum(solid, axis=1) * solid
-        found = Surfaces(np.full((n, _LAYERS), np.nan), np.full((n, _LAYERS), np.nan), np.zeros((n, _LAYERS)))
+        found = _nothing(n)
         for layer in range(_LAYERS):
             rows, chosen = np.nonzero(rank == layer + 1)
             if not len(rows):
@@ -215,6 +218,10 @@ class DepthLookup:
             deviations = np.where(near, np.abs(values - depth[:, None]), np.inf)
         low, high = _middle(np.sort(deviations, axis=1), count)
         return depth, np.hypot(_MAD_TO_SIGMA * (low + high) / 2.0, self.noise * depth * depth)
+
+
+def _nothing(n: int) -> Surfaces:
+    return Surfaces(np.full((n, _LAYERS), np.nan), np.full((n, _LAYERS), np.nan), np.zeros((n, _LAYERS)))
 
 
 def _middle(ascending: FloatArray, count: FloatArray) -> tuple[FloatArray, FloatArray]:
