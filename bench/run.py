@@ -6,7 +6,9 @@ import platform
 
 import driver_rate
 import lexicon
+import limbs
 import planning
+import retriever_accuracy
 import retriever_node
 import robot_model
 import text_to_trajectory
@@ -14,7 +16,17 @@ import translation
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = (robot_model, planning, lexicon, driver_rate, translation, text_to_trajectory, retriever_node)
+BENCHES = (
+    robot_model,
+    planning,
+    lexicon,
+    driver_rate,
+    translation,
+    text_to_trajectory,
+    limbs,
+    retriever_accuracy,
+    retriever_node,
+)
 
 
 def main() -> None:

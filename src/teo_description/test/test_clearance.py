@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -95,12 +93,3 @@ def test_pairs_are_the_same_on_both_sides_and_none_is_a_neighbour(robot):
         for joint in range(1, robot.model.njoints)
     }
     assert not pairs & parents
-
-
-def test_clearance_is_quick_enough_to_check_a_plan(robot, random_positions):
-    configurations = [robot.configuration(random_positions()) for _ in range(200)]
-    robot.clearance(configurations[0])
-    start = time.process_time()
-    for q in configurations:
-        robot.clearance(q)
-    assert (time.process_time() - start) / len(configurations) < 0.002

@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -267,13 +266,3 @@ def test_the_choices_of_quality_are_those_of_rclpy() -> None:
         (options.QOS_LIVELINESSES, LivelinessPolicy),
     ):
         assert set(choices) == set(policy.short_keys())
-
-
-def test_commands_that_need_no_graph_start_fast(ros2: Callable[..., Any]) -> None:
-    def once() -> float:
-        started = time.perf_counter()
-        ros2("pkg", "executables", "teo_ros2cli")
-        return time.perf_counter() - started
-
-    # 0.1 s on an idle machine; the best of a few, because others may use it.
-    assert min(once() for _ in range(5)) < 0.5
