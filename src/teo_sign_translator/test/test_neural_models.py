@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import torch
+from threadpoolctl import threadpool_info
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Reading
@@ -23,6 +24,7 @@ from teo_sign_translator.neural.decoding import ZooModel
 from teo_sign_translator.neural.examples import ExampleReader
 from teo_sign_translator.neural.fit import Fit, fit, make_lexis
 from teo_sign_translator.neural.network import Network, TensorBatch
+from teo_sign_translator.neural.one_core import one_core
 from teo_sign_translator.neural.store import save_sentence_model, sentence_models
 from teo_sign_translator.neural.zoo import POINTER, ZOO
 from teo_sign_translator.spanish_words import SourceWord
@@ -219,6 +221,17 @@ def test_many_sentences_together_are_translated_as_one_by_one(pointer: ZooModel,
         alone = pointer.translate(words, beam=beam)
         assert _glosses(alone[0]) == _glosses(hypotheses[0])
         assert alone[0].log_probability == pytest.approx(hypotheses[0].log_probability, abs=1e-3)
+
+
+def test_a_sentence_keeps_to_one_core_and_gives_the_others_back(pointer: ZooModel) -> None:
+    def threads() -> list[int]:
+        return [pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"]
+
+    before = threads()
+    with one_core():
+        assert threads() == [1] * len(before)
+    pointer.translate(read("Ana come el pan ."))
+    assert threads() == before
 
 
 @pytest.mark.parametrize("name", ["rnn_equal", "gru", POINTER])

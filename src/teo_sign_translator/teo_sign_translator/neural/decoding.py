@@ -13,6 +13,7 @@ from teo_sign_translator.neural.array_cells import Array
 from teo_sign_translator.neural.array_model import ArrayModel, Ints, Memory
 from teo_sign_translator.neural.lexis import END_INDEX, READINGS, START_INDEX
 from teo_sign_translator.neural.model import Hypothesis, OutputGloss
+from teo_sign_translator.neural.one_core import one_core
 
 if TYPE_CHECKING:
     from teo_sign_translator.spanish_words import SourceWord
@@ -69,9 +70,13 @@ class ZooModel:
         for index, words in enumerate(sentences):
             if words:
                 by_length.setdefault(len(words), []).append(index)
-        for indices in by_length.values():
-            for start in range(0, len(indices), _TOGETHER):
-                some = indices[start : start + _TOGETHER]
+        groups = (
+            indices[start : start + _TOGETHER]
+            for indices in by_length.values()
+            for start in range(0, len(indices), _TOGETHER)
+        )
+        with one_core():
+            for some in groups:
                 chosen = [sentences[index] for index in some]
                 if self.arrays.config.layout == "equal_length":
                     translated = _at_positions(self.arrays, chosen)
