@@ -46,10 +46,7 @@ def run(
         for name, network in networks.items()
     }
     rows = comparison(networks, trained)
-    table = Table(*rows[0], title=f"{min(pairs, len(data.train))} pairs, at most {epochs} epochs")
-    for row in rows[1:]:
-        table.add_row(*row)
-    console.print(table)
+    console.print(_table(trained, f"{len(data.train)} pairs, at most {epochs} epochs: exact matches"))
     buffer = io.StringIO()
     csv.writer(buffer, lineterminator="\n").writerows(rows)
     write_atomically(out / "comparison.csv", buffer.getvalue().encode())
@@ -83,6 +80,16 @@ def comparison(networks: Mapping[str, NetworkConfig], trained: Mapping[str, Trai
             ]
         )
     return rows
+
+
+def _table(trained: Mapping[str, TrainedModel], title: str) -> Table:
+    """What fits into a terminal of 80 columns; the files hold the rest."""
+    splits = list(next(iter(trained.values())).scores)
+    table = Table("model", "loss", *splits, title=title)
+    for name, each in trained.items():
+        loss = (each.fit.dev_losses or each.fit.losses)[each.fit.best_epoch - 1]
+        table.add_row(name, f"{loss:.3f}", *(f"{score.exact:.1%}" for score in each.scores.values()))
+    return table
 
 
 def loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
