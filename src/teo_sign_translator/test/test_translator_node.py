@@ -201,18 +201,25 @@ def test_parameters_take_effect(bench: Bench) -> None:
     assert bench.ask("¿Qué tal?").success
 
 
+def held_translations(bench: Bench) -> tuple[threading.Event, threading.Event]:
+    """Let every translation wait: events that tell when the first has begun, and that let all go on."""
+    begun, held, translate = threading.Event(), threading.Event(), bench.node._translator.translate
+
+    def slow(text: str, signs: object) -> object:
+        begun.set()
+        assert held.wait(PATIENCE)
+        return translate(text, signs)
+
+    bench.node._translator.translate = slow
+    return begun, held
+
+
 def test_a_full_queue_refuses_and_what_waits_is_answered_in_order(domain_id: int) -> None:
     bench = Bench(domain_id, Parameter("queue_size", value=3))
     try:
-        held, translate = threading.Event(), bench.node._translator.translate
-
-        def slow(text: str, signs: object) -> object:
-            assert held.wait(PATIENCE)
-            return translate(text, signs)
-
-        bench.node._translator.translate = slow
+        begun, held = held_translations(bench)
         bench.type("Yo tengo 0 años")
-        bench.wait(lambda: bench.node._worker.waiting == 0, "the first text to be worked on")
+        bench.wait(begun.is_set, "the first text to be worked on")
         bench.type(*(f"Yo tengo {age} años" for age in range(1, 9)))
         bench.wait(lambda: bench.node._statistics.refused == 5, "five refusals")
         assert "queue_full" in bench.node._statistics.last_refusal
@@ -246,15 +253,9 @@ def test_a_node_that_was_shut_down_answers_nothing_and_stays(bench: Bench) -> No
 
 
 def test_texts_that_wait_when_the_node_is_deactivated_are_refused(bench: Bench) -> None:
-    held, translate = threading.Event(), bench.node._translator.translate
-
-    def slow(text: str, signs: object) -> object:
-        assert held.wait(PATIENCE)
-        return translate(text, signs)
-
-    bench.node._translator.translate = slow
+    begun, held = held_translations(bench)
     bench.type("Hola", "Adiós")
-    bench.wait(lambda: bench.node._worker.waiting == 1, "the second text to wait")
+    bench.wait(lambda: begun.is_set() and bench.node._worker.waiting == 1, "the second text to wait")
     threading.Timer(0.2, held.set).start()
     bench.change(Transition.TRANSITION_DEACTIVATE)
     assert bench.wait_for(1)[0].text == "Hola"
