@@ -28,13 +28,20 @@ def test_the_graph_is_listed(graph: Any, ros2: Command) -> None:
     # A command looks for a moment; on a loaded machine what it looks for may come a moment later.
     listed = "/parameter_events\n/rosout\n/state\n/text\n"
     graph.wait_until(lambda: ros2("topic", "list").stdout == listed, "all topics are listed")
-    typed = ros2("topic", "list", "-t", "-a").stdout.splitlines()
-    assert {"/_secret [std_msgs/msg/String]", "/state [sensor_msgs/msg/JointState]"} <= set(typed)
-    verbose = ros2("topic", "list", "-v").stdout
-    published, subscribed = verbose.split("\nSubscribed topics:\n")
-    assert "\nPublished topics:\n" in published
-    assert " * /text [std_msgs/msg/String] 1 publisher\n" in published
-    assert " * /state [sensor_msgs/msg/JointState] 1 subscriber\n" in subscribed
+    typed = {"/_secret [std_msgs/msg/String]", "/state [sensor_msgs/msg/JointState]"}
+    graph.wait_until(
+        lambda: typed <= set(ros2("topic", "list", "-t", "-a").stdout.splitlines()), "hidden ones are listed"
+    )
+
+    def both_sides() -> bool:
+        published, subscribed = ros2("topic", "list", "-v").stdout.split("\nSubscribed topics:\n")
+        return (
+            "\nPublished topics:\n" in published
+            and " * /text [std_msgs/msg/String] 1 publisher\n" in published
+            and " * /state [sensor_msgs/msg/JointState] 1 subscriber\n" in subscribed
+        )
+
+    graph.wait_until(both_sides, "publishers and subscribers are counted")
     assert ros2("topic", "type", "text").stdout == "std_msgs/msg/String\n"
 
 

@@ -25,8 +25,9 @@ _REMOTE_ANSWER = 0.5
 _LOCAL_ANSWER = 0.1
 # Fast DDS announces a participant every 3 s: one that was not heard of by then does not take part.
 _LONGEST = 3.5
-# Once all participants are known, all that belongs to them follows without a longer pause [s].
-_QUIET = 0.1
+# Once all participants are known, what belongs to them follows, mostly without a longer pause [s]: what was
+# missed is asked for again with the next announcement, a quarter of a second later (config/fastdds.xml).
+_QUIET = 0.3
 _POLL = 0.02
 """Interval of looking at the graph [s]."""
 
@@ -115,6 +116,7 @@ def settle(node: Any, spin_time: float | None = None, *, names: bool = False) ->
     started = time.monotonic()
     shortest = spin_time if spin_time is not None else _answering_time()
     longest = max(shortest, _LONGEST)
+    quiet = _QUIET if spin_time is None else min(_QUIET, spin_time)
     changed, last = started, None
     while (now := time.monotonic()) - started < longest:
         picture = _picture(node, names)
@@ -122,7 +124,7 @@ def settle(node: Any, spin_time: float | None = None, *, names: bool = False) ->
             changed, last = now, picture
         ready = UNKNOWN_NODE not in picture.nodes
         ready = ready and picture.participants >= local_participants(node.context.get_domain_id())
-        if ready and now - started >= shortest and now - changed >= min(_QUIET, shortest):
+        if ready and now - started >= shortest and now - changed >= quiet:
             return
         time.sleep(_POLL)
 
