@@ -6,6 +6,7 @@ import enum
 from dataclasses import dataclass, field
 
 from teo_lut_executor.plan import Plan, TokenTiming
+from teo_lut_executor.sentence_form import STATEMENT, SentenceForm
 from teo_lut_executor.state_to_state import State
 from teo_lut_executor.tokens import Token
 
@@ -19,12 +20,14 @@ class Sentence:
         utterance_id: Names the text that it comes from.
         index: Its place in the text, from 0.
         count: Number of sentences in the text.
+        form: Type and negation.
     """
 
     tokens: tuple[Token, ...]
     utterance_id: str = ""
     index: int = 0
     count: int = 1
+    form: SentenceForm = STATEMENT
 
 
 class Activity(enum.IntEnum):

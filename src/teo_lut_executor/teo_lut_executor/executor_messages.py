@@ -12,6 +12,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_lut_executor.execution_events import Sentence, Status
 from teo_lut_executor.plan import Plan, TokenTiming
+from teo_lut_executor.sentence_form import SentenceForm, SentenceType
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.tokens import Kind, Token
 
@@ -25,6 +26,10 @@ def to_sentence(message: SignSentence) -> Sentence:
         utterance_id=message.utterance_id,
         index=message.sentence_index,
         count=message.sentence_count,
+        form=SentenceForm(
+            type=cast(SentenceType, message.type),  # `check_form` refuses what is none
+            negated=message.negated,
+        ),
     )
 
 

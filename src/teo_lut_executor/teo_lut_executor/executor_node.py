@@ -171,7 +171,7 @@ class ExecutorNode(Node):
         self._fresh_lut()
         began = time.perf_counter()
         try:
-            plan = self._planner.plan(wanted.sentence.tokens, wanted.start)
+            plan = self._planner.plan(wanted.sentence.tokens, wanted.start, form=wanted.sentence.form)
         except PlanError as error:
             return self._queue.not_planned(error, self._now())
         took = (time.perf_counter() - began) * 1000.0

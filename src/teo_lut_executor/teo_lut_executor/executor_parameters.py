@@ -91,10 +91,24 @@ PARAMETERS = (
     _row("posture_hold", _STYLE.posture_hold, 0.0, 5.0, "Time for which a sign of one posture is held [s]."),
     _row("final_hold", _STYLE.final_hold, 0.0, 5.0, "Time for which a sentence's last sign is held [s]."),
     _row(
+        "question_hold",
+        _STYLE.question_hold,
+        0.0,
+        5.0,
+        "Time for which a yes/no question's last sign is held [s].",
+    ),
+    _row(
         "repeat_angle", _STYLE.repeat_angle, 0.0, 0.5, "Move of the elbow between two equal postures [rad]."
     ),
     _row("repeat_time", _STYLE.repeat_time, 0.0, 2.0, "Least time of each half of that move [s]."),
     _row("arm_rest", _STYLE.arm_rest, 0.0, 60.0, "Least time at rest worth an idle arm's way [s]."),
+    _row(
+        "head_motion",
+        _STYLE.head_motion,
+        0.0,
+        1.0,
+        "Size of the head gestures of questions, negation and exclamations; 0 leaves them away [1].",
+    ),
     # Queue.
     ParameterRow(
         name="capacity",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_lut_executor.head_gestures import GestureKind
 from teo_lut_executor.joint_motion import JointMotion
 from teo_lut_executor.tokens import Token
 
@@ -47,6 +48,21 @@ class Nearness:
     second: str
 
 
+@dataclass(frozen=True, kw_only=True)
+class HeadGesture:
+    """What the head says beside the hands.
+
+    Attributes:
+        kind: What it does.
+        start: When it is first where the gesture has it [s].
+        end: When it is last there [s].
+    """
+
+    kind: GestureKind
+    start: float
+    end: float
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Samples:
     """A motion at instants. Arrays are read-only.
@@ -75,6 +91,7 @@ class Plan:
         timings: When each token is signed, in order; empty for a way back to rest.
         stretch: Duration of all signs over the duration asked for; 1.0 as recorded.
         nearest: The closest that parts of the robot come to each other; None if it was not looked at.
+        head: What the head says beside the hands, in order.
     """
 
     names: tuple[str, ...]
@@ -83,6 +100,7 @@ class Plan:
     timings: tuple[TokenTiming, ...]
     stretch: float
     nearest: Nearness | None
+    head: tuple[HeadGesture, ...] = ()
 
     @property
     def duration(self) -> float:

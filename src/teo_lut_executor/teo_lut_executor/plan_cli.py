@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import enum
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -21,7 +23,18 @@ from teo_lut_executor.plan_csv import write_csv
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.plan_film import frames, write_film, write_strip
 from teo_lut_executor.planner import Planner
+from teo_lut_executor.sentence_form import SentenceType, printed_form, without_marks
 from teo_lut_executor.tokens import parse_printed
+
+
+class _Type(enum.Enum):
+    """Names of `SentenceType` for people."""
+
+    STATEMENT = "statement"
+    YES_NO_QUESTION = "yes-no"
+    WH_QUESTION = "wh"
+    EXCLAMATION = "exclamation"
+
 
 _out = Console()
 _err = Console(stderr=True)
@@ -35,9 +48,19 @@ def _plan(
         str,
         typer.Argument(
             metavar="GLOSSES",
-            help="Glosses by spaces; A-N-A is spelled, digits are numbers, _ alone is a pause.",
+            help="Glosses by spaces; A-N-A is spelled, digits are numbers, _ alone is a pause; "
+            "a ? or ! behind makes it a question or an exclamation.",
         ),
     ],
+    type_: Annotated[
+        _Type | None, typer.Option("--type", help="Type of sentence; default: as its marks and glosses say.")
+    ] = None,
+    negated: Annotated[
+        bool | None,
+        typer.Option(
+            "--negated/--affirmed", help="Whether it is negated; default: whether it has a negative sign."
+        ),
+    ] = None,
     csv: Annotated[
         Path | None,
         typer.Option(help="File for the motion, 100 rows a second: time [s], then [rad] for each joint."),
@@ -56,12 +79,18 @@ def _plan(
 
     Exit status: 0 if it can be signed, 1 if not or if a file cannot be written, 2 for wrong options.
 
-    Example: plan "MI NOMBRE A-N-A" --csv plan.csv --strip plan.png
+    Example: plan "TÚ AGUA BEBER?" --csv plan.csv --strip plan.png
     """
     try:
         limits = MotionLimits.of_robot(acceleration=acceleration, jerk=jerk)
         planner = Planner(Lut.open(lut), limits=limits, robot=Robot.load())
-        plan = planner.plan(parse_printed(sentence))
+        tokens = parse_printed(without_marks(sentence))
+        form = printed_form(sentence, tokens)
+        if type_ is not None:
+            form = replace(form, type=SentenceType[type_.name])
+        if negated is not None:
+            form = replace(form, negated=negated)
+        plan = planner.plan(tokens, form=form)
         _out.print(_table(plan))
         _out.print(_summary(plan), highlight=False, soft_wrap=True)
         _write(plan, csv, mp4, strip)
@@ -91,6 +120,9 @@ def _summary(plan: Plan) -> str:
             f"nearest to itself: {near.distance * 1000.0:.0f} mm between {near.first} and {near.second} "
             f"at {near.time:.2f} s"
         )
+    if plan.head:
+        gestures = (f"{item.kind.value} {item.start:.2f} .. {item.end:.2f} s" for item in plan.head)
+        lines.append(f"head: {', '.join(gestures)}")
     return "\n".join(lines)
 
 

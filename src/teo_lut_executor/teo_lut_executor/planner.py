@@ -11,12 +11,15 @@ from teo_description.robot import Robot
 from teo_lut_executor.clear_way import ClearWay, TimedRoute
 from teo_lut_executor.composer import REST, Composition, compose
 from teo_lut_executor.detour import Route
+from teo_lut_executor.head_gestures import head_gestures
+from teo_lut_executor.head_motion import HeadMotion
 from teo_lut_executor.joint_motion import JointMotion
 from teo_lut_executor.lexicon import DEFAULT_STANDING, Lexicon
 from teo_lut_executor.motion_limits import MotionLimits
 from teo_lut_executor.plan import Plan, Samples, TokenTiming, sample_at, sample_times
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.self_collision import SelfCollision
+from teo_lut_executor.sentence_form import STATEMENT, SentenceForm, check_form
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.sign_schema import Standing
 from teo_lut_executor.signing_style import SigningStyle
@@ -87,23 +90,37 @@ class Planner:
             least_clearance=least_clearance,
             arm_rest=self.style.arm_rest,
         )
+        self._head = HeadMotion(
+            self._collision_model,
+            limits=self.limits,
+            bounds=self._bounds,
+            least_clearance=least_clearance,
+            strength=self.style.head_motion,
+        )
         self._period = period
         self._max_duration = max_duration
 
-    def plan(self, tokens: Sequence[Token], start: State | None = None) -> Plan:
+    def plan(
+        self, tokens: Sequence[Token], start: State | None = None, *, form: SentenceForm = STATEMENT
+    ) -> Plan:
         """Plan a sentence.
 
         Args:
             tokens: What to sign, in order.
             start: State of the 28 commanded joints; None for rest.
+            form: Type and negation, which the head shows.
 
         Raises:
             PlanError: The sentence cannot be signed; the code says why.
         """
+        check_form(form)
         signed = self._lexicon.resolve(tokens)
         begin = self._checked(start)
-        composition = compose(signed, start=begin.position, limits=self.limits, style=self.style)
-        return self._route(composition, begin)
+        composition = compose(
+            signed, start=begin.position, limits=self.limits, style=self.style.for_form(form)
+        )
+        plan = self._route(composition, begin)
+        return self._head.shown(plan, signed, head_gestures([item.token for item in signed], form))
 
     def plan_to_rest(self, start: State) -> Plan:
         """Plan the way to rest from any state, moving ones included.

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 from teo_lut_executor.plan_error import PlanError
+from teo_lut_executor.sentence_form import SentenceForm, SentenceType
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +44,10 @@ class SigningStyle:
     # last sign of a clause (Huenerfauth 2009), and without a hold its end is lost in the way down.
     final_hold: float = 0.25
 
+    # The same for a yes/no question [s]: signers of LSE hold its last sign for an answer. Nobody has measured
+    # for how long; twice the other hold is told from it.
+    question_hold: float = 0.5
+
     # How far the elbow opens, and closes again, between two equal postures [rad]: 10 deg move TEO's hand by
     # about 6 cm, half a hand length, as signers bounce a doubled letter.
     repeat_angle: float = math.radians(10.0)
@@ -54,6 +59,11 @@ class SigningStyle:
     # than about a second down would look like a sign of its own, and wear the arm for nothing.
     arm_rest: float = 1.0
 
+    # Size of the head's gestures, which tell question, negation and exclamation [1]: 1 makes them as large as
+    # `head_ways` says and why, 0 leaves them away. On by default: without them a yes/no question in LSE is a
+    # statement.
+    head_motion: float = 1.0
+
     def __post_init__(self) -> None:
         """Refuse what is no time or angle."""
         for field in fields(self):
@@ -62,3 +72,11 @@ class SigningStyle:
                 raise PlanError(
                     "bad_style", f"{field.name}: expected a finite number, 0 or more, got {value}"
                 )
+        if self.head_motion > 1.0:
+            raise PlanError("bad_style", f"head_motion: expected 0 to 1, got {self.head_motion}")
+
+    def for_form(self, form: SentenceForm) -> SigningStyle:
+        """The rhythm of a sentence of some type."""
+        if form.type != SentenceType.YES_NO_QUESTION:
+            return self
+        return replace(self, final_hold=max(self.final_hold, self.question_hold))
