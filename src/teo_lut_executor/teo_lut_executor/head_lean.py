@@ -13,7 +13,7 @@ from itertools import pairwise
 
 from teo_lut_executor.head_ways import EASES, Room, Way, hold_ways
 from teo_lut_executor.joint_motion import JointMotion
-from teo_lut_executor.motion_splice import Splicer, shifted
+from teo_lut_executor.motion_splice import Splicer, rest_after, shifted
 
 Times = tuple[float, float]
 """From and to [s]."""
@@ -96,7 +96,7 @@ class Leaning:
             motion=motion,
             least_time=self._least_time,
         )
-        for way in (*hold_ways(angle, room), *self._straight(angle, gap, levels)):
+        for way in (*hold_ways(angle, room), *self._straight(motion, angle, gap, levels)):
             spliced = self._splicer.spliced(motion, way.begin, way.knots, way.end)
             if spliced is not None:
                 return spliced, tuple(knot.time for knot in way.knots)
@@ -104,8 +104,8 @@ class Leaning:
             return None
         return shifted(motion, begin, end, levels[0]), ()
 
-    def _straight(self, angle: float, gap: Times, levels: Times) -> Iterator[Way]:
-        """Ways from one level to the other: late from none, early to none."""
+    def _straight(self, motion: JointMotion, angle: float, gap: Times, levels: Times) -> Iterator[Way]:
+        """Ways from one level to the other: late from none; early to none, but where the joint rests then."""
         begin, end = gap
         if levels[0] == levels[1]:
             return
@@ -114,5 +114,5 @@ class Leaning:
             if not levels[0]:
                 yield Way(max(begin, end - takes), (), end)
             elif not levels[1]:
-                yield Way(begin, (), min(end, begin + takes))
+                yield Way(begin, (), min(end, rest_after(motion, begin + takes)))
         yield Way(begin, (), end)

@@ -15,6 +15,9 @@ from teo_lut_executor.state_to_state import ROUNDING, Bounds, Mover, State
 # A move fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
 _FITS = 1e-9
 
+# A joint with less velocity [rad/s] and acceleration [rad/s^2] stands still: rounding.
+_STILL = 1e-9
+
 # As in `station_timing`: times the least-jerk quintic's acceleration and jerk; at last what the limits allow.
 _EASES = (1.3, 2.0, 4.0, None)
 
@@ -109,6 +112,16 @@ def shifted(motion: JointMotion, begin: float, end: float, angle: float) -> Join
 def position_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> float:
     """Where a joint is just before or just after an instant [rad]."""
     return float(_state(motion, time, side=side).position[0])
+
+
+def rest_after(motion: JointMotion, time: float) -> float:
+    """When a joint first stands still from an instant on [s]; the end of its motion, where it does not."""
+    pieces = motion.pieces
+    still = (np.abs(pieces.velocities) < _STILL) & (np.abs(pieces.accelerations) < _STILL)
+    begins = motion.starts[still & (pieces.jerks == 0.0)]
+    ends = np.append(motion.starts[1:], motion.duration)[still & (pieces.jerks == 0.0)]
+    later = ends > time
+    return max(float(begins[later][0]), time) if later.any() else motion.duration
 
 
 def _state(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> State:
