@@ -125,9 +125,17 @@ def rest_after(motion: JointMotion, time: float) -> float:
 
 
 def _state(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> State:
-    index = max(int(np.searchsorted(motion.starts, time, side=side)) - 1, 0)
-    state = take(motion.pieces, np.array([index])).after(np.array([time]) - motion.starts[index])
+    index = _piece_at(motion, time, side=side)
+    # Not beyond the piece: the next one may be turned by an angle.
+    elapsed = np.clip(time - motion.starts[index], 0.0, motion.pieces.lengths[index])
+    state = take(motion.pieces, np.array([index])).after(np.array([elapsed]))
     return State(position=state[0], velocity=state[1], acceleration=state[2])
+
+
+def _piece_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> int:
+    """Index of the piece before or after an instant; it may begin or end there but for rounding."""
+    nearly = time - _FITS if side == "left" else time + _FITS
+    return max(int(np.searchsorted(motion.starts, nearly, side=side)) - 1, 0)
 
 
 def _copy(
@@ -136,13 +144,17 @@ def _copy(
     """Add what a motion does between two instants, turned by an angle."""
     if end <= begin:
         return
-    first, last = np.searchsorted(motion.starts, [begin, end], side="right").tolist()
-    pieces = take(motion.pieces, np.arange(first - 1, last))
-    entered = pieces.after(np.maximum(begin - motion.starts[first - 1 : last], 0.0))
+    first = _piece_at(motion, begin, side="right")
+    last = max(_piece_at(motion, end, side="left"), first)
+    starts = np.concatenate(([begin], motion.starts[first + 1 : last + 1]))
+    pieces = take(motion.pieces, np.arange(first, last + 1))
+    elapsed = np.zeros(len(starts))
+    elapsed[0] = max(begin - motion.starts[first], 0.0)
+    entered = pieces.after(elapsed)
     builder.add(
         begin,
         Pieces(
-            lengths=np.diff(np.clip(motion.starts[first - 1 : last], begin, end), append=end),
+            lengths=np.diff(starts, append=end),
             positions=entered[0] + angle,
             velocities=entered[1],
             accelerations=entered[2],
