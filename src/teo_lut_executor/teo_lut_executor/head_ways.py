@@ -146,7 +146,8 @@ def shake_ways(strength: float, room: Room) -> Iterator[Way]:
                 turns = [-turn for turn in turns]
         if turns:
             knots = tuple(Knot(time, turn) for time, turn in zip(times, turns, strict=True))
-            yield Way(times[0] - way_in, knots, times[-1] + way_out)
+            begin = room.begin if room.comes_from_sign else times[0] - way_in
+            yield Way(begin, knots, room.end if room.goes_on_into_sign else times[-1] + way_out)
 
 
 def _turns(room: Room, earliest: float, latest: float, swing: float) -> list[float]:
