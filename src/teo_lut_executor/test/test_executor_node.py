@@ -24,7 +24,7 @@ from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListSigns
 from trajectory_msgs.msg import JointTrajectory
 
-from teo_description import COMMANDED_JOINTS, HOME, joint_limits
+from teo_description import COMMANDED_JOINTS, HEAD, HOME, joint_limits
 from teo_lut_executor.executor_node import ExecutorNode
 from teo_lut_executor.executor_parameters import PARAMETERS
 from teo_lut_executor.lut_error import LutError
@@ -149,14 +149,16 @@ def test_sentences_are_signed_in_order_and_bad_ones_refused_between(graph: Graph
     unknown = graph.sentence("Ω")
     odd = graph.sentence("NOD")
     odd.tokens[0].kind = 9
+    typeless = graph.sentence("NOD")
+    typeless.type = 9
     for message in (graph.sentence("NOD"), empty, nan):
         graph.publish(message)
     graph.spin_until(lambda: graph.robot.states().count(ExecutorStatus.STATE_REFUSED) == 2)
-    for message in (unknown, odd, graph.sentence("TURN LOOK")):
+    for message in (unknown, odd, typeless, graph.sentence("TURN LOOK")):
         graph.publish(message)
     graph.rest(signed=2)
     codes = [status.code for status in graph.robot.statuses if status.state == ExecutorStatus.STATE_REFUSED]
-    assert codes == ["empty_sentence", "bad_scale", "unknown_sign", "bad_kind"]
+    assert codes == ["empty_sentence", "bad_scale", "unknown_sign", "bad_kind", "bad_type"]
     signing = [status for status in graph.robot.statuses if status.state == ExecutorStatus.STATE_SIGNING]
     assert [[timing.token.gloss for timing in status.timings] for status in signing] == [
         ["NOD"],
@@ -227,6 +229,23 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     assert steps <= float(joint_limits().velocity[0]) * 3.0 / RATE + 0.03
     graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
     client.destroy()
+
+
+def test_type_and_negation_are_shown_with_the_head_unless_it_is_to_be_still(graph: Graph) -> None:
+    def most(head_motion: float) -> list[float]:
+        """The most that yaw and pitch are away from rest in a negated question [rad]."""
+        graph.node.set_parameters([Parameter("head_motion", value=head_motion)])
+        message = graph.sentence("A")
+        message.type, message.negated = SignSentence.TYPE_YES_NO_QUESTION, True
+        before = len(graph.robot.received)
+        graph.publish(message)
+        graph.spin_until(lambda: len(graph.robot.received) > before)
+        points = np.array([point.positions for point in graph.robot.received[-1].points])
+        return np.abs(points[:, : len(HEAD)]).max(axis=0).tolist()
+
+    assert most(0.0) == [0.0, 0.0]
+    graph.rest(signed=1)
+    assert most(1.0) == pytest.approx(np.radians([12.0, 9.0]), abs=0.01)
 
 
 def test_signs_are_listed_and_shown_as_soon_as_they_are_saved(

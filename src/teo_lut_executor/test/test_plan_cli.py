@@ -52,6 +52,23 @@ def test_a_sentence_is_planned_to_a_table_and_a_csv(table_directory: Path, tmp_p
     assert list(tmp_path.glob(".plan*")) == []
 
 
+@pytest.mark.parametrize(
+    ("sentence", "options", "said"),
+    [
+        ("¿TÚ CASA?", [], "head: forward "),
+        ("TÚ CASA", ["--negated"], "head: shake "),
+        ("TÚ CASA?", ["--type", "statement", "--affirmed"], None),
+    ],
+)
+def test_the_form_of_a_sentence_is_shown_with_the_head(
+    table_directory: Path, sentence: str, options: list[str], said: str | None
+) -> None:
+    done = run(sentence, "--lut", table_directory, *options)
+    assert done.returncode == 0, done.stderr
+    (*_, last) = done.stdout.splitlines()
+    assert last.startswith(said) if said else "head" not in done.stdout
+
+
 def test_slower_limits_give_a_slower_plan(table_directory: Path) -> None:
     def duration(*options: str) -> float:
         done = run("TÚ", "--lut", table_directory, *options)
@@ -69,6 +86,7 @@ def test_slower_limits_give_a_slower_plan(table_directory: Path) -> None:
         ("A--N", [], 1, "bad_gloss: "),
         ("TÚ", ["--jerk", "0"], 1, "bad_limits: "),
         ("TÚ", ["--jerk", "many"], 2, "valid number"),
+        ("TÚ", ["--type", "order"], 2, "statement"),
         ("TÚ", ["--csv", "no/such/folder/plan.csv"], 1, "cannot write "),
         ("TÚ", ["--lut", "no/such/table"], 1, "no_directory: "),
     ],
