@@ -22,6 +22,7 @@ from teo_lut_executor.motion_limits import MotionLimits
 from teo_lut_executor.plan import Plan
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.planner import Planner
+from teo_lut_executor.sentence_form import SentenceForm, SentenceType
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.tokens import Kind, Token, parse_printed
 
@@ -95,14 +96,20 @@ def _times() -> list[Figure]:
     sentences = [parse_printed(text) for text in _PRINTED]
     for sentence in sentences:
         planner.plan(sentence)  # reads the entries
-    seconds, signing = [], []
+    asked = SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True)
+    seconds, with_head, signing = [], [], []
     for index in range(SENTENCES):
+        sentence = sentences[index % len(sentences)]
         began = time.perf_counter()
-        plan = planner.plan(sentences[index % len(sentences)])
+        plan = planner.plan(sentence)
         seconds.append(time.perf_counter() - began)
         signing.append(plan.duration)
+        began = time.perf_counter()
+        planner.plan(sentence, form=asked)
+        with_head.append(time.perf_counter() - began)
     return [
         percentiles("plan a sentence", seconds),
+        percentiles("the same as negated questions, head and all", with_head),
         Figure("signing time of those sentences", f"median {np.median(signing):.1f} s"),
     ]
 

@@ -21,6 +21,7 @@ from teo_lut_executor.sentence_form import STATEMENT, SentenceForm, SentenceType
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.signing_style import SigningStyle
 from teo_lut_executor.state_to_state import State
+from teo_lut_executor.stopping import stop
 from teo_lut_executor.tokens import Kind, Token, parse_printed
 
 LIMITS = MotionLimits.of_robot()
@@ -242,6 +243,19 @@ def test_signs_at_the_face_stay_clear_of_the_head(lut: Lut, robot: Robot, text: 
         point = plan.positions[int(np.searchsorted(plan.times, near.time))]
         found = robot.clearance(robot.configuration(dict(zip(plan.names, point.tolist(), strict=True))))
         assert found.distance == pytest.approx(near.distance, abs=1e-5)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.7, 0.9])
+def test_a_robot_that_is_stopped_in_a_gesture_finds_its_way_to_rest(lut: Lut, share: float) -> None:
+    planner = Planner(lut)
+    form = SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True)
+    plan = planner.plan(parse_printed("HOY VENIR NO"), form=form)
+    position, velocity, acceleration = plan.at(share * plan.duration)
+    assert np.abs(position[HEAD]).max() > 0.01
+    end, _ = stop(State(position=position, velocity=velocity, acceleration=acceleration), LIMITS)
+    back = planner.plan_to_rest(end)
+    assert back.head == ()
+    np.testing.assert_allclose(back.at(back.duration)[0], REST, atol=1e-6)
 
 
 def test_a_strength_that_the_neck_does_not_have_is_refused() -> None:
