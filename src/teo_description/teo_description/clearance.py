@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from itertools import product
 from typing import NamedTuple
 
@@ -21,12 +22,14 @@ class Clearance(NamedTuple):
     """Name of the other link."""
 
 
+HEAD_LINKS = ("AxialNeck_link", "FrontalNeck_link")
+"""What the joints of the head move."""
+
 _TORSO = (
     "root_link",
     "AxialTrunk_link",
     "FrontalTrunk_link",
-    "AxialNeck_link",
-    "FrontalNeck_link",
+    *HEAD_LINKS,
     "FrontalLeftHip_link",
     "FrontalRightHip_link",
     "FrontalLeftKnee_link",
@@ -86,7 +89,8 @@ class ClearanceChecker:
     overlaps at `HOME` would be an error of the description: a test forbids it.
     """
 
-    def __init__(self, model: pin.Model, urdf: str) -> None:
+    def __init__(self, model: pin.Model, urdf: str, *, of: Collection[str] = ()) -> None:
+        """Watch all pairs, or only those with one of some links."""
         self._model = model
         self._data = model.createData()
         self._geometry = pin.buildGeomFromUrdfString(model, urdf, pin.GeometryType.COLLISION)
@@ -98,6 +102,7 @@ class ClearanceChecker:
         pairs = [
             (first, second)
             for one, other in watched_pairs()
+            if not of or one in of or other in of
             for first, second in product(by_link[one], by_link[other])
         ]
         for first, second in pairs:

@@ -5,7 +5,7 @@ import pinocchio as pin
 import pytest
 
 from teo_description import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
-from teo_description.clearance import watched_pairs
+from teo_description.clearance import HEAD_LINKS, watched_pairs
 
 # Poses [deg] in which the real TEO signed in public (teo-demos-misc, 20191023-ttd-congress.py): left, right.
 REST = (0, 0, 0, 0, 0, 0)
@@ -81,6 +81,20 @@ def test_clearance_is_the_smallest_over_all_pairs(robot, random_positions):
         assert robot.clearance(q).distance == pytest.approx(
             smallest, abs=2e-6
         )  # coal's own tolerance is 1e-6 m
+
+
+def test_the_head_is_measured_alone_against_all_that_it_could_touch(robot, random_positions):
+    """Where the head is in the closest pair both are the same; else the head is farther from everything."""
+    touched = 0
+    for _ in range(200):
+        q = robot.configuration(random_positions())
+        every, head = robot.clearance(q), robot.head_clearance(q)
+        assert head.second in HEAD_LINKS and head.first not in HEAD_LINKS
+        assert head.distance >= every.distance - 2e-6
+        if every.second in HEAD_LINKS:
+            touched += 1
+            assert head.distance == pytest.approx(every.distance, abs=2e-6)
+    assert touched > 3
 
 
 def test_pairs_are_the_same_on_both_sides_and_none_is_a_neighbour(robot):

@@ -18,6 +18,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from teo_description import HEAD, HOME
+from teo_description.clearance import HEAD_LINKS
 from teo_lut_executor.head_gestures import Gesture, GestureKind
 from teo_lut_executor.head_lean import Leaning, Times
 from teo_lut_executor.head_ways import Room, nod_ways, shake_ways
@@ -162,25 +163,14 @@ class HeadMotion:
         return shown
 
     def _nearest(self, plan: Plan, samples: Samples) -> Nearness | None:
-        """The closest that parts come now; only where the head moves otherwise it has to be looked for."""
+        """The closest that parts come now."""
         if self._collision_model is None or plan.nearest is None:
             return None
-        moved = (samples.positions != plan.positions).any(axis=1).nonzero()[0]
-        part = slice(int(moved[0]), int(moved[-1]) + 1)
-        found = self._collision_model.nearest(
-            Samples(
-                times=samples.times[part],
-                positions=samples.positions[part],
-                velocities=samples.velocities[part],
-                accelerations=samples.accelerations[part],
-            )
-        )
-        if (
-            found.distance > plan.nearest.distance
-            and moved[0] <= np.searchsorted(samples.times, plan.nearest.time) <= moved[-1]
-        ):
+        if not {plan.nearest.first, plan.nearest.second}.isdisjoint(HEAD_LINKS):
             return self._collision_model.nearest(samples)
-        return min(found, plan.nearest, key=lambda near: near.distance)
+        # All but the head is where it was.
+        head = self._collision_model.nearest(samples, head_alone=True)
+        return min(head, plan.nearest, key=lambda near: near.distance)
 
     def _least_time(self, axis: int, way: float) -> float:
         return float(fastest_moves(np.array([way]), [self._columns[axis]], self._limits)[0])

@@ -42,20 +42,27 @@ class SelfCollision:
         self._robot = robot
         self._reach = np.array([_reach(name) for name in COMMANDED_JOINTS])
 
-    def nearest(self, samples: Samples) -> Nearness:
-        """The closest that parts come along a motion.
+    def nearest(self, samples: Samples, *, head_alone: bool = False) -> Nearness:
+        """The closest that parts come along a motion; of the head to any other, if only that is asked for.
 
         The next look is taken where the parts can have moved by the distance that the last one found, and at
         least by a step: far from contact the robot is looked at seldom. Around the closest look every sample
         between its neighbours is looked at, if there are not too many.
         """
+        clearance = self._robot.head_clearance if head_alone else self._robot.clearance
+
+        def look(index: int) -> Nearness:
+            distance, first, second = clearance(self._configuration(samples.positions[index]))
+            time = float(samples.times[index])
+            return Nearness(distance=float(distance), time=time, first=first, second=second)
+
         moved = np.abs(np.diff(samples.positions, axis=0)) @ self._reach
         path = np.concatenate(([0.0], np.cumsum(moved)))
         looked: list[int] = []
         found: list[Nearness] = []
         index, last = 0, len(path) - 1
         while True:
-            near = self._look(samples, index)
+            near = look(index)
             looked.append(index)
             found.append(near)
             if index == last:
@@ -65,18 +72,11 @@ class SelfCollision:
         closest = min(range(len(found)), key=lambda item: found[item].distance)
         around = range(looked[max(closest - 1, 0)] + 1, looked[min(closest + 1, len(looked) - 1)])
         between = around[:: max(1, len(around) // (2 * _CLOSER))]
-        return min(
-            (found[closest], *(self._look(samples, item) for item in between)), key=lambda near: near.distance
-        )
+        return min((found[closest], *(look(item) for item in between)), key=lambda near: near.distance)
 
     def distance(self, positions: NDArray[np.float64]) -> float:
         """The closest that parts are in a posture of the commanded joints [m]."""
         return float(self._robot.clearance(self._configuration(positions)).distance)
-
-    def _look(self, samples: Samples, index: int) -> Nearness:
-        distance, first, second = self._robot.clearance(self._configuration(samples.positions[index]))
-        time = float(samples.times[index])
-        return Nearness(distance=float(distance), time=time, first=first, second=second)
 
     def _configuration(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         return self._robot.configuration(dict(zip(COMMANDED_JOINTS, positions.tolist(), strict=True)))
