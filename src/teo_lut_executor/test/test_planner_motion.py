@@ -38,9 +38,11 @@ def test_the_range_of_a_move_is_exact(
 ) -> None:
     # The solver's own extremes miss joints that turn at constant acceleration.
     move = moved((p, 0.5 * v, 3.0 * a), (q, 0.5 * w, 3.0 * b), duration)
-    if move is None or move.duration == 0.0:
+    if move is None:
         return
     (lengths,) = move.pieces.lengths
+    if not lengths.any():  # a time may be so short that its parts are nothing
+        return
     times = np.linspace(0.0, 1.0, 400)[:, None] * lengths
     dense = move.pieces.after(times[:, None, :])[0][:, :, lengths > 0.0]
     least, greatest = move.pieces.range()
