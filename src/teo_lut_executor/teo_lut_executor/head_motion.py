@@ -166,11 +166,11 @@ class HeadMotion:
         """The closest that parts come now."""
         if self._collision_model is None or plan.nearest is None:
             return None
-        if not {plan.nearest.first, plan.nearest.second}.isdisjoint(HEAD_LINKS):
-            return self._collision_model.nearest(samples)
-        # All but the head is where it was.
         head = self._collision_model.nearest(samples, head_alone=True)
-        return min(head, plan.nearest, key=lambda near: near.distance)
+        others = plan.nearest  # all but the head is where it was
+        if not {others.first, others.second}.isdisjoint(HEAD_LINKS):
+            others = self._collision_model.nearest(samples)
+        return min(head, others, key=lambda near: near.distance)
 
     def _least_time(self, axis: int, way: float) -> float:
         return float(fastest_moves(np.array([way]), [self._columns[axis]], self._limits)[0])
