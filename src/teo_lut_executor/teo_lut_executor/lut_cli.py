@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_lut_executor.lut import Lut, LutError, Sign, default_lut_directory
+from teo_lut_executor.lut_exchange_cli import export
 from teo_lut_executor.sign import sign_warnings
 from teo_lut_executor.sign_file import format_sign
 from teo_lut_executor.sign_schema import STANDINGS, Kind, sign_json_schema
@@ -23,6 +24,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command()(export)
 
 Directory = Annotated[
     Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
