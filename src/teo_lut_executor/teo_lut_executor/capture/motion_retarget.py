@@ -22,7 +22,7 @@ class RobotMotion:
 
     Attributes:
         times: [s]. Shape (T,).
-        joints: The m joints that take part: arm and hand of each side that signs; head and trunk if they move.
+        joints: The m joints that take part: arm and hand of each side that signs; head, trunk if they move.
         positions: Within the limits, clear of the robot's own body [rad]. Shape (T, m).
         place_error: Distance of the hand from where the person's hand belongs on TEO [m].
         palm_error: Angle between the ways the palms face [rad].
