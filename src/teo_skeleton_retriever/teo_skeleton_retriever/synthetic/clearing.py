@@ -1,0 +1,122 @@
+"""Hands that go round a body instead of through it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.spatial import cKDTree
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.synthetic.body_data import load_body_data
+from teo_skeleton_retriever.synthetic.places import arm_share
+from teo_skeleton_retriever.synthetic.pose import ArmPose, Poser
+from teo_skeleton_retriever.synthetic.rig import SIDES
+from teo_skeleton_retriever.synthetic.surface import vertex_normals
+
+_HAND = ("lowerarm", "wrist", "metacarpal", "finger")
+_ROUNDS = 12
+"""Times that a hand is moved and looked at again; after four or five nothing moves."""
+_ENOUGH = 5e-4
+"""Skin that is so little inside other skin touches it [m]."""
+_CLOTH = 0.006
+"""How far clothes stand off the trunk's skin [m]; see `appearance.py`."""
+
+
+class _Skin(NamedTuple):
+    places: FloatArray  # (n, 3) [m]
+    normals: FloatArray  # (n, 3), out of the body
+
+
+class _Limb(NamedTuple):
+    """Forearm and hand of a side."""
+
+    vertices: NDArray[np.int64]
+    weights: csr_array  # (n, bones)
+    bones: tuple[str, ...]
+
+
+class Clearing:
+    """Keeps the hands of one person out of the body, and the right hand out of the left arm.
+
+    The head counts as it is at rest, whatever way it is turned.
+    """
+
+    def __init__(self, poser: Poser) -> None:
+        """Find the skin that hands must not go into."""
+        self._poser = poser
+        rig = poser.rig
+        triangles = load_body_data().groups["body"]
+        self._normals = vertex_normals(rig.vertices, triangles)
+        skin = np.unique(triangles)
+        share = arm_share(rig)
+        self._trunk = _Skin(*(field[skin[share[skin] < 0.3]] for field in (rig.vertices, self._normals)))
+        self._trunk.places[:] += _CLOTH * self._trunk.normals * (self._trunk.places[:, 2:] < self._collar())
+        self._tree = cKDTree(self._trunk.places)
+        self._limbs = {side: self._limb(side, skin) for side in SIDES}
+
+    def cleared(self, arms: Mapping[str, ArmPose]) -> dict[str, ArmPose]:
+        """Move hands off what they are in, the shortest way; they keep their turn and shape."""
+        left = self._out_of(arms["L"], "L", ())
+        return {"R": self._out_of(arms["R"], "R", (self._skin("L", left),)), "L": left}
+
+    def depth(self, arms: Mapping[str, ArmPose]) -> float:
+        """Tell how far a hand is in the body, or the right one in the left arm, at most [m]."""
+        left = self._skin("L", arms["L"])
+        right = self._skin("R", arms["R"])
+        found = [self._inside(left.places, self._trunk, self._tree)]
+        found += [self._inside(right.places, self._trunk, self._tree)]
+        found += [self._inside(right.places, left, cKDTree(left.places))]
+        return max(float(np.linalg.norm(move)) for move in found)
+
+    def _out_of(self, pose: ArmPose, side: str, others: tuple[_Skin, ...]) -> ArmPose:
+        obstacles = [(self._trunk, self._tree), *((other, cKDTree(other.places)) for other in others)]
+        for _ in range(_ROUNDS):
+            mine = self._skin(side, pose).places
+            moves = [self._inside(mine, *obstacle) for obstacle in obstacles]
+            move = max(moves, key=lambda one: float(one @ one))
+            if move @ move < _ENOUGH**2:
+                break
+            pose = replace(pose, wrist=pose.wrist + move)
+        return pose
+
+    @staticmethod
+    def _inside(points: FloatArray, skin: _Skin, tree: cKDTree) -> FloatArray:
+        """Give the move that takes points out of a skin: as far as the deepest, the way most of them go."""
+        _, nearest = tree.query(points)
+        normals = skin.normals[nearest]
+        depths = -((points - skin.places[nearest]) * normals).sum(axis=1)
+        depths = np.maximum(depths, 0.0)
+        way = depths @ normals
+        length = float(np.linalg.norm(way))
+        if length < 1e-9:
+            return np.zeros(3)
+        move: FloatArray = depths.max() * way / length
+        return move
+
+    def _collar(self) -> float:
+        return float(self._poser.rig.head("neck01")[2])
+
+    def _limb(self, side: str, skin: NDArray[np.int64]) -> _Limb:
+        rig = self._poser.rig
+        bones = tuple(name for name in load_body_data().bones if name.endswith(f".{side}"))
+        bones = tuple(name for name in bones if name.startswith(_HAND))
+        columns = rig.weights[:, [rig.bone(name) for name in bones]]
+        share = np.asarray(columns.sum(axis=1)).ravel()
+        vertices = skin[share[skin] > 0.99]
+        return _Limb(vertices, csr_array(columns[vertices]), bones)
+
+    def _skin(self, side: str, pose: ArmPose) -> _Skin:
+        """Give the skin of forearm and hand in a pose, in the axes of the chest."""
+        vertices, weights, bones = self._limbs[side]
+        _, placed = self._poser.arm_bones(side, pose)
+        transforms = np.array([placed[name][:3] for name in bones])
+        blended = (weights @ transforms.reshape(-1, 12)).reshape(-1, 3, 4)
+        at_rest = self._poser.rig.vertices[vertices]
+        places = np.einsum("nij,nj->ni", blended[:, :, :3], at_rest) + blended[:, :, 3]
+        normals = np.einsum("nij,nj->ni", blended[:, :, :3], self._normals[vertices])
+        return _Skin(places, normals)
