@@ -31,6 +31,7 @@ setup(
             "capture_scores = teo_lut_executor.capture_cli:scores_main",
             "executor_node = teo_lut_executor.executor_node:main",
             "lut = teo_lut_executor.lut_cli:main",
+            "perform_scores = teo_lut_executor.perform_cli:main",
             "plan = teo_lut_executor.plan_cli:main",
         ],
     },

@@ -72,13 +72,14 @@ class Key:
         move: how long it takes to get there [s].
         hold: how long it stays [s].
         arc: by how much hands come forwards on the way, of the length of the way.
+        bulge: by how much the hands' way swings out in its middle [m, for an arm of 0.53 m].
         place: forwards and to the left [m].
         heading: turned to the left [rad].
         lean: see `BodyPose`.
         head: see `BodyPose`.
         step: the foot, "R" or "L", that is lifted on the way, if one is.
         face: facial actions.
-        through: goes on without a stop; there is no hold then, and no arc.
+        through: goes on without a stop; there is no hold then, no arc and no bulge.
         keep_out: hands go round the body, and the right hand round the left arm, instead of through them.
     """
 
@@ -87,6 +88,7 @@ class Key:
     move: float = 0.45
     hold: float = 0.15
     arc: float = 0.12
+    bulge: Vector = (0.0, 0.0, 0.0)
     place: tuple[float, float] = (0.0, 0.0)
     heading: float = 0.0
     lean: Vector = (0.0, 0.0, 0.0)
@@ -104,6 +106,12 @@ class KeyResolver:
         self._poser = poser
         self._places = Places(poser.rig)
         self._scale = (poser.arms["R"].upper + poser.arms["R"].fore) / _ARM_LENGTH
+
+    def swung_out(self, side: str, bulge: Vector) -> FloatArray:
+        """Give a hand's `Key.bulge` in the axes of the body [m]. Shape (3,)."""
+        outwards = np.array([1.0, -1.0 if side == "R" else 1.0, 1.0])
+        way: FloatArray = self._scale * np.array(bulge) * outwards
+        return way
 
     def arm(self, side: str, key: ArmKey, other: ArmPose | None) -> ArmPose:
         """Resolve one arm.

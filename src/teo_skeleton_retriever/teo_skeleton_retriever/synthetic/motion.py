@@ -63,7 +63,7 @@ class Motion:
             SyntheticError: a place, point or shape that does not exist.
         """
         self._poser = poser
-        resolver = KeyResolver(poser)
+        self._resolver = resolver = KeyResolver(poser)
         self._stages: list[_Stage] = []
         now = 0.0
         for key in keys:
@@ -152,16 +152,17 @@ class Motion:
             }
         share = minimum_jerk(min(1.0, max(0.0, (time - stage.start) / stage.key.move)))
         return share, {
-            side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key.arc) for side in SIDES
+            side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key) for side in SIDES
         }
 
-    def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, arc: float) -> ArmPose:
+    def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, key: Key) -> ArmPose:
         """Go from one pose of an arm to another; the forearm rolls and the wrist bends as joints do."""
         if share in (0.0, 1.0):
             return end if share else start
         way: FloatArray = end.wrist - start.wrist
-        bulge = 4.0 * share * (1.0 - share) * arc * float(np.linalg.norm(way))
-        return self._between(side, start, end, share, start.wrist + share * way + np.array([bulge, 0.0, 0.0]))
+        forwards = np.array([key.arc * float(np.linalg.norm(way)), 0.0, 0.0])
+        bulge = 4.0 * share * (1.0 - share) * (forwards + self._resolver.swung_out(side, key.bulge))
+        return self._between(side, start, end, share, start.wrist + share * way + bulge)
 
     def _between(self, side: str, start: ArmPose, end: ArmPose, share: float, wrist: FloatArray) -> ArmPose:
         arm, poser = self._poser.arms[side], self._poser

@@ -63,7 +63,7 @@ class Places:
             "forehead": self._front(eyes[2] + 0.45 * face),
             "hip": hips,
             "throat": self._front(eyes[2] - 1.35 * face),
-            "upper_chest": self._front(shoulders[2] - 0.08 * trunk),
+            "upper_chest": self._front(shoulders[2] - 0.10 * trunk),
             "crown": self._hit(eyes - [0.06, 0.0, 0.0], (0.0, 0.0, 1.0)),
         }
         # Beside the middle, on the left.
@@ -79,7 +79,7 @@ class Places:
                 np.array([left[0], -0.6 * half_shoulders, left[2] - 0.03 * trunk]), (1.0, 0.0, 0.0)
             ),
             "other_chest": self._hit(
-                np.array([left[0], -0.35 * half_shoulders, left[2] - 0.17 * trunk]), (1.0, 0.0, 0.0)
+                np.array([left[0], -0.2 * trunk, left[2] - 0.20 * trunk]), (1.0, 0.0, 0.0)
             ),
         }
         self._left: dict[str, FloatArray] = middle | aside

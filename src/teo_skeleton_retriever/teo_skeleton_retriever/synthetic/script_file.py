@@ -96,7 +96,10 @@ def _first_error(error: ValidationError) -> tuple[list[int | str], str]:
     found = []
     for one in error.errors():
         where = [part for part in one["loc"] if part not in _UNIONS and "[" not in str(part)]
-        found.append((where, str(one["msg"]).removeprefix("Value error, ")))
+        expected = str(one["msg"]).removeprefix("Value error, ")
+        if isinstance(one["input"], (str, int, float)) and "got" not in expected:
+            expected = f"{expected}; got {one['input']!r}"
+        found.append((where, expected))
     return max(found, key=lambda one: len(one[0]))
 
 

@@ -82,6 +82,8 @@ class ShapeText(BaseModel):
     )
     thumb: Annotated[str, _one_of(*THUMBS)] | ThumbText = Field(description="By name or in full.")
 
+    thumb_bent: Bend = Field(0.0, description="By how much its two outer joints are bent further [deg].")
+
     def shape(self) -> HandShape:
         """Give the shape."""
         thumb = self.thumb
@@ -90,7 +92,12 @@ class ShapeText(BaseModel):
         else:
             ways, angles = np.array([thumb.points, thumb.bends]), np.radians(thumb.flexion)
         flexion = np.radians([getattr(self, finger) for finger in FINGERS])
-        return HandShape(flexion, np.radians(np.array(self.spread, dtype=float)), ways, angles)
+        return HandShape(
+            flexion,
+            np.radians(np.array(self.spread, dtype=float)),
+            ways,
+            angles + math.radians(self.thumb_bent),
+        )
 
 
 class SwingText(BaseModel):
@@ -158,7 +165,7 @@ class KeyText(BaseModel):
     left: ArmText | Hanging | None = None
     move: Annotated[float, Field(gt=0.0, le=60.0)] = 0.45
     hold: Seconds = 0.0
-    arc: Annotated[float, Field(ge=-1.0, le=1.0)] = 0.0
+    bulge: Annotated[tuple[Metres, Metres, Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
     through: bool = False
     head: Angles | None = Field(None, description="Turned left, bowed, tilted left [deg].")
     lean: Angles | None = Field(None, description="Of the trunk: forwards, left, turned left [deg].")
@@ -166,8 +173,8 @@ class KeyText(BaseModel):
 
     @model_validator(mode="after")
     def _goes_on(self) -> Self:
-        if self.through and (self.hold or self.arc):
-            raise ValueError("expected neither hold nor arc where hands go through")
+        if self.through and (self.hold or any(self.bulge)):
+            raise ValueError("expected neither hold nor bulge where hands go through")
         return self
 
     def key(self, before: Key, hanging: ArmKey) -> Key:
@@ -188,7 +195,8 @@ class KeyText(BaseModel):
             left=arm(self.left),
             move=self.move,
             hold=self.hold,
-            arc=self.arc,
+            arc=0.0,
+            bulge=self.bulge,
             through=self.through,
             head=angles(self.head, before.head),
             lean=angles(self.lean, before.lean),
