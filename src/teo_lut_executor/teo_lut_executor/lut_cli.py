@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_lut_executor.lut import Lut, LutError, Sign, default_lut_directory
+from teo_lut_executor.lut_capture_cli import capture
 from teo_lut_executor.lut_exchange_cli import export
 from teo_lut_executor.sign import sign_warnings
 from teo_lut_executor.sign_file import format_sign
@@ -24,6 +25,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command()(capture)
 app.command()(export)
 
 Directory = Annotated[

@@ -37,6 +37,9 @@ _LEAVES, _RETURNS = 0.20, 0.16
 """A hand this far from rest has left it; one this near has returned: 10 and 8 cm. Hands at rest sway by 3."""
 _LEAST_WAY = 0.35
 """A hand that gets no farther than this from rest was no sign: 18 cm, a scratch or a shift of weight."""
+_WITHIN = 0.6
+"""Share of the greatest distance from rest: a recording that begins with hands farther out begins within a
+sign."""
 _FAR = 0.85
 """Share of the greatest distance from rest: where nothing slows down, the sign is what lies beyond it."""
 
@@ -106,8 +109,12 @@ def find_signs(track: SkeletonTrack) -> tuple[SignSpan, ...]:
     return tuple(spans)
 
 
-def the_sign(track: SkeletonTrack) -> SignSpan:
+def the_sign(track: SkeletonTrack, *, offset: float = 0.0) -> SignSpan:
     """The one sign of a smoothed track.
+
+    Args:
+        track: The person.
+        offset: What is added to times in messages, where the track is a part of a recording [s].
 
     Raises:
         LutError: "no_motion", "several_signs" or "too_long", naming where things are.
@@ -120,13 +127,15 @@ def the_sign(track: SkeletonTrack) -> SignSpan:
             f"{100.0 * _LEAST_WAY * _reach(track):.0f} cm from it within {track.times[-1]:.1f} s",
         )
     if len(spans) > 1:
-        where = "; ".join(f"--start {span.leaves:.2f} --end {span.returns:.2f}" for span in spans)
+        where = "; ".join(
+            f"--start {span.leaves + offset:.2f} --end {span.returns + offset:.2f}" for span in spans
+        )
         raise LutError(
             "several_signs", f"{track.source}: expected one sign, got {len(spans)}. Take one: {where}"
         )
     span = spans[0]
     if span.duration > LONGEST_SIGN:
-        pauses = ", ".join(f"{pause:.2f}" for pause in span.pauses) or "no time"
+        pauses = ", ".join(f"{pause + offset:.2f}" for pause in span.pauses) or "no time"
         raise LutError(
             "too_long",
             f"{track.source}: expected a sign of at most {LONGEST_SIGN:g} s, got hands that are away from "
@@ -190,8 +199,13 @@ def _span(track: SkeletonTrack, away: Mapping[str, Array], first: int, last: int
     ]
     times, speed = track.times, _speed(track, sides)[inside]
     start, end = _arrival(speed), len(speed) - 1 - _arrival(speed[::-1])
+    # A recording that was cut there, while the hands were away, begins or ends with the stroke.
+    lead = np.nan_to_num(away[max(far, key=lambda side: far[side])][inside])
+    if first == 0 and lead[0] > _WITHIN * lead.max():
+        start = 0
+    if last == len(times) - 1 and lead[-1] > _WITHIN * lead.max():
+        end = len(lead) - 1
     if start > end:
-        lead = np.nan_to_num(away[max(far, key=lambda side: far[side])][inside])
         beyond = np.flatnonzero(lead >= _FAR * lead.max())
         start, end = int(beyond[0]), int(beyond[-1])
     start, end = _at_least(times[inside], start, end)
@@ -234,11 +248,20 @@ def _arrival(speed: Array) -> int:
 
 
 def _dips(speed: Array) -> list[int]:
-    """Where a hand slows down between two movements: the slowest moment of each dip."""
-    if not len(speed):
-        return []
-    slow = speed < max(_STILL, _DIP * float(speed.max()))
-    return [first + int(np.argmin(speed[first : last + 1])) for first, last in runs(slow)]
+    """Where a hand slows down clearly between two faster movements: the slowest moment of each dip."""
+    found: list[int] = []
+    fastest, slowest = 0.0, -1
+    for index, value in enumerate(speed.tolist()):
+        if slowest < 0:  # in a movement
+            fastest = max(fastest, value)
+            if fastest > _SLOW and value < _DIP * fastest:
+                slowest = index
+        elif value < speed[slowest]:
+            slowest = index
+        elif value > max(_SLOW, float(speed[slowest]) / _DIP):
+            found.append(slowest)
+            fastest, slowest = value, -1
+    return found
 
 
 def _at_least(times: Array, start: int, end: int) -> tuple[int, int]:
