@@ -15,7 +15,7 @@ import yaml
 from numpy.typing import NDArray
 
 from teo_lut_executor.score.directions import direction, displacement
-from teo_lut_executor.score.performance_places import person_place, person_way
+from teo_lut_executor.score.performance_places import person_place
 from teo_lut_executor.score.performance_shapes import FINGERS, person_shape
 from teo_lut_executor.score.places import split_place
 from teo_lut_executor.score.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
@@ -125,8 +125,8 @@ def _keys(score: Score) -> Iterator[dict[str, Any]]:
         if step.head is not None:
             key["head"] = [-step.head.turn, step.head.bow, 0.0]
         if step.arc is not None:
-            name, _ = split_place(hands["right"].place)
-            key["bulge"] = person_way(name, 0.01 * displacement(step.arc))
+            x, y, z = (0.01 * displacement(step.arc)).tolist()
+            key["bulge"] = [x, -y, z]
         movement = [*_circle(step.circle, hands), *_wiggle(step.wiggle, hands)]
         ([key, *movement])[-1]["hold"] = step.hold
         yield key

@@ -1,8 +1,9 @@
 """Places of articulation on a person: what `places.py` has for TEO, in the words of the synthetic signer.
 
 Places on the body keep their names, so far as both have names; those in the air are given from the part of
-the body that they are before. A person's shoulders are 0.6 times as far apart as TEO's, measured in arms:
-what TEO does to the side before its trunk, a person does nearer to the middle.
+the body that they are before. Arms, hands and heads of person and robot are of one size, so centimetres are
+centimetres; but TEO's shoulders are nearly twice as far apart, so what it does farther aside than its hands
+are long is nearer to the middle on a person.
 """
 
 from __future__ import annotations
@@ -12,12 +13,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_lut_executor.score.places import OTHER_HAND
+from teo_lut_executor.score.places import OTHER_HAND, find_place
 
 Array = NDArray[np.float64]
 
-_TRUNK, _HEAD = 0.6, 0.85
-"""What is to the side on TEO, on a person; the head's width is nearer to a person's than the shoulders'."""
+_ALIKE = 0.10
+"""[m] From the middle: hands that meet or cross are as far apart on both."""
+_BEYOND = 0.45
+"""What is farther aside on TEO, on a person: the shoulder at 0.345 m is a person's at 0.21 m."""
 
 
 class PersonPlace(NamedTuple):
@@ -26,40 +29,44 @@ class PersonPlace(NamedTuple):
     Attributes:
         at: Place of the synthetic signer's body.
         offset: From there: forwards, outwards, up [m, for an arm of 0.53 m].
-        aside: By what offsets to the side are multiplied.
     """
 
     at: str
-    offset: tuple[float, float, float]
-    aside: float
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 _PLACES = {
-    "head_top": PersonPlace("crown", (0.0, 0.02, 0.0), _HEAD),
-    "forehead": PersonPlace("forehead", (0.0, 0.01, 0.0), _HEAD),
-    "temple": PersonPlace("temple", (0.0, 0.0, 0.0), _HEAD),
-    "eye": PersonPlace("eye", (0.0, 0.0, 0.0), _HEAD),
-    "nose": PersonPlace("nose", (0.0, 0.0, 0.0), _HEAD),
-    "ear": PersonPlace("ear", (0.0, 0.0, 0.0), _HEAD),
-    "cheek": PersonPlace("cheek", (0.0, 0.0, 0.0), _HEAD),
-    "mouth": PersonPlace("mouth", (0.0, 0.0, 0.0), _HEAD),
-    "mouth_corner": PersonPlace("mouth_corner", (0.0, 0.0, 0.0), _HEAD),
-    "chin": PersonPlace("chin", (0.0, 0.0, 0.0), _HEAD),
-    "throat": PersonPlace("throat", (0.0, 0.0, 0.0), _HEAD),
-    "shoulder": PersonPlace("shoulder", (0.0, 0.0, 0.0), _TRUNK),
-    "other_shoulder": PersonPlace("other_shoulder", (0.0, 0.0, 0.0), _TRUNK),
-    "upper_chest": PersonPlace("upper_chest", (0.0, 0.03, 0.0), _TRUNK),
-    "chest": PersonPlace("sternum", (0.0, 0.01, 0.0), _TRUNK),
-    "other_chest": PersonPlace("other_chest", (0.0, 0.0, 0.0), _TRUNK),
-    "belly": PersonPlace("belly", (0.0, 0.0, 0.0), _TRUNK),
-    "space": PersonPlace("sternum", (0.215, 0.06, 0.01), _TRUNK),
-    "low_space": PersonPlace("belly", (0.235, 0.07, 0.01), _TRUNK),
-    "middle_space": PersonPlace("sternum", (0.215, 0.0, 0.01), _TRUNK),
-    "shoulder_space": PersonPlace("shoulder", (0.26, 0.02, 0.03), _TRUNK),
-    "high_space": PersonPlace("shoulder", (0.30, 0.03, 0.18), _TRUNK),
-    "face_space": PersonPlace("mouth", (0.215, 0.015, -0.01), _HEAD),
-    "beside_head": PersonPlace("ear", (0.10, 0.10, 0.03), _HEAD),
+    "head_top": PersonPlace("crown", (0.0, 0.02, 0.0)),
+    "forehead": PersonPlace("forehead", (0.0, 0.01, 0.0)),
+    "temple": PersonPlace("temple"),
+    "eye": PersonPlace("eye"),
+    "nose": PersonPlace("nose"),
+    "ear": PersonPlace("ear"),
+    "cheek": PersonPlace("cheek"),
+    "mouth": PersonPlace("mouth"),
+    "mouth_corner": PersonPlace("mouth_corner"),
+    "chin": PersonPlace("chin"),
+    "throat": PersonPlace("throat"),
+    "shoulder": PersonPlace("shoulder"),
+    "other_shoulder": PersonPlace("other_shoulder"),
+    "upper_chest": PersonPlace("upper_chest", (0.0, 0.04, 0.0)),
+    "chest": PersonPlace("sternum", (0.0, 0.02, 0.0)),
+    "other_chest": PersonPlace("other_chest"),
+    "belly": PersonPlace("belly"),
+    "space": PersonPlace("sternum", (0.215, 0.10, 0.01)),
+    "low_space": PersonPlace("belly", (0.235, 0.11, 0.01)),
+    "middle_space": PersonPlace("sternum", (0.215, 0.0, 0.01)),
+    "shoulder_space": PersonPlace("shoulder", (0.26, 0.03, 0.03)),
+    "high_space": PersonPlace("shoulder", (0.30, 0.03, 0.18)),
+    "face_space": PersonPlace("mouth", (0.215, 0.02, -0.01)),
+    "beside_head": PersonPlace("ear", (0.10, 0.11, 0.03)),
 }
+
+
+def _aside(outwards: float) -> float:
+    """How far from the middle a person's hand is that is so far on TEO [m]."""
+    size = abs(outwards)
+    return float(np.copysign(min(size, _ALIKE) + _BEYOND * max(0.0, size - _ALIKE), outwards))
 
 
 def person_place(name: str, offset: Array) -> tuple[str, list[float]]:
@@ -72,14 +79,14 @@ def person_place(name: str, offset: Array) -> tuple[str, list[float]]:
     Returns:
         The place of the synthetic signer, and the offset from it: forwards, outwards, up [m].
     """
-    place = PersonPlace(name, (0.0, 0.0, 0.0), 1.0) if name in OTHER_HAND else _PLACES[name]
-    forwards, outwards, up = place.offset
     x, y, z = offset.tolist()
-    return place.at, [round(forwards + x, 4), round(outwards - place.aside * y, 4), round(up + z, 4)]
+    if name in OTHER_HAND:
+        return name, _rounded(x, -y, z)
+    at, (forwards, outwards, up) = _PLACES[name]
+    middle = -float(find_place(name).point[1])
+    return at, _rounded(forwards + x, outwards + _aside(middle - y) - _aside(middle), up + z)
 
 
-def person_way(name: str, way: Array) -> list[float]:
-    """A way on TEO, from a place of `places.NAMES` on, as a person goes it: forwards, outwards, up [m]."""
-    aside = 1.0 if name in OTHER_HAND else _PLACES[name].aside
-    x, y, z = way.tolist()
-    return [round(x, 4), round(-aside * y, 4), round(z, 4)]
+def _rounded(*ways: float) -> list[float]:
+    """To a tenth of a millimetre, as texts have it."""
+    return [round(way, 4) for way in ways]

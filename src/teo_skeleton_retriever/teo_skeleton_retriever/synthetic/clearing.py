@@ -23,6 +23,8 @@ _ROUNDS = 12
 """Times that a hand is moved and looked at again; after four or five nothing moves."""
 _ENOUGH = 5e-4
 """Skin that is so little inside other skin touches it [m]."""
+_FAR_APART = 0.7
+"""Wrists that are so far apart cannot have arms in each other [m]."""
 _CLOTH = 0.006
 """How far clothes stand off the trunk's skin [m]; see `appearance.py`."""
 
@@ -41,7 +43,7 @@ class _Limb(NamedTuple):
 
 
 class Clearing:
-    """Keeps the hands of one person out of the body, and the right hand out of the left arm.
+    """Keeps the hands of one person out of the body, and the arms out of each other; both give way.
 
     The head counts as it is at rest, whatever way it is turned.
     """
@@ -58,31 +60,46 @@ class Clearing:
         self._trunk.places[:] += _CLOTH * self._trunk.normals * (self._trunk.places[:, 2:] < self._collar())
         self._tree = cKDTree(self._trunk.places)
         self._limbs = {side: self._limb(side, skin) for side in SIDES}
+        self._known: dict[str, tuple[ArmPose, ArmPose]] = {}
 
     def cleared(self, arms: Mapping[str, ArmPose]) -> dict[str, ArmPose]:
         """Move hands off what they are in, the shortest way; they keep their turn and shape."""
-        left = self._out_of(arms["L"], "L", ())
-        return {"R": self._out_of(arms["R"], "R", (self._skin("L", left),)), "L": left}
+        kept = {side: self._out_of_trunk(side, arms[side]) for side in SIDES}
+        if np.linalg.norm(kept["R"].wrist - kept["L"].wrist) > _FAR_APART:
+            return kept
+        for _ in range(_ROUNDS):
+            way = self._apart(kept)
+            if way @ way < _ENOUGH**2:
+                break
+            kept = {
+                side: self._out_of_trunk(side, replace(kept[side], wrist=kept[side].wrist + share * way))
+                for side, share in (("R", 0.5), ("L", -0.5))
+            }
+        return kept
 
     def depth(self, arms: Mapping[str, ArmPose]) -> float:
-        """Tell how far a hand is in the body, or the right one in the left arm, at most [m]."""
-        left = self._skin("L", arms["L"])
-        right = self._skin("R", arms["R"])
-        found = [self._inside(left.places, self._trunk, self._tree)]
-        found += [self._inside(right.places, self._trunk, self._tree)]
-        found += [self._inside(right.places, left, cKDTree(left.places))]
-        return max(float(np.linalg.norm(move)) for move in found)
+        """Tell how far a hand is in the body, or in the other arm, at most [m]."""
+        found = [self._inside(self._skin(side, arms[side]).places, self._trunk, self._tree) for side in SIDES]
+        return max(float(np.linalg.norm(move)) for move in (*found, self._apart(arms)))
 
-    def _out_of(self, pose: ArmPose, side: str, others: tuple[_Skin, ...]) -> ArmPose:
-        obstacles = [(self._trunk, self._tree), *((other, cKDTree(other.places)) for other in others)]
+    def _out_of_trunk(self, side: str, pose: ArmPose) -> ArmPose:
+        if side in self._known and self._known[side][0] is pose:  # a hand that hangs, or holds
+            return self._known[side][1]
+        kept = pose
         for _ in range(_ROUNDS):
-            mine = self._skin(side, pose).places
-            moves = [self._inside(mine, *obstacle) for obstacle in obstacles]
-            move = max(moves, key=lambda one: float(one @ one))
+            move = self._inside(self._skin(side, kept).places, self._trunk, self._tree)
             if move @ move < _ENOUGH**2:
                 break
-            pose = replace(pose, wrist=pose.wrist + move)
-        return pose
+            kept = replace(kept, wrist=kept.wrist + move)
+        self._known[side] = (pose, kept)
+        return kept
+
+    def _apart(self, arms: Mapping[str, ArmPose]) -> FloatArray:
+        """Give the way that the right hand must go from the left one. Shape (3,)."""
+        right, left = (self._skin(side, arms[side]) for side in SIDES)
+        forth = self._inside(right.places, left, cKDTree(left.places))
+        back = self._inside(left.places, right, cKDTree(right.places))
+        return forth if forth @ forth > back @ back else -back
 
     @staticmethod
     def _inside(points: FloatArray, skin: _Skin, tree: cKDTree) -> FloatArray:

@@ -80,7 +80,7 @@ class Key:
         step: the foot, "R" or "L", that is lifted on the way, if one is.
         face: facial actions.
         through: goes on without a stop; there is no hold then, no arc and no bulge.
-        keep_out: hands go round the body, and the right hand round the left arm, instead of through them.
+        keep_out: hands go round the body and each other instead of through them.
     """
 
     right: ArmKey | None = None
@@ -113,13 +113,14 @@ class KeyResolver:
         way: FloatArray = self._scale * np.array(bulge) * outwards
         return way
 
-    def arm(self, side: str, key: ArmKey, other: ArmPose | None) -> ArmPose:
+    def arm(self, side: str, key: ArmKey, other: ArmPose | None, *, outside: bool = False) -> ArmPose:
         """Resolve one arm.
 
         Args:
             side: "R" or "L".
             key: what it does.
             other: what the other arm does, if its place is asked for.
+            outside: keep the elbow out of the trunk.
 
         Raises:
             SyntheticError: a place, point or shape that does not exist.
@@ -137,7 +138,7 @@ class KeyResolver:
         arm = self._poser.arms[side]
         _, shoulder = self._poser.girdle(side, wrist)
         wrist = arm.reachable(shoulder, wrist)
-        swivel = arm.easiest_swivel(shoulder, wrist, rotation) + key.swivel
+        swivel = arm.easiest_swivel(shoulder, wrist, rotation, outside=outside) + key.swivel
         return self._swung(side, ArmPose(wrist, rotation, swivel, shape), key.swing)
 
     def _swung(self, side: str, pose: ArmPose, swing: Swing) -> ArmPose:

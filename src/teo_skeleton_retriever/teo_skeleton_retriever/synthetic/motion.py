@@ -74,7 +74,8 @@ class Motion:
             for side in sorted(SIDES, key=lambda side: (wanted[side] or ArmKey()).at in OTHER_HAND):
                 arm = wanted[side]
                 if arm is not None:
-                    arms[side] = resolver.arm(side, arm, arms.get("L" if side == "R" else "R"))
+                    other = arms.get("L" if side == "R" else "R")
+                    arms[side] = resolver.arm(side, arm, other, outside=key.keep_out)
             stage = _Stage(key, now - (0.0 if before else key.move), arms, self._feet(poser, key))
             self._stages.append(stage)
             now = stage.end
@@ -157,7 +158,7 @@ class Motion:
 
     def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, key: Key) -> ArmPose:
         """Go from one pose of an arm to another; the forearm rolls and the wrist bends as joints do."""
-        if share in (0.0, 1.0):
+        if share in (0.0, 1.0) or start is end:
             return end if share else start
         way: FloatArray = end.wrist - start.wrist
         forwards = np.array([key.arc * float(np.linalg.norm(way)), 0.0, 0.0])
