@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.highlevel import AnyReader
 
 from teo_description.rendering import Image, film_strip, render_pose, save_png, write_video
+from teo_lut_executor.capture.colour_images import colour_images
 from teo_lut_executor.capture.recording import Recording, skeletons_of
 from teo_lut_executor.capture.sign_capture import Captured, Take
-from teo_lut_executor.capture.skeleton_bag import TYPE
 from teo_lut_executor.lut_pictures import FRAME_RATE, FRONT, pose_at
 
 Array = NDArray[np.float64]
@@ -77,7 +75,13 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording, cach
 
 
 def _drawer(take: Take, recording: Recording, cache: Path) -> Drawer:
-    images = _colour_images(recording, skeletons_of(recording, cache), take)
+    images = colour_images(
+        recording.path,
+        skeletons_of(recording, cache),
+        start=take.span.start,
+        end=take.span.start + float(take.track.times[-1]),
+        size=_SIZE,
+    )
     if not images:
         return lambda time: draw_person(take, time)
     times = np.array([when for when, _ in images])
@@ -107,44 +111,3 @@ def _lines(
                 for _, y, z in ends
             ]
             cv2.line(picture, pixels[0], pixels[1], colour, width, cv2.LINE_AA)
-
-
-def _colour_images(recording: Recording, skeletons: Path, take: Take) -> list[tuple[float, Image]]:
-    """Colour images during the stroke, by the time from its beginning [s]; none where the bag has none."""
-    from teo_skeleton_retriever.bag_reader import Bag
-    from teo_skeleton_retriever.errors import RetrieverError
-    from teo_skeleton_retriever.image_messages import color_of, stamp_of
-    from teo_skeleton_retriever.topic_choice import choose_topics
-
-    bag = Bag(recording.path)
-    try:
-        topic = choose_topics(bag).color
-    except RetrieverError:
-        return []
-    begin = _first_stamp(skeletons) * 1e-9 + take.span.start
-    images: list[tuple[float, Image]] = []
-    for found in bag.messages([topic]):
-        time = stamp_of(found.message) * 1e-9 - begin
-        if -0.1 <= time <= take.track.times[-1] + 0.1:
-            images.append((time, _fitted(color_of(found.message))))
-    return images
-
-
-def _first_stamp(skeletons: Path) -> int:
-    """Stamp from which the times of a track count [ns]."""
-    with AnyReader([skeletons]) as reader:
-        connections = [one for one in reader.connections if one.msgtype == TYPE]
-        connection, _, data = next(reader.messages(connections=connections))
-        message: Any = reader.deserialize(data, connection.msgtype)
-    return int(message.header.stamp.sec) * 1_000_000_000 + int(message.header.stamp.nanosec)
-
-
-def _fitted(image: Image) -> Image:
-    """The whole image in the size of a picture, with paper beside it where the shapes differ."""
-    height, width = image.shape[:2]
-    share = min(_SIZE[0] / width, _SIZE[1] / height)
-    small = cv2.resize(image, (round(width * share), round(height * share)), interpolation=cv2.INTER_AREA)
-    picture = np.full((_SIZE[1], _SIZE[0], 3), _PAPER, np.uint8)
-    top, left = (_SIZE[1] - small.shape[0]) // 2, (_SIZE[0] - small.shape[1]) // 2
-    picture[top : top + small.shape[0], left : left + small.shape[1]] = small
-    return picture

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -51,8 +52,6 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
                 people.append(message.skeletons)
             if not people:
                 raise LutError("no_skeletons", f"{bag.name}: expected messages on {chosen}, got none")
-            skeletons = [_person(found, signer) for found in people]
-            parts = {name: _keypoints(skeletons, name, size) for name, size in _PARTS.items()}
     except LutError:
         raise
     except Exception as error:  # the library raises what unpacking wrong bytes happens to raise
@@ -62,16 +61,42 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
             f"{type(error).__name__} {error}. Of a bag that was cut off, `ros2 run teo_skeleton_retriever "
             "retrieve` reads what is left of the images",
         ) from error
+    recorded = None if rendered else _day(stamps[0])
+    return track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
+
+
+def track_of_people(
+    stamps: Sequence[float],
+    people: Sequence[Any],
+    *,
+    source: str,
+    signer: int | None = None,
+    recorded: str | None = None,
+) -> SkeletonTrack:
+    """A person's track from messages, wherever they come from.
+
+    Args:
+        stamps: Of each message [s].
+        people: `skeletons` of each `SkeletonArray`.
+        source: Name of where they come from.
+        signer: Id of the person; None follows whoever is marked as the signer.
+        recorded: Day of the recording if it is known.
+
+    Raises:
+        LutError: "no_person", "no_torso", "bad_stamps" or "unreadable_bag".
+    """
+    skeletons = [_person(found, signer) for found in people]
     if all(skeleton is None for skeleton in skeletons):
-        raise LutError("no_person", _nobody(bag, people, signer))
+        raise LutError("no_person", _nobody(source, people, signer))
+    parts = {name: _keypoints(skeletons, name, size) for name, size in _PARTS.items()}
     return in_body_axes(
         times=np.array(stamps) - stamps[0],
         body=parts["body"],
         left_hand=parts["left_hand"],
         right_hand=parts["right_hand"],
         face=parts["face"],
-        source=bag.name,
-        recorded=None if rendered else _day(stamps[0]),
+        source=source,
+        recorded=recorded,
     )
 
 
@@ -103,11 +128,11 @@ def _person(skeletons: Any, signer: int | None) -> Any | None:
     return None
 
 
-def _nobody(bag: Path, people: list[Any], signer: int | None) -> str:
+def _nobody(source: str, people: Sequence[Any], signer: int | None) -> str:
     ids = sorted({skeleton.id for found in people for skeleton in found})
     wanted = "a person who is marked as the signer" if signer is None else f"the person with id {signer}"
     seen = f"the ids {', '.join(map(str, ids))}" if ids else "nobody"
-    return f"{bag.name}: expected {wanted} in one of {len(people)} frames, got {seen}"
+    return f"{source}: expected {wanted} in one of {len(people)} frames, got {seen}"
 
 
 def _keypoints(skeletons: list[Any], part: str, size: int) -> Keypoints:

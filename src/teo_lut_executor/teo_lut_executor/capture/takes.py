@@ -135,22 +135,29 @@ def combine(robot: Robot, motions: Sequence[RobotMotion], names: Sequence[str]) 
 
 
 def features(robot: Robot, motion: RobotMotion) -> Array:
-    """What the robot shows in each frame, in units that people tell apart. Shape (n, f)."""
+    """What the robot shows in each frame, in units that people tell apart.
+
+    Returns:
+        For each hand its place and two of its directions, then the bend of each axis of a hand (second and
+        third number 0). Shape (n, f, 3).
+    """
     sides = _hands(motion)
     fingers = [index for index, joint in enumerate(motion.joints) if "Hand" in joint or "Finger" in joint]
     rows = []
     for pose in motion.positions:
         q = robot.configuration(dict(zip(motion.joints, pose.tolist(), strict=True)))
-        row = [pose[fingers] / _TURN]
+        row = []
         for palm in robot.placements(q, [f"{side}_palm" for side in sides]):
             row += [palm[:3, 3] / _PLACE, palm[:3, 0] / _TURN, palm[:3, 2] / _TURN]
-        rows.append(np.concatenate(row))
+        bends = np.zeros((len(fingers), 3))
+        bends[:, 0] = pose[fingers] / _TURN
+        rows.append(np.concatenate([np.array(row), bends]))
     return np.array(rows)
 
 
 def warp(first: Array, second: Array) -> Warp:
-    """Align two motions in time. Shapes (n, f) and (k, f)."""
-    cost = np.linalg.norm(first[:, None] - second[None], axis=2) / np.sqrt(first.shape[1] / 3.0)
+    """Align two motions in time; frames are as far apart as what differs most. Shapes (n, f, 3) each."""
+    cost = np.linalg.norm(first[:, None] - second[None], axis=3).max(axis=2)
     total = np.full((len(first) + 1, len(second) + 1), np.inf)
     total[0, 0] = 0.0
     for row in range(len(first)):
