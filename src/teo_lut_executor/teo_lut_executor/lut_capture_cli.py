@@ -99,7 +99,7 @@ def capture(
     from teo_lut_executor.capture.bag_capture import Job, Settings
     from teo_lut_executor.capture.batch import find_jobs, read_manifest
     from teo_lut_executor.capture.recording import default_cache, is_bag
-    from teo_lut_executor.capture.sign_capture import Cut
+    from teo_lut_executor.capture.take import Cut
 
     try:
         table = lut or default_lut_directory()

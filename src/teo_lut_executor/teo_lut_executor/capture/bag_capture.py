@@ -10,13 +10,14 @@ from pathlib import Path
 from teo_description.robot import Robot
 from teo_lut_executor.capture.capture_picture import save_capture_film, save_capture_picture
 from teo_lut_executor.capture.recording import Recording, default_cache, open_recording, track_of
-from teo_lut_executor.capture.sign_capture import Captured, Cut, Origin, Take, capture_take, make_sign
+from teo_lut_executor.capture.sign_capture import Captured, Origin, make_sign
+from teo_lut_executor.capture.take import Cut, Take, capture_take
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign import gloss_key
 from teo_lut_executor.sign_file import read_sign, save_sign
 from teo_lut_executor.sign_schema import Handedness, Kind, Standing
 
-_DIGEST = 16
+DIGEST = 16
 """Hexadecimal digits of SHA-256 that tell one recording from another."""
 _SOURCE = re.compile(r"sha256 ([0-9a-f]{16})(, cut \S+ to \S+ s)?")
 
@@ -102,7 +103,7 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
         LutError: "exists", "not_written", or why a recording is no good. Of several takes, those that are no
             good are left out, with the reason in the entry's notes.
     """
-    _check_free(job.gloss, settings)
+    check_free(job.gloss, settings)
     recordings = [open_recording(bag) for bag in job.bags]
     takes: list[Take] = []
     warnings: list[str] = []
@@ -126,7 +127,7 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
     left_out = [f"Left out: {error.code}: {error}" for error in failed]
     origin = _origin(job, settings, recordings, left_out)
     captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind)
-    path = _save(captured, settings)
+    path = save_captured(captured, settings)
     saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out))
     return saved if settings.pictures is None else _with_picture(saved, recordings, settings)
 
@@ -144,7 +145,7 @@ def is_captured(job: Job, table: Path) -> bool:
     return _SOURCE.findall(source) == _SOURCE.findall("; ".join(wanted))
 
 
-def _check_free(gloss: str, settings: Settings) -> None:
+def check_free(gloss: str, settings: Settings) -> None:
     """Say that a gloss is taken before minutes are spent on it."""
     path = settings.table / f"{gloss_key(gloss)}.json"
     if path.exists() and not settings.replace:
@@ -166,7 +167,7 @@ def _origin(job: Job, settings: Settings, recordings: Sequence[Recording], left_
 
 
 def _named(recording: Recording, cut: Cut) -> str:
-    name = f"{recording.name}, sha256 {recording.digest[:_DIGEST]}"
+    name = f"{recording.name}, sha256 {recording.digest[:DIGEST]}"
     if cut == Cut():
         return name
     ends = (
@@ -176,7 +177,8 @@ def _named(recording: Recording, cut: Cut) -> str:
     return f"{name}, cut {ends[0]} to {ends[1]} s"
 
 
-def _save(captured: Captured, settings: Settings) -> Path:
+def save_captured(captured: Captured, settings: Settings) -> Path:
+    """Write the entry, and return where it is."""
     try:
         return save_sign(settings.table, captured.sign, replace=settings.replace)
     except OSError as error:

@@ -21,7 +21,7 @@ from typing import Any, get_args
 from teo_description.robot import Robot
 from teo_lut_executor.capture.bag_capture import Job, Settings, capture_bags, is_captured
 from teo_lut_executor.capture.recording import is_bag
-from teo_lut_executor.capture.sign_capture import Cut
+from teo_lut_executor.capture.take import Cut
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign import gloss_key
 from teo_lut_executor.sign_schema import Handedness

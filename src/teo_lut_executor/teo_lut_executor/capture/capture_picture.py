@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from teo_description.rendering import Image, film_strip, render_pose, save_png, write_video
 from teo_lut_executor.capture.colour_images import colour_images
 from teo_lut_executor.capture.recording import Recording, skeletons_of
-from teo_lut_executor.capture.sign_capture import Captured, Take
+from teo_lut_executor.capture.sign_capture import Captured
+from teo_lut_executor.capture.take import Take
 from teo_lut_executor.lut_pictures import FRAME_RATE, FRONT, pose_at
 
 Array = NDArray[np.float64]
@@ -35,13 +36,13 @@ Drawer = Callable[[float], Image]
 """Draws the demonstration at a time from the beginning of the stroke [s]."""
 
 
-def save_capture_picture(path: Path, captured: Captured, recording: Recording, cache: Path) -> None:
+def save_capture_picture(path: Path, captured: Captured, recording: Recording | None, cache: Path) -> None:
     """Draw moments of the demonstration over the same moments of the robot.
 
     Args:
         path: PNG file to write, whole or not at all.
         captured: The sign.
-        recording: The bag of the take that leads.
+        recording: The bag of the take that leads; None draws its keypoints, for there are no images.
         cache: Where skeletons found in its images are.
     """
     take, sign = captured.take, captured.sign
@@ -55,7 +56,7 @@ def save_capture_picture(path: Path, captured: Captured, recording: Recording, c
     save_png(path, film_strip(above + below, captions, columns=_MOMENTS))
 
 
-def save_capture_film(path: Path, captured: Captured, recording: Recording, cache: Path) -> int:
+def save_capture_film(path: Path, captured: Captured, recording: Recording | None, cache: Path) -> int:
     """Film demonstration and robot beside each other, at the speed of the demonstration.
 
     Returns:
@@ -74,7 +75,9 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording, cach
     return write_video(path, frames, [sign.gloss] * len(shares), frames_per_second=FRAME_RATE)
 
 
-def _drawer(take: Take, recording: Recording, cache: Path) -> Drawer:
+def _drawer(take: Take, recording: Recording | None, cache: Path) -> Drawer:
+    if recording is None:
+        return lambda time: draw_person(take, time)
     images = colour_images(
         recording.path,
         skeletons_of(recording, cache),

@@ -40,6 +40,8 @@ _LEAST_WAY = 0.35
 _WITHIN = 0.6
 """Share of the greatest distance from rest: a recording that begins with hands farther out begins within a
 sign."""
+_CUT = 0.4
+"""Where somebody chose to cut, hands farther from rest sign: 20 cm, beyond what is left of a way down."""
 _FAR = 0.85
 """Share of the greatest distance from rest: where nothing slows down, the sign is what lies beyond it."""
 
@@ -91,8 +93,16 @@ class SignSpan:
         return self.end - self.start
 
 
-def find_signs(track: SkeletonTrack) -> tuple[SignSpan, ...]:
-    """Every sign of a smoothed track, in order."""
+def find_signs(
+    track: SkeletonTrack, *, cut_start: bool = False, cut_end: bool = False
+) -> tuple[SignSpan, ...]:
+    """Every sign of a smoothed track, in order.
+
+    Args:
+        track: The person.
+        cut_start: Somebody chose where the track begins: hands that are away from rest there sign already.
+        cut_end: Likewise its end.
+    """
     reach = _reach(track)
     away = {side: _distance_from_rest(track, side, reach) for side in _ARMS}
     out = np.logical_or(*(_has_left(distance) for distance in away.values()))
@@ -105,21 +115,25 @@ def find_signs(track: SkeletonTrack) -> tuple[SignSpan, ...]:
     for first, last in runs(out):
         way = max(float(np.nanmax(distance[first : last + 1], initial=0.0)) for distance in away.values())
         if times[last] - times[first] >= _LEAST_SIGN and way >= _LEAST_WAY:
-            spans.append(_span(track, away, first, last))
+            spans.append(_span(track, away, first, last, cut=(cut_start, cut_end)))
     return tuple(spans)
 
 
-def the_sign(track: SkeletonTrack, *, offset: float = 0.0) -> SignSpan:
+def the_sign(
+    track: SkeletonTrack, *, offset: float = 0.0, cut_start: bool = False, cut_end: bool = False
+) -> SignSpan:
     """The one sign of a smoothed track.
 
     Args:
         track: The person.
         offset: What is added to times in messages, where the track is a part of a recording [s].
+        cut_start: See `find_signs`.
+        cut_end: Likewise.
 
     Raises:
         LutError: "no_motion", "several_signs" or "too_long", naming where things are.
     """
-    spans = find_signs(track)
+    spans = find_signs(track, cut_start=cut_start, cut_end=cut_end)
     if not spans:
         raise LutError(
             "no_motion",
@@ -188,7 +202,9 @@ def _has_left(distance: Array) -> Flags:
     return out
 
 
-def _span(track: SkeletonTrack, away: Mapping[str, Array], first: int, last: int) -> SignSpan:
+def _span(
+    track: SkeletonTrack, away: Mapping[str, Array], first: int, last: int, *, cut: tuple[bool, bool]
+) -> SignSpan:
     inside = slice(first, last + 1)
     far = {side: float(np.nanmax(distance[inside], initial=0.0)) for side, distance in away.items()}
     # The hand that gets farther leads; the other takes part if it is away for half of the time.
@@ -201,9 +217,9 @@ def _span(track: SkeletonTrack, away: Mapping[str, Array], first: int, last: int
     start, end = _arrival(speed), len(speed) - 1 - _arrival(speed[::-1])
     # A recording that was cut there, while the hands were away, begins or ends with the stroke.
     lead = np.nan_to_num(away[max(far, key=lambda side: far[side])][inside])
-    if first == 0 and lead[0] > _WITHIN * lead.max():
+    if first == 0 and lead[0] > (_CUT if cut[0] else _WITHIN * lead.max()):
         start = 0
-    if last == len(times) - 1 and lead[-1] > _WITHIN * lead.max():
+    if last == len(times) - 1 and lead[-1] > (_CUT if cut[1] else _WITHIN * lead.max()):
         end = len(lead) - 1
     if start > end:
         beyond = np.flatnonzero(lead >= _FAR * lead.max())

@@ -28,6 +28,11 @@ shake at, keeps 99.7 % of its way; with 30 mm it is 5.5 Hz, and it keeps 97 %.""
 
 LONGEST_FILLED = 0.4
 """[s] A keypoint that is lost for longer is not guessed: within that time a hand begins and ends a move."""
+LONGEST_KEPT = 1.2
+"""[s] So long a hand is taken to keep its shape and direction if its wrist is seen meanwhile and both are the
+same before and after: hands that hide each other hold still."""
+_SAME_SHAPE = 0.03
+"""[m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found."""
 
 _LEAST_SIGMA, _UNKNOWN_SIGMA = 0.002, 0.010
 """[m] Of truth, which says 0; of measurements that say nothing: what good keypoints have."""
@@ -51,7 +56,7 @@ class Gap:
         part: "body", "left_hand", "right_hand" or "face".
         start: [s].
         end: [s].
-        filled: Whether it is short enough that the motion before and after says what it was.
+        filled: Whether the motion before and after, and the wrist, say what it was.
     """
 
     part: Part
@@ -80,34 +85,40 @@ class Smoothed:
 
 def smooth_track(track: SkeletonTrack) -> Smoothed:
     """Smooth every keypoint of a track and fill what is lost for up to `LONGEST_FILLED`."""
-    gaps: list[Gap] = []
-    for part in PARTS:
-        gaps += find_gaps(track.times, getattr(track, part), part)
     filled = {
         part: _with_wrist(track.times, getattr(track, part), track.body.positions[:, wrist])
         for part, wrist in _WRISTS.items()
     }
     smooth: dict[str, Keypoints] = {}
+    gaps: list[Gap] = []
     for part in PARTS:
         keypoints: Keypoints = filled.get(part, getattr(track, part))
         positions = smooth_positions(track.times, keypoints.positions, keypoints.sigma)
         smooth[part] = replace(keypoints, positions=positions)
+        gaps += find_gaps(track.times, getattr(track, part), positions, part)
     return Smoothed(track=replace(track, **smooth), gaps=tuple(sorted(gaps, key=lambda gap: gap.start)))  # type: ignore[arg-type]  # parts by name
 
 
-def find_gaps(times: Array, keypoints: Keypoints, part: Part) -> list[Gap]:
-    """Times in which half or more of the keypoints that a part ever has are lost."""
-    known = seen(keypoints.positions)
+def find_gaps(times: Array, raw: Keypoints, smooth: Array, part: Part) -> list[Gap]:
+    """Times in which half or more of the keypoints that a part ever has are lost.
+
+    Args:
+        times: [s]. Shape (n,).
+        raw: As recorded.
+        smooth: Positions in which they may be filled. Shape (n, k, 3).
+        part: Name of the part.
+    """
+    known = seen(raw.positions)
     ever = known.any(axis=0)
     if not ever.any():
         return [Gap(part=part, start=float(times[0]), end=float(times[-1]), filled=False)]
     lost = known[:, ever].mean(axis=1) < 0.5
     gaps = []
     for first, last in runs(lost):
-        inside = first > 0 and last < len(times) - 1
+        guessed = seen(smooth[first : last + 1])[:, ever].mean(axis=1) >= 0.5
         # From the last image in which it was seen to the next.
         start, end = float(times[max(first - 1, 0)]), float(times[min(last + 1, len(times) - 1)])
-        gaps.append(Gap(part=part, start=start, end=end, filled=inside and end - start <= LONGEST_FILLED))
+        gaps.append(Gap(part=part, start=start, end=end, filled=bool(guessed.all())))
     return gaps
 
 
@@ -153,12 +164,18 @@ def runs(flags: Flags) -> list[tuple[int, int]]:
     return [(int(first), int(end) - 1) for first, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def _fillable(times: Array, known: Flags) -> Flags:
-    """Which lost samples lie in a gap that is short. Shape (n, k)."""
+def _fillable(times: Array, known: Flags, shape: Array | None = None) -> Flags:
+    """Which lost samples lie in a short gap, or one around which the shape is the same. Shape (n, k)."""
     filled = np.zeros_like(known)
     for column in range(known.shape[1]):
         for first, last in runs(~known[:, column]):
-            if first > 0 and last < len(times) - 1 and times[last + 1] - times[first - 1] <= LONGEST_FILLED:
+            if first == 0 or last == len(times) - 1:
+                continue
+            longest = LONGEST_FILLED
+            if shape is not None:
+                change = np.linalg.norm(shape[last + 1, column] - shape[first - 1, column])
+                longest = LONGEST_KEPT if change < _SAME_SHAPE else LONGEST_FILLED
+            if times[last + 1] - times[first - 1] <= longest:
                 filled[first : last + 1, column] = True
     return filled
 
@@ -167,8 +184,7 @@ def _with_wrist(times: Array, hand: Keypoints, wrist: Array) -> Keypoints:
     """A hand whose short gaps are filled: carried by the wrist, its shape interpolated."""
     relative = hand.positions - wrist[:, None]
     known = seen(relative)
-    lost = ~seen(hand.positions)
-    filled = _fillable(times, known) & lost & seen(wrist)[:, None]
+    filled = _fillable(times, known, relative) & ~seen(hand.positions) & seen(wrist)[:, None]
     positions, sigma = hand.positions.copy(), hand.sigma.copy()
     for column in np.flatnonzero(filled.any(axis=0)):
         here, there = known[:, column], filled[:, column]
