@@ -51,6 +51,8 @@ FINGERS = ("index", "middle", "ring", "little")
 _SHARES = (1.0, 1.0, 0.5)
 """Of the angle by which a finger goes to and fro: the last joint follows the middle one at half, as they
 share a tendon."""
+_FAR_BENT = 50.0
+"""[deg] A knuckle that is bent more has more room to open than to bend."""
 
 
 def person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:
@@ -58,16 +60,16 @@ def person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:
 
     Args:
         name: One of `handshapes.NAMES`.
-        bent: By how much fingers, or the thumb, are bent beyond the shape [deg].
+        bent: By how much fingers, or the thumb, are bent further, or opened if bent far [deg].
     """
     fingers, thumb, spread = _SHAPES[name]
-    shape: dict[str, Any] = {
-        finger: [
-            round(angle + share * bent.get(finger, 0.0), 1)
-            for angle, share in zip(bends, _SHARES, strict=True)
+    shape: dict[str, Any] = {}
+    for finger, bends in zip(FINGERS, fingers, strict=True):
+        # A folded finger cannot be folded further: it goes to and fro by opening.
+        further = bent.get(finger, 0.0) * (-1.0 if bends[0] > _FAR_BENT else 1.0)
+        shape[finger] = [
+            round(angle + share * further, 1) for angle, share in zip(bends, _SHARES, strict=True)
         ]
-        for finger, bends in zip(FINGERS, fingers, strict=True)
-    }
     shape["spread"] = list(map(float, spread))
     shape["thumb"] = thumb
     if "thumb" in bent:

@@ -13,18 +13,28 @@ from scipy.spatial import cKDTree
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.synthetic.body_data import load_body_data
+from teo_skeleton_retriever.synthetic.hand_points import hand_point
 from teo_skeleton_retriever.synthetic.places import arm_share
 from teo_skeleton_retriever.synthetic.pose import ArmPose, Poser
 from teo_skeleton_retriever.synthetic.rig import SIDES
+from teo_skeleton_retriever.synthetic.rotations import unit
 from teo_skeleton_retriever.synthetic.surface import vertex_normals
 
-_HAND = ("lowerarm", "wrist", "metacarpal", "finger")
+_HAND = ("lowerarm02", "wrist", "metacarpal", "finger")
+"""Bones of what is kept out: the hand and the lower half of the forearm. The rest follows the elbow."""
+_NEAR, _ALONG = 0.015, 0.6
+"""A point is inside a skin if it is behind the skin's nearest vertex: less than 15 mm away, as vertices are
+that far apart, or nearly straight behind it. Else it is beside the end of the skin, as at the shoulder."""
 _ROUNDS = 12
 """Times that a hand is moved and looked at again; after four or five nothing moves."""
+_EVERY = 3
+"""Of a hand's thousand vertices, every third is looked at: they are 3 mm apart."""
 _ENOUGH = 5e-4
 """Skin that is so little inside other skin touches it [m]."""
 _FAR_APART = 0.7
 """Wrists that are so far apart cannot have arms in each other [m]."""
+_TO_THE_RIGHT = np.array([0.0, -0.01, 0.0])
+"""Added to the way from the left hand to the right one: where they are one, they part to their sides [m]."""
 _CLOTH = 0.006
 """How far clothes stand off the trunk's skin [m]; see `appearance.py`."""
 
@@ -88,26 +98,44 @@ class Clearing:
         kept = pose
         for _ in range(_ROUNDS):
             move = self._inside(self._skin(side, kept).places, self._trunk, self._tree)
-            if move @ move < _ENOUGH**2:
+            depth = float(np.linalg.norm(move))
+            if depth < _ENOUGH:
                 break
-            kept = replace(kept, wrist=kept.wrist + move)
+            # Keeping to the way that it went so far, a hand does not go to and fro between nose and chin.
+            gone = kept.wrist - pose.wrist
+            way = unit(unit(move) + unit(gone)) if gone.any() else unit(move)
+            kept = replace(kept, wrist=kept.wrist + depth * way)
         self._known[side] = (pose, kept)
         return kept
 
     def _apart(self, arms: Mapping[str, ArmPose]) -> FloatArray:
         """Give the way that the right hand must go from the left one. Shape (3,)."""
-        right, left = (self._skin(side, arms[side]) for side in SIDES)
-        forth = self._inside(right.places, left, cKDTree(left.places))
-        back = self._inside(left.places, right, cKDTree(right.places))
-        return forth if forth @ forth > back @ back else -back
+        skins = {side: self._skin(side, arms[side]) for side in SIDES}
+        forth = self._inside(skins["R"].places, skins["L"], cKDTree(skins["L"].places))
+        back = self._inside(skins["L"].places, skins["R"], cKDTree(skins["R"].places))
+        depth = max(float(np.linalg.norm(forth)), float(np.linalg.norm(back)))
+        if depth == 0.0:
+            return np.zeros(3)
+        # Deep in each other, hands' skins say little of the way out; their middles do.
+        right, left = (self._middle(side, arms[side]) for side in SIDES)
+        away = right - left + _TO_THE_RIGHT
+        way: FloatArray = depth * away / np.linalg.norm(away)
+        return way
+
+    def _middle(self, side: str, pose: ArmPose) -> FloatArray:
+        """Give the middle of a hand, between wrist and middle knuckle, in the axes of the chest [m]."""
+        hand = self._poser.hands[side]
+        middle: FloatArray = pose.wrist + pose.hand @ (hand_point(hand, pose.shape, "palm") - hand.wrist)
+        return middle
 
     @staticmethod
     def _inside(points: FloatArray, skin: _Skin, tree: cKDTree) -> FloatArray:
         """Give the move that takes points out of a skin: as far as the deepest, the way most of them go."""
-        _, nearest = tree.query(points)
+        points = points[::_EVERY]
+        away, nearest = tree.query(points)
         normals = skin.normals[nearest]
         depths = -((points - skin.places[nearest]) * normals).sum(axis=1)
-        depths = np.maximum(depths, 0.0)
+        depths = np.where((depths > 0.0) & ((away < _NEAR) | (depths > _ALONG * away)), depths, 0.0)
         way = depths @ normals
         length = float(np.linalg.norm(way))
         if length < 1e-9:
@@ -125,7 +153,8 @@ class Clearing:
         columns = rig.weights[:, [rig.bone(name) for name in bones]]
         share = np.asarray(columns.sum(axis=1)).ravel()
         vertices = skin[share[skin] > 0.99]
-        return _Limb(vertices, csr_array(columns[vertices]), bones)
+        weights = csr_array(columns[vertices])
+        return _Limb(vertices, weights, bones)
 
     def _skin(self, side: str, pose: ArmPose) -> _Skin:
         """Give the skin of forearm and hand in a pose, in the axes of the chest."""

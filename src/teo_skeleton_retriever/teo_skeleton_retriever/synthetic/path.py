@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from teo_skeleton_retriever.arrays import FloatArray
 
@@ -24,9 +24,7 @@ class Path:
         self._progress = CubicHermiteSpline(self._times, np.arange(len(times)), self._speeds())
         self._wrists = {}
         for side, places in wrists.items():
-            speeds = np.gradient(np.array(places), self._times, axis=0)
-            speeds[[0, -1]] = 0.0
-            self._wrists[side] = CubicHermiteSpline(self._times, np.array(places), speeds)
+            self._wrists[side] = CubicSpline(self._times, np.array(places), bc_type="clamped")
 
     def share(self, time: float) -> float:
         """Tell how much of the way from the pose that was passed last to the next is gone, 0 to 1."""

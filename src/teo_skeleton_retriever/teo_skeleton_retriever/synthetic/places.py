@@ -34,6 +34,8 @@ body; all others are on the skin. Those beside the middle are on the side of the
 
 _EYE_DEPTH = 0.014
 """From the centre of an eye to the front of its closed lid [m]: an eyeball is 12 mm in radius."""
+_OUTSIDE = 0.6
+"""From any place inside a body, so far away is outside [m]."""
 
 
 class Places:
@@ -111,10 +113,11 @@ class Places:
         return corners
 
     def _hit(self, start: FloatArray, direction: tuple[float, float, float]) -> FloatArray:
-        """Find the skin of trunk and head from a place inside, in a direction."""
-        ray = np.array([direction], dtype=np.float32)
-        distance = float(RayCaster(self._trunk - start).cast(ray).distance[0])
-        found: FloatArray = start + distance * np.array(direction)
+        """Find the outermost skin of trunk and head from a place inside, in a direction."""
+        outside = start + _OUTSIDE * np.array(direction)
+        ray = -np.array([direction], dtype=np.float32)
+        distance = float(RayCaster(self._trunk - outside).cast(ray).distance[0])
+        found: FloatArray = outside - distance * np.array(direction)
         return found
 
 

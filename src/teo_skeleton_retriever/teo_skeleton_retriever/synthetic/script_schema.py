@@ -35,7 +35,7 @@ def _not_zero(value: tuple[float, float, float]) -> tuple[float, float, float]:
 
 
 def _face(value: dict[str, float]) -> dict[str, float]:
-    folder = data_folder() / "faceunits01/targets"
+    folder = data_folder() / "faceunits01/targets/faceunits"
     for name, strength in value.items():
         if not (folder / f"{name}.target").is_file():
             known = ", ".join(sorted(file.stem for file in folder.glob("*.target")))
