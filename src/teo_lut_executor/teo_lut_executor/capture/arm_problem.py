@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from teo_description import RIGHT_ARM
 from teo_lut_executor.capture.arm_chain import ELBOW, WRIST, ArmChain, ArmPoses
-from teo_lut_executor.capture.hand_goals import MIRROR, HandGoals, PairGoals
+from teo_lut_executor.capture.hand_goals import HandGoals, PairGoals
+from teo_lut_executor.capture.hand_points import MIRROR
 
 Array = NDArray[np.float64]
 

@@ -16,19 +16,11 @@ from numpy.typing import NDArray
 
 from teo_lut_executor.capture.dextra import FINGER_LENGTH, PHALANGES
 from teo_lut_executor.capture.dextra_table import DextraTable
-from teo_lut_executor.capture.hand_model import palm_axes
-from teo_lut_executor.capture.hand_points import KNUCKLES, WRIST
+from teo_lut_executor.capture.finger_bends import finger_bends, in_palm
+from teo_lut_executor.capture.hand_points import KNUCKLES
 from teo_lut_executor.capture.thumb_motion import follow_thumb
 
 Array = NDArray[np.float64]
-
-_STRAIGHT = np.radians([5.0, 8.0, 5.0])
-"""[rad] What knuckle, middle and last joint seem bent by in a straight finger, where the signer shows none:
-joint centres do not lie on a line. Means over the synthetic signer's flat hands."""
-_SEEN_STRAIGHT = np.radians(20.0)
-"""[rad] A joint that is never less bent than this has not been seen straight."""
-_STRAIGHTEST = 5.0
-"""[%] Of the frames a finger is taken for straight in, if it ever is."""
 
 
 class HandMotion(NamedTuple):
@@ -45,50 +37,23 @@ class HandMotion(NamedTuple):
     error: Array
 
 
-def follow_hand(table: DextraTable, times: Array, hand: Array) -> HandMotion:
+def follow_hand(table: DextraTable, times: Array, hand: Array, straight: Array) -> HandMotion:
     """Find TEO's hand in each frame.
 
     Args:
         table: TEO's hand.
         times: Of the frames [s]. Shape (T,).
         hand: 21 keypoints of a right hand, or of a left one in a mirror, none NaN [m]. Shape (T, 21, 3).
+        straight: `Person.straight` [rad]. Shape (4, 3).
     """
-    local = np.einsum("tij,tki->tkj", palm_axes(hand), hand - hand[:, WRIST, None])
-    bends = calibrated_bends(finger_bends(local))
+    local = in_palm(hand)
+    bends = finger_bends(local) - straight
     fingers = finger_flexions(table, bends)
     bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
     scaled = local * (FINGER_LENGTH / float(np.median(bones)))
     thumb = follow_thumb(table, times, fingers, scaled - scaled[:, KNUCKLES[0], None])
     error = np.abs(bends.sum(axis=2) / 3.0 - fingers).mean(axis=1)
     return HandMotion(np.concatenate([thumb, fingers], axis=1), bends, error)
-
-
-def finger_bends(local: Array) -> Array:
-    """Bends of knuckle, middle and last joint of index ... little finger [rad].
-
-    Args:
-        local: The 21 keypoints in palm axes. Shape (T, 21, 3).
-
-    Returns:
-        Shape (T, 4, 3).
-    """
-    bends = np.empty((len(local), 4, 3))
-    for finger, knuckle in enumerate(KNUCKLES):
-        bones = np.diff(local[:, knuckle : knuckle + 4], axis=1)
-        bends[:, finger, 0] = np.arctan2(bones[:, 0, 2], bones[:, 0, 0])
-        for joint in (1, 2):
-            sine = np.linalg.norm(np.cross(bones[:, joint - 1], bones[:, joint]), axis=1)
-            bends[:, finger, joint] = np.arctan2(sine, (bones[:, joint - 1] * bones[:, joint]).sum(axis=1))
-    # A knuckle bent beyond 90 deg and more turns round through pi.
-    bends[..., 0] = np.where(bends[..., 0] < -np.pi / 2.0, bends[..., 0] + 2.0 * np.pi, bends[..., 0])
-    return bends
-
-
-def calibrated_bends(bends: Array) -> Array:
-    """Bends with 0 where this signer's fingers are straight; a joint never seen so is taken as usual."""
-    least = np.percentile(bends, _STRAIGHTEST, axis=0)
-    zeroed: Array = bends - np.where(np.abs(least) < _SEEN_STRAIGHT, least, _STRAIGHT)
-    return zeroed
 
 
 def finger_flexions(table: DextraTable, bends: Array) -> Array:

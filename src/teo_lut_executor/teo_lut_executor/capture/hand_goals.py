@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 
 from teo_lut_executor.capture.body_map import BodyMap, smooth_step
 from teo_lut_executor.capture.hand_model import palm_axes
-from teo_lut_executor.capture.hand_points import COUNT, PALM, person_hand_points
+from teo_lut_executor.capture.hand_points import COUNT, MIRROR, PALM, person_hand_points
 from teo_lut_executor.capture.head_motion import HeadMotion
 
 Array = NDArray[np.float64]
-
-MIRROR = np.array([1.0, -1.0, 1.0])
 
 _BLEND = 0.015
 """[m] Points of a hand that are nearer or farther by this share the contact: about a finger's width."""

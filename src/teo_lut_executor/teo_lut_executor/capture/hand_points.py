@@ -17,6 +17,9 @@ _THUMB_JOINT, _THUMB_TIP = 3, 4
 PALM, HEEL = 0, 1
 """Rows of the points below: the middle of the palm, and the end of the hand at the wrist."""
 
+MIRROR = np.array([1.0, -1.0, 1.0])
+"""Makes a left hand a right one."""
+
 COUNT = 2 + 3 * 4 + 2
 """Palm, heel, knuckles, middle joints and tips of the fingers, joint and tip of the thumb."""
 

@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 # Keypoints of the head that keep their places to each other: of the body nose, eyes, ears; of the face the
 # bridge of the nose and the corners of the eyes. Rows of body and face, one after the other.
 _RIGID = (NOSE, *EYE.values(), *EAR.values(), *(BODY + row for row in (27, 28, 29, 30, 36, 39, 42, 45)))
+_PAIRS = ((3, 4), (1, 2), (9, 12))
+"""Among these: right and left ear, eye, outer corner of the eye."""
 _PASSES = 3
 """Alignment and mean shape are found in turns; after the third neither moves by 0.1 mm."""
 
@@ -24,48 +26,61 @@ class HeadPose(NamedTuple):
     """A head over time.
 
     Attributes:
-        shape: Keypoints of body and face about the middle of the head, the head held straight; NaN where
-            never seen, and in the keypoints that are not of the head. Shape (95, 3) [m].
         turns: How the head is turned from straight. Shape (T, 3, 3).
         places: Where its middle is, in the axes of the track [m]; NaN if it is never seen. Shape (T, 3).
     """
 
-    shape: Array
     turns: Array
     places: Array
 
 
-def head_pose(track: SkeletonTrack) -> HeadPose:
-    """Find how the head is held.
+def head_shape(track: SkeletonTrack) -> Array:
+    """Find the keypoints of the head about its middle, the head held straight.
 
     Straight is where both ears (or eyes, where ears are not seen) are level and to the left and right; as to
     nodding it is where the head mostly is.
+
+    Returns:
+        Of body and face; NaN where never seen, and in keypoints that are not of the head [m]. Shape (95, 3).
     """
     points = np.concatenate([track.body.positions, track.face.positions], axis=1)
-    frames = len(points)
     rigid = points[:, _RIGID]
     shape = _median(rigid)
-    used = _known(shape)
-    known = _known(rigid) & used
-    enough = known.sum(axis=1) >= 3
-    if not enough.any():
-        straight = np.broadcast_to(np.eye(3), (frames, 3, 3))
-        return HeadPose(np.full((BODY + FACE, 3), np.nan), straight, np.full((frames, 3), np.nan))
-    shape = np.where(used[:, None], shape, 0.0)
-    shape -= shape[used].mean(axis=0)
-    weights = known.astype(np.float64)
-    seen = np.where(known[..., None], rigid, 0.0)
     for _ in range(_PASSES):
-        turns, places = _aligned(shape, seen, weights)
-        turns, places = _everywhere(track.times, turns, places, enough)
-        aligned = np.einsum("tij,tki->tkj", turns, rigid - places[:, None])
-        shape = np.where(used[:, None], _median(aligned[enough]), 0.0)
-    straightening = _level(shape, used)
-    turns = turns @ straightening.T
-    whole = _median(np.einsum("tij,tki->tkj", turns, points - places[:, None])[enough])
+        turns, places, enough = _held(track.times, rigid, shape)
+        if not enough.any():
+            return np.full((BODY + FACE, 3), np.nan)
+        shape = _median(_straightened(rigid, turns, places)[enough])
+    whole = _median(_straightened(points, turns @ _level(shape).T, places)[enough])
     whole[:BODY][[row for row in range(BODY) if row not in _RIGID]] = np.nan
-    middle = _middle(whole)
-    return HeadPose(whole - middle, turns, places + turns @ middle)
+    return whole - _middle(whole)
+
+
+def head_pose(track: SkeletonTrack, shape: Array) -> HeadPose:
+    """Find how a head of a known shape, as `head_shape` gives it, is held; straight while it is not seen."""
+    rigid = np.concatenate([track.body.positions, track.face.positions], axis=1)[:, _RIGID]
+    turns, places, enough = _held(track.times, rigid, shape[list(_RIGID)])
+    if not enough.any():
+        straight = np.broadcast_to(np.eye(3), turns.shape)
+        return HeadPose(straight, np.full_like(places, np.nan))
+    return HeadPose(turns, places)
+
+
+def _straightened(points: Array, turns: Array, places: Array) -> Array:
+    """Points about the middle of the head, in the head's own axes. Shape (T, k, 3)."""
+    straight: Array = np.einsum("tij,tki->tkj", turns, points - places[:, None])
+    return straight
+
+
+def _held(times: Array, rigid: Array, shape: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Turns and places that bring a shape onto what was seen, and in which frames enough of it was."""
+    known = _known(rigid) & _known(shape)
+    enough = known.sum(axis=1) >= 3
+    seen = np.where(known[..., None], rigid, 0.0)
+    turns, places = _aligned(np.nan_to_num(shape), seen, known.astype(np.float64))
+    if enough.any() and not enough.all():
+        turns, places = _everywhere(times, turns, places, enough)
+    return turns, places, enough
 
 
 def _aligned(shape: Array, seen: Array, weights: Array) -> tuple[Array, Array]:
@@ -83,18 +98,16 @@ def _aligned(shape: Array, seen: Array, weights: Array) -> tuple[Array, Array]:
 
 def _everywhere(times: Array, turns: Array, places: Array, known: NDArray[np.bool_]) -> tuple[Array, Array]:
     """The same with frames filled in where the head was not seen."""
-    if known.all():
-        return turns, places
     vectors = Rotation.from_matrix(turns).as_rotvec()
     vectors[~known], places = np.nan, np.where(known[:, None], places, np.nan)
     return Rotation.from_rotvec(filled(times, vectors)).as_matrix(), filled(times, places)
 
 
-def _level(shape: Array, used: NDArray[np.bool_]) -> Array:
+def _level(shape: Array) -> Array:
     """The rotation that levels the ears, or the eyes, of a shape in the order of `_RIGID`. Shape (3, 3)."""
-    for right, left in ((3, 4), (1, 2), (9, 12)):
-        if used[right] and used[left]:
-            across = shape[left] - shape[right]
+    for right, left in _PAIRS:
+        across = shape[left] - shape[right]
+        if np.isfinite(across).all():
             break
     else:
         return np.eye(3)

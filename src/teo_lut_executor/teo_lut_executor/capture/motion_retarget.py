@@ -17,11 +17,11 @@ from teo_lut_executor.capture.body_map import BodyMap
 from teo_lut_executor.capture.clearing import clear_arms
 from teo_lut_executor.capture.dextra_table import DextraTable
 from teo_lut_executor.capture.hand_flexion import HandMotion, follow_hand
-from teo_lut_executor.capture.hand_goals import MIRROR, HandGoals, hand_goals, pair_goals
-from teo_lut_executor.capture.hand_points import teo_hand_points
+from teo_lut_executor.capture.hand_goals import HandGoals, hand_goals, pair_goals
+from teo_lut_executor.capture.hand_points import MIRROR, teo_hand_points
 from teo_lut_executor.capture.head_motion import follow_head, follow_trunk
 from teo_lut_executor.capture.head_pose import head_pose
-from teo_lut_executor.capture.person import measure_person
+from teo_lut_executor.capture.person import Person, measure_person
 from teo_lut_executor.capture.skeleton_track import ELBOW, HAND, SHOULDER, WRIST, SkeletonTrack
 from teo_lut_executor.capture.touches import WholeRobot
 from teo_lut_executor.lut_error import LutError
@@ -70,13 +70,17 @@ class RobotMotion:
     clearance: Array
 
 
-def retarget_motion(robot: Robot, track: SkeletonTrack, *, handedness: Handedness) -> RobotMotion:
+def retarget_motion(
+    robot: Robot, track: SkeletonTrack, *, handedness: Handedness, person: Person | None = None
+) -> RobotMotion:
     """Bring a person's motion onto TEO.
 
     Args:
         robot: The robot.
         track: The person; smoothed, as what trembles in it trembles in TEO.
         handedness: The hands that take part.
+        person: The person's measures, best from a whole recording of which the track is a part; measured on
+            the track itself without.
 
     Raises:
         LutError: "no_arm" or "no_hand" if what is needed was never seen, "self_collision" if TEO cannot take
@@ -85,13 +89,12 @@ def retarget_motion(robot: Robot, track: SkeletonTrack, *, handedness: Handednes
     sides = _SIDES[handedness]
     chain, table = ArmChain(robot), DextraTable(robot)
     hands = {side: _hand(track, side) for side in sides}
-    held = head_pose(track)
-    person = measure_person(track, held)
-    head = follow_head(robot, held, person)
+    person = person or measure_person(track)
+    head = follow_head(robot, head_pose(track, person.head_shape), person)
     trunk = follow_trunk(np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk)
     body = BodyMap(robot, chain, person)
     shapes = {
-        side: follow_hand(table, track.times, hand if side == "right" else hand * MIRROR)
+        side: follow_hand(table, track.times, hand if side == "right" else hand * MIRROR, person.straight)
         for side, hand in hands.items()
     }
     points = {side: teo_hand_points(table, shape.axes) for side, shape in shapes.items()}

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_lut_executor.capture.hand_points import HEEL, PALM, person_hand_points
-from teo_lut_executor.capture.head_pose import HeadPose
+from teo_lut_executor.capture.finger_bends import straight_bends
+from teo_lut_executor.capture.hand_points import HEEL, MIRROR, PALM, person_hand_points
+from teo_lut_executor.capture.head_pose import head_pose, head_shape
 from teo_lut_executor.capture.skeleton_track import (
     BODY,
     EAR,
@@ -25,7 +26,7 @@ from teo_lut_executor.lut_error import LutError
 Array = NDArray[np.float64]
 
 _CHIN, _LIPS, _BROWS = BODY + 8, (BODY + 51, BODY + 57), (BODY + 21, BODY + 22)
-"""Rows of `HeadPose.shape`."""
+"""Rows of `head_shape`."""
 
 # Proportions of adults: means of the six bodies of the synthetic signer (MakeHuman's, CC0), measured on their
 # skin. Lengths in lengths of the trunk, between shoulders and hips; places from between the shoulders.
@@ -63,6 +64,9 @@ class Person:
         palm: From the wrist to the middle of the palm [m].
         trunk: From between the hips to between the shoulders [m].
         head: Middle of the head where it mostly is [m]. Shape (3,).
+        head_shape: Keypoints of the head, as `head_pose.head_shape` finds them [m]. Shape (95, 3).
+        straight: What knuckle, middle and last joint of index ... little finger seem bent by while they are
+            straight [rad]. Shape (4, 3).
         places: Places of articulation on the skin by their names in `score.places`, the head held straight;
             those aside are the right ones, the left ones mirror them. Shape (3,) each.
     """
@@ -73,6 +77,8 @@ class Person:
     palm: float
     trunk: float
     head: Array
+    head_shape: Array
+    straight: Array
     places: dict[str, Array]
 
     @property
@@ -81,8 +87,8 @@ class Person:
         return self.upper_arm + self.fore_arm + self.palm
 
 
-def measure_person(track: SkeletonTrack, head: HeadPose) -> Person:
-    """Measure a person over a whole track; what is never seen is as proportions have it.
+def measure_person(track: SkeletonTrack) -> Person:
+    """Measure a person over a whole recording; what is never seen is as proportions have it.
 
     Raises:
         LutError: "no_arm" if neither arm is ever seen from shoulder to elbow.
@@ -96,14 +102,17 @@ def measure_person(track: SkeletonTrack, head: HeadPose) -> Person:
             f"{len(track.times)} frames",
         )
     fore = _length(body, ELBOW, WRIST)
-    hands = person_hand_points(np.concatenate([track.right_hand.positions, track.left_hand.positions]))
+    keypoints = np.concatenate([track.right_hand.positions, track.left_hand.positions * MIRROR])
+    hands = person_hand_points(keypoints)
     palm = _median(np.linalg.norm(hands[:, PALM] - hands[:, HEEL], axis=-1))
     trunk = -_median(body[:, MID_HIP, 2])
     trunk = trunk if np.isfinite(trunk) else _TRUNK_OF_UPPER_ARM * upper
     shoulder = _median(body[:, SHOULDER["left"], 1] - body[:, SHOULDER["right"], 1]) / 2.0
     places = {name: trunk * np.array(place) for name, place in _TORSO.items()}
     places["shoulder"] = trunk * np.array(_SHOULDER_FRONT) - (0.0, shoulder, 0.0)
-    middle = np.array([_median(head.places[:, axis]) for axis in range(3)])
+    shape = head_shape(track)
+    held = head_pose(track, shape)
+    middle = np.array([_median(held.places[:, axis]) for axis in range(3)])
     if not np.isfinite(middle).all():
         middle = trunk * np.array(_HEAD["ear"]) * (1.0, 0.0, 1.0)
     return Person(
@@ -113,7 +122,9 @@ def measure_person(track: SkeletonTrack, head: HeadPose) -> Person:
         palm=palm if np.isfinite(palm) else _PALM_OF_UPPER_ARM * upper,
         trunk=trunk,
         head=middle,
-        places=places | _facial_places(head.shape + middle, middle, trunk),
+        head_shape=shape,
+        straight=straight_bends(keypoints),
+        places=places | _facial_places(shape + middle, middle, trunk),
     )
 
 

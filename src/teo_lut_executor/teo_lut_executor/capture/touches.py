@@ -12,7 +12,7 @@ from teo_description.clearance import Clearance, Contact
 from teo_description.robot import Robot
 from teo_lut_executor.capture.arm_chain import ArmChain
 from teo_lut_executor.capture.arm_problem import JOINTS, Quadratic
-from teo_lut_executor.capture.hand_goals import MIRROR
+from teo_lut_executor.capture.hand_points import MIRROR
 from teo_lut_executor.score.arm_solver import mirrored
 
 Array = NDArray[np.float64]
