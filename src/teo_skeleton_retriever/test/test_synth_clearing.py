@@ -31,7 +31,7 @@ def test_a_hand_in_the_body_comes_out_to_the_skin(signer: Signer, at: str, inwar
     asked = arms(signer, ArmKey(**{**vars(TO_SELF), "at": at, "offset": (-inwards, 0.0, 0.0)}))
     assert clearing.depth(asked) > 0.01
     kept = clearing.cleared(asked)
-    assert clearing.depth(kept) < 1e-3
+    assert clearing.depth(kept) < 5e-3
     np.testing.assert_array_equal(kept["R"].hand, asked["R"].hand)
     assert (
         np.linalg.norm(kept["R"].wrist - asked["R"].wrist) < inwards + 0.07
@@ -44,7 +44,7 @@ def test_hands_in_each_other_give_way_both_alike(signer: Signer) -> None:
     asked = arms(signer, inside, inside)
     assert clearing.depth(asked) > 0.01
     kept = clearing.cleared(asked)
-    assert clearing.depth(kept) < 1.5e-3
+    assert clearing.depth(kept) < 5e-3
     moved = {side: kept[side].wrist - asked[side].wrist for side in "RL"}
     assert moved["R"][1] < -0.005 and moved["L"][1] > 0.005
     np.testing.assert_allclose(moved["R"] * [1.0, -1.0, 1.0], moved["L"], atol=0.01)

@@ -19,8 +19,9 @@ Array = NDArray[np.float64]
 
 _ALIKE = 0.10
 """[m] From the middle: hands that meet or cross are as far apart on both."""
-_BEYOND = 0.45
-"""What is farther aside on TEO, on a person: the shoulder at 0.345 m is a person's at 0.21 m."""
+_BEYOND = 0.75
+"""What is farther aside on TEO, on a person, whose arms begin 0.14 m nearer to the middle: stretched out to
+the sides, hands are 0.9 m from the middle on TEO, 0.75 m on a person whose arms are as long."""
 
 
 class PersonPlace(NamedTuple):
@@ -56,8 +57,8 @@ _PLACES = {
     "space": PersonPlace("sternum", (0.215, 0.10, 0.01)),
     "low_space": PersonPlace("belly", (0.235, 0.11, 0.01)),
     "middle_space": PersonPlace("sternum", (0.215, 0.0, 0.01)),
-    "shoulder_space": PersonPlace("shoulder", (0.26, 0.03, 0.03)),
-    "high_space": PersonPlace("shoulder", (0.30, 0.03, 0.18)),
+    "shoulder_space": PersonPlace("shoulder", (0.26, 0.08, 0.03)),
+    "high_space": PersonPlace("shoulder", (0.30, 0.075, 0.18)),
     "face_space": PersonPlace("mouth", (0.215, 0.02, -0.01)),
     "beside_head": PersonPlace("ear", (0.10, 0.11, 0.03)),
 }

@@ -77,48 +77,67 @@ class Clearing:
         kept = {side: self._out_of_trunk(side, arms[side]) for side in SIDES}
         if np.linalg.norm(kept["R"].wrist - kept["L"].wrist) > _FAR_APART:
             return kept
+        skins = {side: self._skin(side, kept[side]) for side in SIDES}
+        trees = _trees(skins)
+        gone = np.zeros(3)  # by the right hand; the left one goes as far the other way
         for _ in range(_ROUNDS):
-            way = self._apart(kept)
+            way = self._apart(kept, skins, trees, gone)
             if way @ way < _ENOUGH**2:
                 break
-            kept = {
-                side: self._out_of_trunk(side, replace(kept[side], wrist=kept[side].wrist + share * way))
-                for side, share in (("R", 0.5), ("L", -0.5))
-            }
-        return kept
+            gone = gone + 0.5 * way
+        if not gone.any():
+            return kept
+        return {
+            side: self._out_of_trunk(side, replace(kept[side], wrist=kept[side].wrist + share * gone))
+            for side, share in (("R", 1.0), ("L", -1.0))
+        }
 
     def depth(self, arms: Mapping[str, ArmPose]) -> float:
         """Tell how far a hand is in the body, or in the other arm, at most [m]."""
-        found = [self._inside(self._skin(side, arms[side]).places, self._trunk, self._tree) for side in SIDES]
-        return max(float(np.linalg.norm(move)) for move in (*found, self._apart(arms)))
+        skins = {side: self._skin(side, arms[side]) for side in SIDES}
+        found = [self._inside(skins[side].places, self._trunk, self._tree) for side in SIDES]
+        found.append(self._apart(arms, skins, _trees(skins), np.zeros(3)))
+        return max(float(np.linalg.norm(move)) for move in found)
 
     def _out_of_trunk(self, side: str, pose: ArmPose) -> ArmPose:
         if side in self._known and self._known[side][0] is pose:  # a hand that hangs, or holds
             return self._known[side][1]
-        kept = pose
+        places = self._skin(side, pose).places
+        gone = np.zeros(3)
         for _ in range(_ROUNDS):
-            move = self._inside(self._skin(side, kept).places, self._trunk, self._tree)
+            move = self._inside(places + gone, self._trunk, self._tree)
             depth = float(np.linalg.norm(move))
             if depth < _ENOUGH:
                 break
             # Keeping to the way that it went so far, a hand does not go to and fro between nose and chin.
-            gone = kept.wrist - pose.wrist
-            way = unit(unit(move) + unit(gone)) if gone.any() else unit(move)
-            kept = replace(kept, wrist=kept.wrist + depth * way)
+            gone = gone + depth * (unit(unit(move) + unit(gone)) if gone.any() else unit(move))
+        kept = replace(pose, wrist=pose.wrist + gone) if gone.any() else pose
         self._known[side] = (pose, kept)
         return kept
 
-    def _apart(self, arms: Mapping[str, ArmPose]) -> FloatArray:
-        """Give the way that the right hand must go from the left one. Shape (3,)."""
-        skins = {side: self._skin(side, arms[side]) for side in SIDES}
-        forth = self._inside(skins["R"].places, skins["L"], cKDTree(skins["L"].places))
-        back = self._inside(skins["L"].places, skins["R"], cKDTree(skins["R"].places))
+    def _apart(
+        self,
+        arms: Mapping[str, ArmPose],
+        skins: Mapping[str, _Skin],
+        trees: Mapping[str, cKDTree],
+        gone: FloatArray,
+    ) -> FloatArray:
+        """Give the way that the right hand must go from the left one.
+
+        Args:
+            arms: of both sides.
+            skins: of these arms.
+            trees: of these skins' places.
+            gone: by the right hand since, by the left one the other way [m]. Shape (3,).
+        """
+        right, left = skins["R"], skins["L"]
+        forth = self._inside(right.places + 2.0 * gone, left, trees["L"])
+        back = self._inside(left.places - 2.0 * gone, right, trees["R"])
         depth = max(float(np.linalg.norm(forth)), float(np.linalg.norm(back)))
         if depth == 0.0:
             return np.zeros(3)
         # Deep in each other, hands' skins say little of the way out; their middles do.
-        right, left = (self._middle(side, arms[side]) for side in SIDES)
-        away = right - left + _TO_THE_RIGHT
+        away = self._middle("R", arms["R"]) - self._middle("L", arms["L"]) + 2.0 * gone + _TO_THE_RIGHT
         way: FloatArray = depth * away / np.linalg.norm(away)
         return way
 
@@ -166,3 +185,7 @@ class Clearing:
         places = np.einsum("nij,nj->ni", blended[:, :, :3], at_rest) + blended[:, :, 3]
         normals = np.einsum("nij,nj->ni", blended[:, :, :3], self._normals[vertices])
         return _Skin(places, normals)
+
+
+def _trees(skins: Mapping[str, _Skin]) -> dict[str, cKDTree]:
+    return {side: cKDTree(skin.places) for side, skin in skins.items()}
