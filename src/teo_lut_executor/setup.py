@@ -29,6 +29,7 @@ setup(
             "capture_letters = teo_lut_executor.capture_cli:letters_main",
             "capture_numbers = teo_lut_executor.capture_cli:numbers_main",
             "capture_scores = teo_lut_executor.capture_cli:scores_main",
+            "capture_node = teo_lut_executor.capture_node:main",
             "executor_node = teo_lut_executor.executor_node:main",
             "lut = teo_lut_executor.lut_cli:main",
             "perform_scores = teo_lut_executor.perform_cli:main",

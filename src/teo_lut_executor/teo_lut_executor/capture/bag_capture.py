@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from pydantic import TypeAdapter, ValidationError
+
 from teo_description.robot import Robot
 from teo_lut_executor.capture.capture_picture import save_capture_film, save_capture_picture
 from teo_lut_executor.capture.recording import Recording, default_cache, open_recording, track_of
@@ -15,7 +17,7 @@ from teo_lut_executor.capture.take import Cut, Take, capture_take
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign import gloss_key
 from teo_lut_executor.sign_file import read_sign, save_sign
-from teo_lut_executor.sign_schema import Handedness, Kind, Standing
+from teo_lut_executor.sign_schema import Gloss, Handedness, Kind, Standing
 
 DIGEST = 16
 """Hexadecimal digits of SHA-256 that tell one recording from another."""
@@ -146,7 +148,16 @@ def is_captured(job: Job, table: Path) -> bool:
 
 
 def check_free(gloss: str, settings: Settings) -> None:
-    """Say that a gloss is taken before minutes are spent on it."""
+    """Say that a gloss is taken, or none, before minutes are spent on it.
+
+    Raises:
+        LutError: "exists" or "bad_gloss".
+    """
+    try:
+        TypeAdapter(Gloss).validate_python(gloss_key(gloss))
+    except ValidationError as error:
+        reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
+        raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
     path = settings.table / f"{gloss_key(gloss)}.json"
     if path.exists() and not settings.replace:
         raise LutError(

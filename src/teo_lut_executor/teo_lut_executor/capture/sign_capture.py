@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from teo_description import description_hash
 from teo_description.robot import Robot
-from teo_lut_executor.capture.knot_reduction import deviation, reduce_to_knots
+from teo_lut_executor.capture.knot_reduction import TOLERANCE, deviation, reduce_to_knots
 from teo_lut_executor.capture.measures import limit_margin_deg
 from teo_lut_executor.capture.playback import Playback, play
 from teo_lut_executor.capture.take import Take
 from teo_lut_executor.capture.takes import Combined, combine
+from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign import Sign, gloss_key
 from teo_lut_executor.sign_schema import Kind, Provenance, Standing
 
@@ -82,22 +83,36 @@ def make_sign(
     """
     combined = combine(robot, [take.motion for take in takes], [take.source for take in takes])
     used = [takes[index] for index in combined.used]
-    knots = reduce_to_knots(combined.times, combined.positions)
     sign = Sign(
         gloss=gloss_key(gloss),
         language="lse",
         kind=kind,
         handedness=takes[combined.leader].span.handedness,
         joints=combined.joints,
-        times=combined.times[knots],
-        knots=combined.positions[knots],
+        times=combined.times,
+        knots=combined.positions,
         provenance=_provenance(origin, takes, combined),
         quality={},
     )
-    playback = play(robot, sign, combined.times, combined.positions)
-    reduction = float(deviation(combined.times, combined.positions, knots).max())
+    sign, playback, reduction = _with_knots(robot, sign)
     quality = _quality(used, sign, playback, reduction)
     return Captured(sign=replace(sign, quality=quality), takes=tuple(takes), combined=combined)
+
+
+def _with_knots(robot: Robot, whole: Sign) -> tuple[Sign, Playback, float]:
+    """The sign in fewer knots, what the planner makes of it, and what the knots leave out [rad]."""
+    for tolerance in (TOLERANCE, TOLERANCE / 3.0, 0.0):
+        knots = reduce_to_knots(whole.times, whole.knots, tolerance)
+        sign = replace(whole, times=whole.times[knots], knots=whole.knots[knots])
+        try:
+            playback = play(robot, sign, whole.times, whole.knots)
+        except LutError as error:
+            # What is clear in every frame may touch between knots that are far apart.
+            if error.code != "self_collision" or len(knots) == len(whole.times):
+                raise
+            continue
+        return sign, playback, float(deviation(whole.times, whole.knots, knots).max())
+    raise AssertionError("with no tolerance every frame is a knot")
 
 
 def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Provenance:
@@ -129,8 +144,9 @@ def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Pr
 def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, reduction: float) -> dict[str, float]:
     def usual(errors: str) -> float:
         """The worse hand's error that 95 of 100 frames keep below, mean of the takes."""
-        figures = [np.nanpercentile(getattr(take.motion, errors), _SHARE, axis=0) for take in takes]
-        return float(np.mean([np.nanmax(figure) for figure in figures]))
+        found = [getattr(take.motion, errors) for take in takes]
+        hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
+        return float(np.mean([np.nanpercentile(array, _SHARE, axis=0).max() for array in hands]))
 
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
