@@ -84,7 +84,7 @@ class Smoothed:
 
 
 def smooth_track(track: SkeletonTrack) -> Smoothed:
-    """Smooth every keypoint of a track and fill what is lost for up to `LONGEST_FILLED`."""
+    """Smooth every keypoint of a track and fill what is lost for a short time."""
     filled = {
         part: _with_wrist(track.times, getattr(track, part), track.body.positions[:, wrist])
         for part, wrist in _WRISTS.items()
@@ -96,7 +96,10 @@ def smooth_track(track: SkeletonTrack) -> Smoothed:
         positions = smooth_positions(track.times, keypoints.positions, keypoints.sigma)
         smooth[part] = replace(keypoints, positions=positions)
         gaps += find_gaps(track.times, getattr(track, part), positions, part)
-    return Smoothed(track=replace(track, **smooth), gaps=tuple(sorted(gaps, key=lambda gap: gap.start)))  # type: ignore[arg-type]  # parts by name
+    return Smoothed(
+        track=replace(track, **smooth),  # type: ignore[arg-type]  # parts by name
+        gaps=tuple(sorted(gaps, key=lambda gap: gap.start)),
+    )
 
 
 def find_gaps(times: Array, raw: Keypoints, smooth: Array, part: Part) -> list[Gap]:

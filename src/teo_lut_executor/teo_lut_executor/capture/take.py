@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from teo_description.robot import Robot
 from teo_lut_executor.capture.motion_retarget import RobotMotion, retarget_motion
+from teo_lut_executor.capture.person import measure_person
 from teo_lut_executor.capture.segment import SignSpan, the_sign
 from teo_lut_executor.capture.skeleton_track import SkeletonTrack
-from teo_lut_executor.capture.smoothing import Gap, Smoothed, smooth_track
+from teo_lut_executor.capture.smoothing import Gap, Smoothed, seen, smooth_track
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign_schema import Handedness
 
@@ -92,8 +93,7 @@ def capture_take(
     )
     _check_gaps(track.source, span, gaps, offset)
     stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
-    raw = raw.between(span.start - _ROUNDING, span.end + _ROUNDING)
-    motion = retarget_motion(robot, stroke, handedness=handedness)
+    motion = retarget_motion(robot, stroke, handedness=handedness, person=measure_person(track))
     _check_reach(track.source, motion, offset + span.start)
     return Take(
         source=track.source,
@@ -102,8 +102,8 @@ def capture_take(
         track=stroke,
         motion=motion,
         gaps=tuple(replace(gap, start=gap.start + offset, end=gap.end + offset) for gap in gaps),
-        lost=_lost(raw, handedness),
-        smoothing=_difference(raw, stroke, handedness),
+        lost=_lost(raw, span),
+        smoothing=_difference(raw, smoothed.track, span),
     )
 
 
@@ -169,11 +169,19 @@ def _check_reach(source: str, motion: RobotMotion, start: float) -> None:
         )
 
 
-def _lost(raw: SkeletonTrack, handedness: Handedness) -> float:
-    lost = [~np.isfinite(getattr(raw, part).positions).all(axis=2) for part in _HANDS[handedness]]
-    return float(max((hand.mean(axis=1) > 0.5).mean() for hand in lost))
+def _stroke(raw: SkeletonTrack, span: SignSpan) -> NDArray[np.bool_]:
+    return (raw.times >= span.start - _ROUNDING) & (raw.times <= span.end + _ROUNDING)
 
 
-def _difference(raw: SkeletonTrack, smooth: SkeletonTrack, handedness: Handedness) -> float:
-    away = [getattr(smooth, part).positions - getattr(raw, part).positions for part in _HANDS[handedness]]
+def _lost(raw: SkeletonTrack, span: SignSpan) -> float:
+    hands = [getattr(raw, part).positions[_stroke(raw, span)] for part in _HANDS[span.handedness]]
+    return float(max(((~seen(hand)).mean(axis=1) > 0.5).mean() for hand in hands))
+
+
+def _difference(raw: SkeletonTrack, smooth: SkeletonTrack, span: SignSpan) -> float:
+    """By how much the hands of the stroke were moved, root mean square [m]."""
+    away = [
+        (getattr(smooth, part).positions - getattr(raw, part).positions)[_stroke(raw, span)]
+        for part in _HANDS[span.handedness]
+    ]
     return float(np.sqrt(np.nanmean(np.square(np.concatenate(away, axis=1)).sum(axis=2))))
