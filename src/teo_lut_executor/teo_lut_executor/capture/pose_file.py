@@ -32,7 +32,11 @@ _PERSON_POINTS = 3
 """A person of whom fewer points are ever seen is an empty place in the file."""
 
 _FRACTION_LIMIT = 1.5
-"""Points given as fractions of a picture's size stay this near its middle, some way outside included."""
+"""Points given as fractions of a picture's size stay this near its middle, some way outside included..."""
+_MOST = 0.99
+"""...but for one in a hundred."""
+_CENTRED = 0.1
+"""Shoulders of a clip that is scaled to them are nearer to 0 than this: in a picture that is a corner."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -123,7 +127,8 @@ class _Reader:
     def read(self, content: bytes, person: int | None) -> PoseClip:
         pose = self._parse(content)
         layout = self._layout(pose.header)
-        data = np.asarray(np.ma.getdata(pose.body.data), dtype=np.float64)
+        with np.errstate(invalid="ignore"):  # signalling NaN of a damaged file
+            data = np.asarray(np.ma.getdata(pose.body.data), dtype=np.float64)
         confidence = np.array(pose.body.confidence, dtype=np.float64)
         rate = self._rate(float(pose.body.fps))
         if len(data) < 2:
@@ -134,10 +139,11 @@ class _Reader:
         confidence = np.clip(np.where(np.isfinite(confidence), confidence, 0.0), 0.0, 1.0)
         confidence[np.ma.getmaskarray(pose.body.data)[:, chosen].any(axis=-1)] = 0.0
         self._check_finite(data, confidence)
-        size = (pose.header.dimensions.width, pose.header.dimensions.height)
-        data[..., :2] *= _unit(data, confidence, size)
         parts = self._parts(pose.header, layout, data, confidence)
         self._check_seen(parts)
+        size = (pose.header.dimensions.width, pose.header.dimensions.height)
+        if _is_fractions(parts["body"].places, size):
+            parts = {name: _scaled(points, size) for name, points in parts.items()}
         return PoseClip(rate=rate, **parts, source=self._name, layout=layout.name)
 
     def _refuse(self, code: str, expected: str, got: str) -> NoReturn:
@@ -233,19 +239,22 @@ class _Reader:
             )
 
 
-def _unit(data: Array, confidence: Array, size: tuple[int, int]) -> Array:
-    """What across and down are to be multiplied with, so that both count alike. Shape (2,).
+def _is_fractions(body: Array, size: tuple[int, int]) -> bool:
+    """Whether places count in widths and heights of the picture, as MediaPipe itself gives them.
 
-    Fractions of the picture's size, as MediaPipe itself gives, count differently across and down; pixels,
-    and clips scaled to a size of the body, do not.
+    Those differ. Pixels count alike both ways, and so do clips that were scaled to the breadth of the
+    shoulders, which then are about 0.
     """
-    seen = data[confidence > 0.0][:, :2]
-    # A clip scaled to its shoulders has them about 0; fractions of a picture are never below it by much.
-    within = np.abs(seen - 0.5) <= _FRACTION_LIMIT
-    centred = np.abs(np.median(seen, axis=0)).max() < 0.1
-    if min(size) > 1 and within.mean() > 0.99 and not centred:
-        return np.array(size, dtype=np.float64)
-    return np.ones(2)
+    seen = body[np.isfinite(body[..., 1])][:, 1:] * [1.0, -1.0]
+    middle = np.nanmedian(body[:, list(SHOULDER.values()), 1:], axis=(0, 1))
+    within = (np.abs(seen - 0.5) <= _FRACTION_LIMIT).mean() > _MOST
+    return bool(min(size) > 1 and within and np.abs(middle).max() > _CENTRED)
+
+
+def _scaled(points: Points, size: tuple[int, int]) -> Points:
+    places = points.places * [1.0, *size]
+    places.setflags(write=False)
+    return Points(places=places, confidence=points.confidence)
 
 
 def _points(data: Array, confidence: Array, columns: dict[int, int | None], count: int) -> Points:
