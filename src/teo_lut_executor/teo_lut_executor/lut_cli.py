@@ -14,7 +14,7 @@ from rich.table import Table
 
 from teo_lut_executor.lut import Lut, LutError, Sign, default_lut_directory
 from teo_lut_executor.lut_capture_cli import capture
-from teo_lut_executor.lut_exchange_cli import export
+from teo_lut_executor.lut_exchange_cli import export, import_pose
 from teo_lut_executor.sign import sign_warnings
 from teo_lut_executor.sign_file import format_sign
 from teo_lut_executor.sign_schema import STANDINGS, Kind, sign_json_schema
@@ -27,6 +27,7 @@ app = typer.Typer(
 )
 app.command()(capture)
 app.command()(export)
+app.command("import")(import_pose)
 
 Directory = Annotated[
     Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
