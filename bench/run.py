@@ -8,6 +8,7 @@ import driver_rate
 import lexicon
 import limbs
 import planning
+import retargeting
 import retriever_accuracy
 import retriever_node
 import robot_model
@@ -24,6 +25,7 @@ BENCHES = (
     translation,
     text_to_trajectory,
     limbs,
+    retargeting,
     retriever_accuracy,
     retriever_node,
 )

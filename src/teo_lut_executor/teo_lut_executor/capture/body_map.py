@@ -23,6 +23,8 @@ from teo_lut_executor.capture.person import Person
 from teo_lut_executor.score.places import find_place
 
 Array = NDArray[np.float64]
+Box = tuple[Array, Array]
+"""Middle and half sides [m]."""
 
 _REACH = 0.12
 """[m] Length over which the bend fades, on a person whose trunk is `_TRUNK` long: a contact is felt about a
@@ -56,7 +58,7 @@ class BodyMap:
         self.scale: Array = np.array([along, (shoulder + reach) / (person.shoulder + person.arm), along])
         self._origin = arm.shoulder * (1.0, 0.0, 1.0)
         self._size = person.trunk / _TRUNK
-        self._boxes = _boxes(robot)
+        self._boxes = body_boxes(robot)
         self._centres, wanted = self._pairs(person)
         bends = wanted - self._far(self._centres)
         near = self._nearness(self._centres) + _GIVE * np.eye(len(bends))
@@ -113,26 +115,27 @@ class BodyMap:
         ours, theirs = [], []
         for name, place in _MIDDLE.items():
             ours.append(person.places[name])
-            theirs.append(self._skin(place) * (1.0, 0.0, 1.0))
+            theirs.append(on_skin(self._boxes, place) * (1.0, 0.0, 1.0))
         for name, place in _ASIDE.items():
-            right = self._skin(place)
+            right = on_skin(self._boxes, place)
             right[1] = -abs(right[1])
             for side in (np.ones(3), mirror):
                 ours.append(person.places[name] * side)
                 theirs.append(right * side)
         return np.array(ours), np.array(theirs)
 
-    def _skin(self, name: str) -> Array:
-        """A place of TEO, moved out of the shapes that count in a collision. Shape (3,)."""
-        place = find_place(name)
-        out = place.outward
-        leaving = [0.0]
-        for middle, half in self._boxes:
-            inside = place.point - middle
-            if (np.abs(inside) < half).all():
-                with np.errstate(divide="ignore"):
-                    leaving.append(float(np.min((half - np.sign(out) * inside) / np.abs(out))))
-        return np.asarray(place.point + max(leaving) * out)
+
+def on_skin(boxes: list[Box], name: str) -> Array:
+    """A place of `score.places`, moved out of the shapes that count in a collision [m]. Shape (3,)."""
+    place = find_place(name)
+    out = place.outward
+    leaving = [0.0]
+    for middle, half in boxes:
+        inside = place.point - middle
+        if (np.abs(inside) < half).all():
+            with np.errstate(divide="ignore"):
+                leaving.append(float(np.min((half - np.sign(out) * inside) / np.abs(out))))
+    return np.asarray(place.point + max(leaving) * out)
 
 
 def smooth_step(share: Array) -> Array:
@@ -142,7 +145,7 @@ def smooth_step(share: Array) -> Array:
     return step
 
 
-def _boxes(robot: Robot) -> list[tuple[Array, Array]]:
+def body_boxes(robot: Robot) -> list[Box]:
     """Middles and half sides of the boxes of trunk and head, at home [m]."""
     geometry = pin.buildGeomFromUrdfString(robot.model, urdf_text(), pin.GeometryType.COLLISION)
     found = []

@@ -17,7 +17,7 @@ from teo_lut_executor.score.arm_solver import mirrored
 
 Array = NDArray[np.float64]
 
-WANTED = 0.016
+WANTED = 0.014
 """[m] Parts that come nearer than this are pushed apart."""
 LEAST = 0.010
 """[m] Parts are never nearer than this: a touch is shown by a gap that nobody sees, and that curves between
