@@ -110,7 +110,7 @@ def test_render_all_makes_a_sheet_of_each_kind(tmp_path: Path) -> None:
 def test_overview_shows_each_sign_as_it_begins_and_ends(tmp_path: Path) -> None:
     result = run("overview", "--kind", "number", "--lut", TABLE, "--out", tmp_path / "all.png")
     assert result.exit_code == 0, result.output
-    assert "11 signs" in result.output
+    assert "29 signs" in result.output
     picture = cv2.imread(str(tmp_path / "all.png"))
     # Twenty-two moments, sixteen a row.
     assert picture.shape[1] > 16 * 150 and 2 * 150 < picture.shape[0] < 3 * 250
