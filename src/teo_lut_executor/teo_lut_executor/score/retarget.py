@@ -30,7 +30,7 @@ _PUSH, _MOST_PUSHES = 0.012, 12
 """[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
 8 cm beyond the middle of its palm."""
 _TOUCH = 0.5
-"""What an arm that touches the body costs: as much as a palm that is turned by 60 deg."""
+"""What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg."""
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
 """[rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body."""
 _LOOKS = 6
@@ -112,6 +112,13 @@ class _Performance:
             for index in touching:
                 parts = {side for side in ("Left", "Right") for part in near[index][1:] if side in str(part)}
                 pushes[index, int(len(parts) == 2)] += _PUSH
+            # While a joint wiggles the hand keeps its place.
+            for index in range(1, len(pushes)):
+                if (
+                    self._moments[index].swings
+                    and self._moments[index].right is self._moments[index - 1].right
+                ):
+                    pushes[index - 1 : index + 1] = pushes[index - 1 : index + 1].max(axis=0)
         found, moment = near[touching[0]], self._moments[touching[0]]
         raise LutError(
             "self_collision",
@@ -163,8 +170,11 @@ class _Performance:
             _pushed(self._resolved(moment.right, left, reach), push)
             for moment, left, reach, push in zip(self._moments, left_targets, lefts, pushes, strict=True)
         ]
-        rights = smoothest([self._reaches(target, self._right_bounds, "right") for target in targets])
-        return rights, lefts
+        candidates = [
+            self._beside(target, self._reaches(target, self._right_bounds, "right"), moment, left)
+            for target, moment, left in zip(targets, self._moments, lefts, strict=True)
+        ]
+        return smoothest(candidates), lefts
 
     def _resolved(self, right: HandTarget, left: HandTarget, reach: Reach) -> HandTarget:
         """A target on the left hand, in ``base_link``; away from the left palm is its way out."""
@@ -179,13 +189,26 @@ class _Performance:
 
     def _reaches(self, target: HandTarget, bounds: tuple[Array, Array], side: str) -> list[Reach]:
         arrays = (target.shape, target.point, target.palm, target.fingers)
-        key = (side, target.part, target.body, *(np.round(array, 6).tobytes() for array in arrays))
+        key = (side, target.part, target.meets, *(np.round(array, 6).tobytes() for array in arrays))
         if key not in self._known:
             reaches = self._solver.reaches(target, bounds)
             self._known[key] = [
                 replace(reach, cost=reach.cost + self._touch(target, reach, side)) for reach in reaches
             ]
         return self._known[key]
+
+    def _beside(self, target: HandTarget, reaches: list[Reach], moment: Posture, left: Reach) -> list[Reach]:
+        """Right arms, those that touch the left one at a higher cost."""
+        assert moment.left is not None
+        other = np.concatenate([mirrored(left.positions), moment.left.shape])
+        joints = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
+        return [
+            replace(reach, cost=reach.cost + _TOUCH)
+            if self.clearance(joints, np.concatenate([reach.positions, target.shape, other])).distance
+            < _CLEARANCE
+            else reach
+            for reach in reaches
+        ]
 
     def _touch(self, target: HandTarget, reach: Reach, side: str) -> float:
         """What it costs that an arm, the other at rest, touches the body."""
