@@ -23,6 +23,9 @@ MIRROR = np.array([1.0, -1.0, 1.0])
 COUNT = 2 + 3 * 4 + 2
 """Palm, heel, knuckles, middle joints and tips of the fingers, joint and tip of the thumb."""
 
+_PALM_SHARE = 0.55
+"""The middle of the palm lies so far from the wrist to the knuckles, as on TEO."""
+
 # In the axes of TEO's palm [m]: the middle of the palm's box, whose face carries the frame, and the plate on
 # which the hand is mounted. The wrist's joint is 9 cm farther up the arm, where no hand of a person is.
 _TEO_PALM, _TEO_HEEL = (0.0, 0.0, -0.018), (-0.07, 0.01, -0.016)
@@ -37,7 +40,8 @@ def person_hand_points(hand: Array) -> Array:
     Returns:
         Shape (T, COUNT, 3).
     """
-    palm = hand[:, (WRIST, *KNUCKLES, *KNUCKLES)].mean(axis=1, keepdims=True)
+    wrist, knuckles = hand[:, [WRIST]], hand[:, KNUCKLES].mean(axis=1, keepdims=True)
+    palm = wrist + _PALM_SHARE * (knuckles - wrist)
     rows = [WRIST, *KNUCKLES, *_MIDDLES, *_TIPS, _THUMB_JOINT, _THUMB_TIP]
     return np.concatenate([palm, hand[:, rows]], axis=1)
 
