@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from teo_lut_executor.capture.knot_reduction import TOLERANCE, deviation, passed, reduce_to_knots
+from teo_lut_executor.capture.knot_reduction import TOLERANCE, deviations, passed, reduce_to_knots
 
 Array = NDArray[np.float64]
 TIMES = np.arange(0.0, 2.0, 1.0 / 30.0)
@@ -30,7 +30,7 @@ def test_no_frame_is_farther_than_the_tolerance(frequency: float, amplitude: flo
     for column in motion.T:
         assert np.abs(np.interp(TIMES, TIMES[knots], column[knots]) - column).max() <= TOLERANCE
     assert np.abs(passed(TIMES[knots], motion[knots], TIMES) - motion).max() <= TOLERANCE
-    assert deviation(TIMES, motion, knots).max() <= TOLERANCE
+    assert deviations(TIMES, motion, TIMES[knots], motion[knots]).max() <= TOLERANCE
 
 
 def test_a_slow_motion_needs_few_knots_and_a_fast_one_keeps_its_turns() -> None:

@@ -12,8 +12,8 @@ from teo_lut_executor.knot_states import knot_states
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-TOLERANCE = np.radians(1.5)
-"""[rad] 14 mm at the end of TEO's stretched arm for one joint, below what retargeting errs by; fewer knots
+TOLERANCE = np.radians(1.0)
+"""[rad] 9 mm at the end of TEO's stretched arm for one joint, below what retargeting errs by; fewer knots
 leave the planner more room to make the motion smooth."""
 
 
@@ -35,7 +35,9 @@ def reduce_to_knots(times: Array, positions: Array, tolerance: float = TOLERANCE
     count = len(times)
     knots = sorted({0, count - 1})
     while len(knots) < count:
-        away = deviation(times, positions, np.array(knots))
+        chosen = np.array(knots)
+        away = deviations(times, positions, times[chosen], positions[chosen]).max(axis=1)
+        away[chosen] = 0.0
         worst = int(np.argmax(away))
         if away[worst] <= tolerance:
             break
@@ -44,19 +46,14 @@ def reduce_to_knots(times: Array, positions: Array, tolerance: float = TOLERANCE
     return np.array(knots, dtype=np.int64)
 
 
-def deviation(times: Array, positions: Array, knots: Indices) -> Array:
-    """How far the lines and the spline through some frames are from every frame, worst joint [rad].
-
-    Shape (n,); 0 in the knots.
-    """
+def deviations(times: Array, positions: Array, knot_times: Array, knots: Array) -> Array:
+    """How far the lines and the spline through knots are from every frame of a motion [rad]. Shape (n, m)."""
     if len(knots) < 2:
-        return np.zeros(len(times))
-    away = np.zeros(positions.shape)
-    for played in (_lines, passed):
-        away = np.maximum(away, np.abs(played(times[knots], positions[knots], times) - positions))
-    away[knots] = 0.0
-    worst: Array = away.max(axis=1)
-    return worst
+        return np.zeros(positions.shape)
+    away: Array = np.maximum(
+        *(np.abs(played(knot_times, knots, times) - positions) for played in (_lines, passed))
+    )
+    return away
 
 
 def passed(knot_times: Array, knots: Array, times: Array) -> Array:

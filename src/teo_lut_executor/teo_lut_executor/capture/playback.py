@@ -37,12 +37,13 @@ class Playback:
 
     Attributes:
         stretch: Duration of the sign over the recorded one [1].
-        path_error: How far the played path is from the motion that was captured, worst joint and frame [rad].
+        path_error: How far the played path is from the motion that was captured, worst frame, of each of the
+            sign's joints [rad]. Shape (m,).
         clearance: Smallest distance between parts of the robot [m].
     """
 
     stretch: float
-    path_error: float
+    path_error: Array
     clearance: float
 
 
@@ -106,16 +107,17 @@ def _clearance(robot: Robot, gloss: str, plan: Plan) -> float:
     return least
 
 
-def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> float:
-    """Distance of every captured frame to the path played between the knots around it [rad]."""
+def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array:
+    """Distance of every captured frame to the path played between the knots around it [rad]. Shape (m,)."""
     columns = [plan.names.index(joint) for joint in sign.joints]
     stations = _stations(sign, plan, columns)
-    worst = 0.0
+    worst = np.zeros(len(sign.joints))
     for knot, (begin, end) in enumerate(pairwise(stations)):
         between = (times >= sign.times[knot] - 1e-9) & (times <= sign.times[knot + 1] + 1e-9)
         played = sample_at(plan.motions, np.linspace(begin, end, _BETWEEN)).positions[:, columns]
-        away = np.abs(positions[between][:, None] - played).max(axis=2)
-        worst = max(worst, float(away.min(axis=1).max(initial=0.0)))
+        away = np.abs(positions[between][:, None] - played)
+        nearest = away.max(axis=2).argmin(axis=1)
+        worst = np.maximum(worst, away[np.arange(len(away)), nearest].max(axis=0, initial=0.0))
     return worst
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from teo_description import description_hash
 from teo_description.robot import Robot
-from teo_lut_executor.capture.knot_reduction import TOLERANCE, deviation, reduce_to_knots
+from teo_lut_executor.capture.gentle_motion import gentlest, is_finger
+from teo_lut_executor.capture.knot_reduction import TOLERANCE, deviations, reduce_to_knots
 from teo_lut_executor.capture.measures import limit_margin_deg
 from teo_lut_executor.capture.playback import Playback, play
 from teo_lut_executor.capture.take import Take
@@ -94,25 +95,25 @@ def make_sign(
         provenance=_provenance(origin, takes, combined),
         quality={},
     )
-    sign, playback, reduction = _with_knots(robot, sign)
-    quality = _quality(used, sign, playback, reduction)
+    sign, playback = _played(robot, sign)
+    away = deviations(combined.times, combined.positions, sign.times, sign.knots).max(axis=0)
+    quality = _quality(used, sign, playback, away)
     return Captured(sign=replace(sign, quality=quality), takes=tuple(takes), combined=combined)
 
 
-def _with_knots(robot: Robot, whole: Sign) -> tuple[Sign, Playback, float]:
-    """The sign in fewer knots, what the planner makes of it, and what the knots leave out [rad]."""
-    for tolerance in (TOLERANCE, TOLERANCE / 3.0, 0.0):
-        knots = reduce_to_knots(whole.times, whole.knots, tolerance)
-        sign = replace(whole, times=whole.times[knots], knots=whole.knots[knots])
+def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
+    """The sign in fewer knots, gently moved, and what the planner makes of it."""
+    for share in (1.0, 0.5, 0.25, 0.0):
+        gentle = gentlest(whole.times, whole.joints, whole.knots, share=share)
+        knots = reduce_to_knots(whole.times, gentle, share * TOLERANCE)
+        sign = replace(whole, times=whole.times[knots], knots=gentle[knots])
         try:
-            playback = play(robot, sign, whole.times, whole.knots)
+            return sign, play(robot, sign, whole.times, whole.knots)
         except LutError as error:
-            # What is clear in every frame may touch between knots that are far apart.
-            if error.code != "self_collision" or len(knots) == len(whole.times):
+            # A hand that all but touches has no room for a tube, nor for a spline between far knots.
+            if error.code != "self_collision" or share == 0.0:
                 raise
-            continue
-        return sign, playback, float(deviation(whole.times, whole.knots, knots).max())
-    raise AssertionError("with no tolerance every frame is a knot")
+    raise AssertionError("the last share returns or raises")
 
 
 def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Provenance:
@@ -141,13 +142,14 @@ def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Pr
     )
 
 
-def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, reduction: float) -> dict[str, float]:
+def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array) -> dict[str, float]:
     def usual(errors: str) -> float:
         """The worse hand's error that 95 of 100 frames keep below, mean of the takes."""
         found = [getattr(take.motion, errors) for take in takes]
         hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
         return float(np.mean([np.nanpercentile(array, _SHARE, axis=0).max() for array in hands]))
 
+    fingers = np.array([is_finger(joint) for joint in sign.joints])
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
         "palm_error_p95_deg": np.degrees(usual("palm_error")),
@@ -155,8 +157,10 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, reduction: f
         "flexion_error_p95_deg": np.degrees(usual("flexion_error")),
         "smoothing_mm": 1000.0 * max(take.smoothing for take in takes),
         "lost_percent": 100.0 * max(take.lost for take in takes),
-        "knots_error_deg": np.degrees(reduction),
-        "played_error_deg": np.degrees(playback.path_error),
+        "knots_error_deg": np.degrees(away[~fingers].max(initial=0.0)),
+        "finger_knots_error_deg": np.degrees(away[fingers].max(initial=0.0)),
+        "played_error_deg": np.degrees(playback.path_error[~fingers].max(initial=0.0)),
+        "finger_played_error_deg": np.degrees(playback.path_error[fingers].max(initial=0.0)),
         "stretch_times": playback.stretch,
         "clearance_mm": 1000.0 * playback.clearance,
         "limit_margin_deg": limit_margin_deg(sign.joints, sign.knots),
