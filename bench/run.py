@@ -5,6 +5,7 @@ from __future__ import annotations
 import platform
 
 import driver_rate
+import letters
 import lexicon
 import limbs
 import planning
@@ -21,6 +22,7 @@ BENCHES = (
     robot_model,
     planning,
     lexicon,
+    letters,
     driver_rate,
     translation,
     text_to_trajectory,
