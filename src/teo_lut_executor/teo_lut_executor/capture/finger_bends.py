@@ -61,5 +61,6 @@ def straight_bends(hands: Array) -> Array:
     if not len(seen):
         return np.tile(_STRAIGHT, (4, 1))
     least = np.percentile(finger_bends(in_palm(seen)), _STRAIGHTEST, axis=0)
-    straight: Array = np.where(np.abs(least) < _SEEN_STRAIGHT, least, _STRAIGHT)
+    # A knuckle that bends backwards is straight before it does.
+    straight: Array = np.where(least < _SEEN_STRAIGHT, np.maximum(least, 0.0), _STRAIGHT)
     return straight
