@@ -10,9 +10,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+import rclpy
 import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
 from typer.testing import CliRunner, Result
 
 from teo_description import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
@@ -96,7 +100,7 @@ def test_a_motion_is_as_slow_as_teo_must_be(make_sign: Callable[..., Sign]) -> N
     assert speed.max() <= MAXIMUM_VELOCITY + 1e-9
 
 
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(seed=st.integers(0, 2**32 - 1), period=st.sampled_from([0.01, 0.02, 0.05]))
 def test_what_is_written_is_read_back(
     random_table: Callable[..., dict[str, Sign]], seed: int, period: float
@@ -130,6 +134,37 @@ def test_a_gloss_that_yaml_takes_for_something_else_stays_a_text(
     sign = make_sign(gloss, [[HOME[joint] + 0.1 for joint in RIGHT_ARM]], joints=RIGHT_ARM)
     motions = parse_motions(play_motion2_parameters([planned({gloss: sign}, gloss)]))
     assert motions[gloss]["meta"]["name"] == gloss
+
+
+def test_ros_itself_reads_the_parameters(
+    tmp_path: Path, domain_id: int, make_sign: Callable[..., Sign]
+) -> None:
+    """rcl's parser is another one than PyYAML: as play_motion2 starts, so does this node."""
+    knots = [[HOME[joint] + 0.1 for joint in RIGHT_ARM]]
+    signs = {gloss: make_sign(gloss, knots, joints=RIGHT_ARM) for gloss in ("NO", "POR_QUÉ")}
+    motions = [planned(signs, gloss) for gloss in signs]
+    file = tmp_path / "motions.yaml"
+    file.write_text(play_motion2_parameters(motions), encoding="utf-8")
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    try:
+        node = Node(
+            "play_motion2",
+            context=context,
+            cli_args=["--ros-args", "--params-file", str(file)],
+            automatically_declare_parameters_from_overrides=True,
+            start_parameter_services=False,
+        )
+        for motion in motions:
+            read = node.get_parameters_by_prefix(f"motions.{motion.sign.gloss}")
+            assert read["joints"].type_ == Parameter.Type.STRING_ARRAY
+            assert read["positions"].type_ == Parameter.Type.DOUBLE_ARRAY
+            assert read["times_from_start"].type_ == Parameter.Type.DOUBLE_ARRAY
+            assert read["meta.name"].value == motion.sign.gloss
+            np.testing.assert_allclose(read["positions"].value, motion.positions.ravel(), atol=5.1e-10)
+        node.destroy_node()
+    finally:
+        rclpy.shutdown(context=context)
 
 
 def test_the_mask_leaves_the_time_out(table: Mapping[str, Sign]) -> None:
