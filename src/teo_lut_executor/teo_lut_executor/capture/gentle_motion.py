@@ -1,9 +1,10 @@
 """The gentlest motion near a captured one.
 
 What is left of the keypoints' noise is small in degrees but fast: fingers that tremble by 5 deg from frame
-to frame move at 150 deg/s, three times what TEO's joints do, and the planner would slow the whole sign for it. Of
-all motions that nowhere leave a tube around the captured one, this is the one with the least acceleration: it
-has no trembling smaller than the tube, and no stroke, however fast, loses more than the tube's radius.
+to frame move at 150 deg/s, three times what TEO's joints do, and the planner would slow the whole sign for
+it. Of all motions that nowhere leave a tube around the captured one, this is the one with the least
+acceleration: it has no trembling smaller than the tube, and no stroke, however fast, loses more than the
+tube's radius.
 """
 
 from __future__ import annotations

@@ -97,7 +97,7 @@ def make_sign(
     )
     sign, playback = _played(robot, sign)
     away = deviations(combined.times, combined.positions, sign.times, sign.knots).max(axis=0)
-    quality = _quality(used, sign, playback, away)
+    quality = _quality(used, sign, playback, away) | {"takes_count": float(len(takes))}
     return Captured(sign=replace(sign, quality=quality), takes=tuple(takes), combined=combined)
 
 
@@ -164,7 +164,6 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
         "stretch_times": playback.stretch,
         "clearance_mm": 1000.0 * playback.clearance,
         "limit_margin_deg": limit_margin_deg(sign.joints, sign.knots),
-        "takes_count": float(len(takes)),
     }
     # Adding zero takes the sign from -0.0.
     return {
