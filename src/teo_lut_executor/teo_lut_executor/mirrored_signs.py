@@ -4,7 +4,7 @@ What the right hand does the left one does, and the other way round; head and tr
 The limits of TEO's arms are not quite mirror images: the left upper arm turns in 5.4 deg less than the right
 one, its wrist turns out 4 deg less. A posture that lies beyond is replaced by the one within the limits that
 brings the hand nearest to its mirror image, and the sign says how far off that is (`mirror_error_mm`,
-`mirror_error_deg` in its quality): by 13 mm and 7 deg at most in the package's table. What is beyond a limit
+`mirror_error_deg` in its quality): by 14 mm and 7 deg at most in the package's table. What is beyond a limit
 elsewhere stays so, and a planner refuses it by name.
 """
 
@@ -31,8 +31,11 @@ _ARMS = {"right": RIGHT_ARM, "left": LEFT_ARM}
 
 _PLACE = 8.0
 """[rad/m] 2 cm of place count as much as 9 deg of the palm: what is lost is shared out between the two."""
-_NEAR = 0.03
-"""What a radian of way from the posture just within the limits costs: chooses among equals."""
+_NEAR = (0.03, 0.3, 1.0, 3.0)
+"""What a radian of way from the posture just within the limits costs: chooses among equals; or more, so that
+the arm stays where it is clear, if it would touch."""
+_CLEAR = 0.005
+"""[m] Distance that parts of the robot keep in a posture: the planner's curves between knots close less."""
 
 
 class MirroredSigns(Mapping[str, Sign]):
@@ -106,7 +109,11 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
             within = np.clip(row[columns], limits.lower, limits.upper)
             # An entry keeps six decimals: what is beyond by less is on the limit.
             if np.abs(within - row[columns]).max() > LIMIT_TOLERANCE:
-                row[columns], found = _nearest(robot, side, row[columns], within)
+                wanted = row[columns]
+                for near in _NEAR:
+                    row[columns], found = _nearest(robot, side, wanted, within, near)
+                    if _is_clear(robot, joints, row):
+                        break
                 place, turn = max(place, found[0]), max(turn, found[1])
     errors = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
     notes = f"{sign.provenance.notes} Mirrored for a left-handed signer.".strip()
@@ -120,7 +127,14 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     )
 
 
-def _nearest(robot: Robot, side: str, wanted: Array, start: Array) -> tuple[Array, tuple[float, float]]:
+def _is_clear(robot: Robot, joints: tuple[str, ...], row: Array) -> bool:
+    pose = dict(zip(joints, row.tolist(), strict=True))
+    return robot.clearance(robot.configuration(pose)).distance >= _CLEAR
+
+
+def _nearest(
+    robot: Robot, side: str, wanted: Array, start: Array, near: float
+) -> tuple[Array, tuple[float, float]]:
     """The arm within its limits that brings the hand nearest to where another arm would.
 
     Args:
@@ -128,6 +142,7 @@ def _nearest(robot: Robot, side: str, wanted: Array, start: Array) -> tuple[Arra
         side: Which arm.
         wanted: The arm beyond its limits [rad]. Shape (6,).
         start: The same within them. Shape (6,).
+        near: What a radian of way from the start costs.
 
     Returns:
         The arm, shape (6,), and how far off its palm is [m] and [rad].
@@ -143,7 +158,7 @@ def _nearest(robot: Robot, side: str, wanted: Array, start: Array) -> tuple[Arra
     def residuals(arm: Array) -> Array:
         placed = palm(arm)
         turned = (placed[:3, :3] - goal[:3, :3]).ravel() / np.sqrt(2.0)
-        return np.concatenate([_PLACE * (placed[:3, 3] - goal[:3, 3]), turned, _NEAR * (arm - start)])
+        return np.concatenate([_PLACE * (placed[:3, 3] - goal[:3, 3]), turned, near * (arm - start)])
 
     inside = np.clip(start, limits.lower + 1e-6, limits.upper - 1e-6)
     fit = least_squares(residuals, inside, bounds=(limits.lower, limits.upper))

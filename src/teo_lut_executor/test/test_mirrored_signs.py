@@ -111,6 +111,15 @@ def test_what_is_beyond_the_other_arms_limit_is_brought_near_not_cut_off(robot: 
     assert "irrored" in other.provenance.notes
 
 
+def test_an_arm_brought_within_its_limits_does_not_touch(robot: Robot, lut: Lut) -> None:
+    """MÍO has the elbow at the trunk: the arm that is nearest to its mirror image would touch there."""
+    for gloss in ("MÍO", "YO", "ABURRIDO"):
+        other = mirrored_sign(robot, lut[gloss])
+        assert "mirror_error_mm" in other.quality
+        for knot in range(len(other.times)):
+            assert robot.clearance(robot.configuration(other.pose(knot))).distance > 0.004
+
+
 def test_a_sign_that_has_changed_is_mirrored_anew(robot: Robot, lut: Lut) -> None:
     signs: dict[str, Sign] = {"X": lut["CASA"]}
     mirrored = MirroredSigns(signs, robot)
