@@ -44,7 +44,9 @@ def perform_scores(
         bool, typer.Option("--truth-only", help="Bags without images: only the true keypoints.")
     ] = False,
     replace: Annotated[bool, typer.Option(help="Perform anew what has a bag already.")] = False,
-    body: Annotated[str, typer.Option(help="Who performs; `synthesize --list` names them.")] = "man_tall",
+    body: Annotated[
+        str, typer.Option(help="Who performs; `synthesize --list` names them.")
+    ] = "woman_average",
     sensor: Annotated[str, typer.Option(help="What records, likewise.")] = "d435",
     scene: Annotated[str, typer.Option(help="What is around, likewise.")] = "office",
     distance: Annotated[float, typer.Option(help="From the camera to the person [m].")] = 1.5,

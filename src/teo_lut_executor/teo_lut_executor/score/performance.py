@@ -73,7 +73,10 @@ class _Hand:
     ) -> dict[str, Any]:
         """The arm as scripts write it: a way from its place, fingers bent and joints swung [deg]."""
         name, offset = split_place(self.place)
-        at, away = person_place(name, offset if way is None else offset + way)
+        at, away = person_place(name, offset)
+        if way is not None:
+            x, y, z = way.tolist()
+            away = [round(a + b, 4) for a, b in zip(away, (x, -y, z), strict=True)]
         palm = direction(self.palm)
         fingers = direction(self.fingers)
         # Words are rough: the palm is as said, the fingers as near to what is said as a hand allows.

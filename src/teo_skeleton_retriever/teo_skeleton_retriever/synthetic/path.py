@@ -24,7 +24,8 @@ class Path:
         self._progress = CubicHermiteSpline(self._times, np.arange(len(times)), self._speeds())
         self._wrists = {}
         for side, places in wrists.items():
-            self._wrists[side] = CubicSpline(self._times, np.array(places), bc_type="clamped")
+            # Over the poses, not over time: its shape must not depend on how fast it is gone.
+            self._wrists[side] = CubicSpline(np.arange(len(times)), np.array(places))
 
     def share(self, time: float) -> float:
         """Tell how much of the way from the pose that was passed last to the next is gone, 0 to 1."""
@@ -33,7 +34,7 @@ class Path:
 
     def wrist(self, side: str, time: float) -> FloatArray:
         """Tell where a wrist is [m]. Shape (3,)."""
-        place: FloatArray = self._wrists[side](time)
+        place: FloatArray = self._wrists[side](self._progress(time))
         return place
 
     def _speeds(self) -> FloatArray:
