@@ -7,6 +7,7 @@ import platform
 import driver_rate
 import letters
 import lexicon
+import lifting
 import limbs
 import planning
 import retargeting
@@ -23,6 +24,7 @@ BENCHES = (
     planning,
     lexicon,
     letters,
+    lifting,
     driver_rate,
     translation,
     text_to_trajectory,
