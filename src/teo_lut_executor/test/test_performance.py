@@ -186,8 +186,7 @@ def test_a_circle_is_round_and_does_not_stop(tmp_path: Path) -> None:
     assert np.ptp(wrists[:, 0]) < 0.004
     speeds = np.linalg.norm(np.diff(wrists, axis=0), axis=1)
     assert speeds[6:-6].min() > 0.6 * speeds[6:-6].max()
-    # Clockwise as seen from the front: from the top to the person's left, which is the viewer's right.
-    assert wrists[6, 1] > wrists[0, 1]
+    assert wrists[6, 1] < wrists[0, 1]  # from the top outwards, as on the robot
 
 
 @pytest.mark.parametrize("joint", ["wrist", "forearm", "elbow", "fingers", "index", "thumb"])
