@@ -60,7 +60,7 @@ class ArmProblem:
         Args:
             chain: The arm.
             hands: What is wanted of each hand; the right one first if there are two.
-            pair: What is wanted of two hands together; None if one takes part.
+            pair: What is wanted of two hands together; None if one takes part, or nothing is.
         """
         self._chain = chain
         self._hands = hands
@@ -80,13 +80,16 @@ class ArmProblem:
             self._single(goals, frames, pose, arm)
             for goals, pose, arm in zip(self._hands, poses, arms, strict=True)
         ]
-        if self._pair is None:
+        if len(singles) == 1:
             return singles[0]
-        count, size = len(positions), 2 * JOINTS
+        count, size = positions.shape
         gradient, curvature = np.zeros((count, size)), np.zeros((count, size, size))
         for at, single in enumerate(singles):
             own = slice(JOINTS * at, JOINTS * (at + 1))
             gradient[:, own], curvature[:, own, own] = single.gradient, single.curvature
+        cost = singles[0].cost + singles[1].cost
+        if self._pair is None:
+            return Quadratic(cost, gradient, curvature)
         right, left = poses[0].points(self._pair.right), poses[1].points(self._pair.left)
         weight = _TOGETHER * self._pair.nearness[:, None]
         away = weight * (right - left * MIRROR - self._pair.way)
@@ -95,8 +98,11 @@ class ArmProblem:
         )
         slope *= weight[..., None]
         turned = slope.transpose(0, 2, 1)
-        cost = singles[0].cost + singles[1].cost + 0.5 * (away**2).sum(axis=1)
-        return Quadratic(cost, gradient + (turned @ away[..., None])[..., 0], curvature + turned @ slope)
+        return Quadratic(
+            cost + 0.5 * (away**2).sum(axis=1),
+            gradient + (turned @ away[..., None])[..., 0],
+            curvature + turned @ slope,
+        )
 
     def _single(
         self, goals: HandGoals, frames: NDArray[np.intp], poses: ArmPoses, positions: Array
