@@ -257,6 +257,8 @@ def test_no_file_no_bytes_and_too_many_are_refused(tmp_path: Path, monkeypatch: 
     (tmp_path / "empty.pose").touch()
     assert code_of(tmp_path / "empty.pose") == "empty_file"
     path = write(tmp_path / "large.pose")
+    monkeypatch.setattr(pose_file, "MAX_FRAMES", 7)
+    assert code_of(path) == "too_long"
     monkeypatch.setattr(pose_file, "MAX_FILE_BYTES", path.stat().st_size - 1)
     assert code_of(path) == "too_large"
 

@@ -22,8 +22,10 @@ from teo_lut_executor.lut_error import LutError
 Array = NDArray[np.float64]
 
 MAX_FILE_BYTES = 256 * 1024**2
-"""Twelve minutes of MediaPipe's 586 points at 30 frames a second: no sign is longer, and to read a film for
-it takes minutes."""
+"""Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out."""
+
+MAX_FRAMES = 6000
+"""Four minutes at 25 frames a second, which take half a GB and some seconds to lift."""
 
 MAX_RATE = 1000.0
 """[Hz] No camera that films signers is faster."""
@@ -93,7 +95,7 @@ def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
 
     Raises:
         LutError: "unreadable", "empty_file", "too_large"; "bad_pose_file" for a file that is damaged or no
-            such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "non_finite";
+            such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "too_long"; "non_finite";
             "several_people" where `person` is needed, "no_person" where there is none of that number;
             "no_torso" or "no_hand" if the shoulders or the hands are never seen; "seen_from_behind".
     """
@@ -133,6 +135,10 @@ class _Reader:
         rate = self._rate(float(pose.body.fps))
         if len(data) < 2:
             self._refuse("too_short", "two frames or more", f"{len(data)}: a sign is a motion")
+        if len(data) > MAX_FRAMES:
+            self._refuse(
+                "too_long", f"at most {MAX_FRAMES} frames", f"{len(data)}: cut the film into signs first"
+            )
         chosen = self._person(confidence, person)
         data, confidence = data[:, chosen], confidence[:, chosen]
         # Detectors that give no confidence below 0 or above 1 by a rounding are taken at their word.
