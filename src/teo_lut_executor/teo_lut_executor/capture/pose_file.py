@@ -25,7 +25,7 @@ MAX_FILE_BYTES = 256 * 1024**2
 """Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out."""
 
 MAX_FRAMES = 6000
-"""Four minutes at 25 frames a second, which take half a GB and some seconds to lift."""
+"""Four minutes at 25 frames a second, which take half a GB and half a minute to lift."""
 
 MAX_RATE = 1000.0
 """[Hz] No camera that films signers is faster."""
@@ -95,8 +95,8 @@ def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
 
     Raises:
         LutError: "unreadable", "empty_file", "too_large"; "bad_pose_file" for a file that is damaged or no
-            such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "too_long"; "non_finite";
-            "several_people" where `person` is needed, "no_person" where there is none of that number;
+            such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "too_long";
+            "non_finite"; "several_people" where `person` is needed, "no_person" where there is none of that number;
             "no_torso" or "no_hand" if the shoulders or the hands are never seen; "seen_from_behind".
     """
     return _Reader(path.name).read(_content(path), person)
