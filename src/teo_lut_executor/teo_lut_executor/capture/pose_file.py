@@ -96,8 +96,8 @@ def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
     Raises:
         LutError: "unreadable", "empty_file", "too_large"; "bad_pose_file" for a file that is damaged or no
             such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "too_long";
-            "non_finite"; "several_people" where `person` is needed, "no_person" where there is none of that number;
-            "no_torso" or "no_hand" if the shoulders or the hands are never seen; "seen_from_behind".
+            "non_finite"; "several_people" where `person` is needed, "no_person" where there is none of that
+            number; "no_torso" or "no_hand" if the shoulders or the hands are never seen; "seen_from_behind".
     """
     return _Reader(path.name).read(_content(path), person)
 
