@@ -10,6 +10,7 @@ from typing import Any
 
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
+from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -59,7 +60,9 @@ class CaptureNode(Node):
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._state = self.create_publisher(String, "capture_state", latched)
         self.create_subscription(SkeletonArray, "skeletons", self._on_skeletons, 10)
-        self.create_service(CaptureSign, "capture_sign", self._on_capture)
+        # An answer that is waited for must hold up neither the clock nor the next request.
+        group = ReentrantCallbackGroup()
+        self.create_service(CaptureSign, "capture_sign", self._on_capture, callback_group=group)
         self.create_timer(1.0 / _STEP_RATE, self._step)
         self._tell(_IDLE)
 

@@ -218,4 +218,5 @@ def _progress() -> Progress:
         TimeRemainingColumn(),
         console=_errors,
         transient=True,
+        disable=not _errors.is_terminal,
     )

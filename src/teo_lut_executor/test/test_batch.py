@@ -172,13 +172,6 @@ def test_a_dask_cluster_does_the_same_work(cluster: str, folder: Path, settings:
     assert "HOLA" in Lut.open(settings.table)
 
 
-def test_processes_of_this_machine_do_the_same_work(folder: Path, settings: Settings) -> None:
-    jobs = [job for job in find_jobs(folder) if job.gloss in ("HOLA", "NADA")]
-    with workers(1, None) as executor:
-        outcomes = run_jobs(executor, jobs, settings, lambda _: None)
-    assert codes(outcomes) == {"HOLA": CAPTURED, "NADA": "no_motion"}
-
-
 def test_a_scheduler_that_does_not_answer_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("teo_lut_executor.capture.batch._CONNECT_TIMEOUT", 0.3)
     with pytest.raises(LutError, match="Dask") as error, workers(1, "tcp://127.0.0.1:9"):
