@@ -24,7 +24,7 @@ from teo_lut_executor.lut_cli import app
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.planner import Planner
 from teo_lut_executor.sign import Sign
-from teo_lut_executor.sign_export import SignMotion, sign_motion
+from teo_lut_executor.sign_export import PARTS, SignMotion, sign_motion
 from teo_lut_executor.sign_export_play_motion2 import play_motion2_parameters
 from teo_lut_executor.sign_export_playback import playback_mask, playback_table, save_playback_tables
 
@@ -165,6 +165,19 @@ def test_ros_itself_reads_the_parameters(
         node.destroy_node()
     finally:
         rclpy.shutdown(context=context)
+
+
+def test_the_boards_have_their_axes_in_the_robots_order() -> None:
+    """As launchCanBus/wholeBody.ini of teo-configuration-files and the Dextra's Synapse.cpp list them."""
+    arm = ("Frontal{}Shoulder", "Sagittal{}Shoulder", "Axial{}Shoulder", "Frontal{}Elbow", "Axial{}Wrist")
+    for side in ("Left", "Right"):
+        names = tuple(name.format(side) for name in (*arm, "Frontal{}Wrist"))
+        assert PARTS[f"{side.lower()}Arm"] == names
+        fingers = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+        hand = (f"{side}HandAbductor", *(f"{side}{finger}Finger" for finger in fingers))
+        assert PARTS[f"{side.lower()}Hand"] == hand
+    assert PARTS["head"] == ("AxialNeck", "FrontalNeck")
+    assert PARTS["trunk"] == ("AxialTrunk", "FrontalTrunk")
 
 
 def test_the_mask_leaves_the_time_out(table: Mapping[str, Sign]) -> None:
