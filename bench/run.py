@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 
+import camera_path
 import driver_rate
 import letters
 import lexicon
@@ -32,6 +33,7 @@ BENCHES = (
     retargeting,
     retriever_accuracy,
     retriever_node,
+    camera_path,
 )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -126,6 +127,13 @@ def test_names_are_names_and_files_are_files(tmp_path: Path) -> None:
         script_of(str(tmp_path / "nothing.yaml"))
     with pytest.raises(SyntheticError, match="unknown_script"):
         script_of("nothing")
+
+
+def test_the_example_of_the_documentation_can_be_played(tmp_path: Path) -> None:
+    text = (Path(__file__).parents[1] / "SYNTHETIC_SIGNER.md").read_text("utf-8")
+    example = re.search(r"```yaml\n(.*?)```", text, re.DOTALL)
+    assert example
+    assert len(read_script(written(tmp_path, example[1])).keys) == 7
 
 
 angles = st.tuples(*(st.floats(0.0, 85.0),) * 12)
