@@ -134,14 +134,14 @@ def retarget_motion(
 def _hand(track: SkeletonTrack, side: str) -> Array:
     """A hand's keypoints, gaps filled. Shape (T, 21, 3)."""
     hand = track.hand(side).positions
-    flat = hand.reshape(len(hand), -1)
-    if not np.isfinite(flat).all(axis=1).any():
+    seen = np.isfinite(hand).all(axis=2).any(axis=0)
+    if not seen.all():
         raise LutError(
             "no_hand",
-            f"{track.source}: expected a {side} hand with its {HAND} keypoints, got none in "
+            f"{track.source}: expected a {side} hand with its {HAND} keypoints, got {seen.sum()} of them in "
             f"{len(hand)} frames: was it in the picture?",
         )
-    return filled(track.times, flat).reshape(hand.shape)
+    return np.stack([filled(track.times, keypoint) for keypoint in hand.transpose(1, 0, 2)], axis=1)
 
 
 def _arm(track: SkeletonTrack, side: str) -> Array:
