@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from teo_description import joint_limits
 from teo_description.robot import Robot
+from teo_lut_executor.capture.gentle_motion import tube_radii
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.plan import Plan, sample_at
 from teo_lut_executor.plan_error import PlanError
@@ -116,7 +117,8 @@ def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array
         between = (times >= sign.times[knot] - 1e-9) & (times <= sign.times[knot + 1] + 1e-9)
         played = sample_at(plan.motions, np.linspace(begin, end, _BETWEEN)).positions[:, columns]
         away = np.abs(positions[between][:, None] - played)
-        nearest = away.max(axis=2).argmin(axis=1)
+        # What is near is told by arms rather than by fingers, which may be farther off.
+        nearest = (away / tube_radii(sign.joints)).max(axis=2).argmin(axis=1)
         worst = np.maximum(worst, away[np.arange(len(away)), nearest].max(axis=0, initial=0.0))
     return worst
 
