@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -185,6 +186,44 @@ def test_points_that_were_not_seen_stay_lost(truth: SkeletonTrack) -> None:
     assert (lifted.right_hand.status[20:30] == 0).all()
     assert not np.isfinite(lifted.body.positions[40:44, ELBOW["left"]]).any()
     assert np.isfinite(lifted.body.positions[40:44, WRIST["left"]]).all()
+
+
+def without(clip: PoseClip, lost: Sequence[int], *, left_hand: bool, frames: int) -> PoseClip:
+    """The beginning of a clip, with points of the body and the left hand never seen."""
+
+    def part(points: Points, hidden: Sequence[int]) -> Points:
+        places, confidence = points.places[:frames].copy(), points.confidence[:frames].copy()
+        places[:, hidden], confidence[:, hidden] = np.nan, 0.0
+        return Points(places=places, confidence=confidence)
+
+    return PoseClip(
+        rate=clip.rate,
+        body=part(clip.body, lost),
+        left_hand=part(clip.left_hand, () if left_hand else range(21)),
+        right_hand=part(clip.right_hand, ()),
+        source=clip.source,
+        layout=clip.layout,
+    )
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("lost", "left_hand", "frames"),
+    [
+        ((3, 6), True, 30),
+        ((0, 1, 3, 4, 6, 7, 8, 9, 12, 15, 16, 17, 18), True, 30),
+        ((6, 7), False, 30),
+        ((), True, 2),
+    ],
+    ids=["no elbows", "shoulders and hands only", "no left arm", "two frames"],
+)
+def test_whatever_is_missing_the_right_hand_is_lifted(
+    truth: SkeletonTrack, lost: tuple[int, ...], left_hand: bool, frames: int
+) -> None:
+    lifted = lift_clip(without(picture(truth), lost, left_hand=left_hand, frames=frames))
+    away = lifted.right_hand.positions - truth.right_hand.positions[:frames]
+    assert np.median(np.linalg.norm(away, axis=2)) < 0.15
+    assert np.isfinite(lifted.left_hand.positions).any() == left_hand
 
 
 def test_a_person_turned_by_the_axes_of_the_trunk_is_the_same_person(lifted: SkeletonTrack) -> None:
