@@ -154,7 +154,7 @@ def overview(
     kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "lexical",
     lut: Directory = None,
 ) -> None:
-    """Draw all signs of a kind on one small picture, each as it begins and ends."""
+    """Draw all signs of a kind on one small picture, each as it begins and farthest from there."""
     from teo_lut_executor.lut_pictures import save_overview
 
     signs = _of_kind(_open(lut), kind)
