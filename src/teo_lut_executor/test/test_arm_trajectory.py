@@ -130,3 +130,12 @@ def test_a_single_frame_is_solved(chain):
     problem = ArmProblem(chain, (goals_of(chain, ARMS[:1]),), None)
     found = solve_arms(problem, TIMES[:1], BOUNDS[:1])
     assert chain.poses(found).place == pytest.approx(chain.poses(ARMS[:1]).place, abs=0.01)
+
+
+def test_a_fast_beat_keeps_its_height(chain):
+    beat = np.radians(8.0) * np.sin(2.0 * np.pi * 3.0 * TIMES)
+    arms = np.tile(np.radians([-50.0, -15.0, 10.0, -80.0, 20.0, 0.0]), (len(TIMES), 1))
+    arms[:, 0] += beat
+    found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1])
+    heights = [np.ptp(chain.poses(motion).place[10:30, 2]) for motion in (found, arms)]
+    assert heights[0] > 0.9 * heights[1]

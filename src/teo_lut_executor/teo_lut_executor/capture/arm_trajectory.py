@@ -40,8 +40,10 @@ _SEARCH_STEPS = 12
 _JUMP = 0.5
 """[1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
 much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it."""
-_SPEED = 0.02
-"""[s] What a joint does faster than within about this time is smoothed: less than a frame of a camera."""
+_SPEED = 0.04
+"""[s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
+this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
+hardly matters it smooths more."""
 _STEPS, _ENOUGH = 25, 1e-4
 """The search ends after so many steps, or when no joint moves by this any more [rad]."""
 _DAMPING = 1e-4
