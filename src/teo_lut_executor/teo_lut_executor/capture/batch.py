@@ -18,6 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, get_args
 
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
+
 from teo_description.robot import Robot
 from teo_lut_executor.capture.bag_capture import Job, Settings, capture_bags, is_captured
 from teo_lut_executor.capture.recording import is_bag
@@ -170,7 +172,10 @@ def workers(count: int, dask: str | None) -> Iterator[Executor]:
     if dask is None:
         # Fresh processes: a fork would take over locks and threads of whatever runs here.
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(count, mp_context=context) as pool:
+        # The processes are as many as there are cores: one thread of linear algebra each.
+        with ProcessPoolExecutor(
+            count, mp_context=context, initializer=threadpool_limits, initargs=(1,)
+        ) as pool:
             yield pool
         return
     from distributed import Client

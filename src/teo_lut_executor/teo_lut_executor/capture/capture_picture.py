@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 _MOMENTS = 7
 _SIZE = (320, 240)
 """[px] Of each picture: seven beside each other are as wide as a screen."""
-_SCALE = 0.62 * _SIZE[1]
-"""[px/m] The drawn person fills the height from the hips to above the head."""
+_SCALE = 0.8 * _SIZE[1]
+"""[px/m] The drawn person fills the height from hands that hang to hands above the head."""
 _MIDDLE = (_SIZE[0] // 2, int(0.42 * _SIZE[1]))
 """[px] Where the origin of the person's axes is drawn, between the shoulders."""
 _PAPER, _INK, _RIGHT, _LEFT = (250, 250, 252), (70, 75, 85), (200, 60, 40), (40, 90, 190)
