@@ -21,6 +21,7 @@ from teo_lut_executor.score.score_file import default_scores_directory, read_sco
 from teo_lut_executor.score.score_schema import Score
 
 _SYNTHESIZE = "teo_skeleton_retriever.synthetic.synthesize_cli"
+_SAYS = "synthesize: "
 _TWICE_A_SIGNS_FASTEST = 15.0
 """[Hz] The fastest wiggles of scores go to and fro 7 times a second at most."""
 _LAST_WORDS = 300
@@ -128,6 +129,9 @@ def _synthesize(out: Path, gloss: str, options: list[str]) -> str:
             return complaint[-_LAST_WORDS:] or f"exit status {done.returncode}"
         shutil.rmtree(bag, ignore_errors=True)
         beside.replace(bag)
+        for line in done.stderr.splitlines():
+            if line.startswith(_SAYS):  # what a viewer of the recording should know
+                _errors.print(f"{gloss}: {line.removeprefix(_SAYS)}", soft_wrap=True, markup=False)
     except OSError as error:
         return str(error)
     finally:

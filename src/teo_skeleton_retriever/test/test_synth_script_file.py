@@ -129,6 +129,21 @@ def test_names_are_names_and_files_are_files(tmp_path: Path) -> None:
         script_of("nothing")
 
 
+def test_a_place_that_no_arm_reaches_is_refused_and_a_little_too_far_is_said(
+    signer: Signer, tmp_path: Path
+) -> None:
+    text = (
+        "about: x\nkeys:\n- {right: hanging, left: hanging}\n"
+        "- right:\n    {at: shoulders, offset: [AHEAD, 0.1, 0], fingers: [1, 0, 0], palm: [0, -1, 0], shape: flat}\n"
+    )
+    near = Motion(signer.poser, read_script(written(tmp_path, text.replace("AHEAD", "0.5"))).keys)
+    assert near.shortfall < 1e-6
+    far = Motion(signer.poser, read_script(written(tmp_path, text.replace("AHEAD", "0.7"))).keys)
+    assert 0.02 < far.shortfall < 0.15
+    with pytest.raises(SyntheticError, match=r"out_of_reach.*beyond it at 0\.45 s"):
+        Motion(signer.poser, read_script(written(tmp_path, text.replace("AHEAD", "1.0"))).keys)
+
+
 def test_the_example_of_the_documentation_can_be_played(tmp_path: Path) -> None:
     text = (Path(__file__).parents[1] / "SYNTHETIC_SIGNER.md").read_text("utf-8")
     example = re.search(r"```yaml\n(.*?)```", text, re.DOTALL)

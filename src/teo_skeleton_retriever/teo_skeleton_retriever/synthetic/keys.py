@@ -100,10 +100,16 @@ class Key:
 
 
 class KeyResolver:
-    """Turns key poses in words into poses of one person."""
+    """Turns key poses in words into poses of one person.
+
+    Attributes:
+        shortfall: By how much a hand stayed off its place at most, as arms are too short or elbows bend no
+            further [m].
+    """
 
     def __init__(self, poser: Poser) -> None:
         self._poser = poser
+        self.shortfall = 0.0
         self._places = Places(poser.rig)
         self._scale = (poser.arms["R"].upper + poser.arms["R"].fore) / _ARM_LENGTH
 
@@ -137,7 +143,8 @@ class KeyResolver:
         wrist = target - rotation @ (hand_point(hand, shape, key.point) - hand.wrist)
         arm = self._poser.arms[side]
         _, shoulder = self._poser.girdle(side, wrist)
-        wrist = arm.reachable(shoulder, wrist)
+        wanted, wrist = wrist, arm.reachable(shoulder, wrist)
+        self.shortfall = max(self.shortfall, float(np.linalg.norm(wrist - wanted)))
         swivel = arm.easiest_swivel(shoulder, wrist, rotation, outside=outside) + key.swivel
         return self._swung(side, ArmPose(wrist, rotation, swivel, shape), key.swing)
 

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.synthetic.clearing import Clearing
+from teo_skeleton_retriever.synthetic.errors import SyntheticError
 from teo_skeleton_retriever.synthetic.hand_points import OTHER_HAND
 from teo_skeleton_retriever.synthetic.keys import ArmKey, Key, KeyResolver
 from teo_skeleton_retriever.synthetic.path import Path
@@ -20,6 +21,9 @@ from teo_skeleton_retriever.synthetic.rig import SIDES
 
 _STEP_HEIGHT = 0.06
 """How far a foot is lifted for a step [m]."""
+
+_MOST_SHORT = 0.15
+"""A hand that stays farther than this off its place is at another part of the body [m]."""
 
 # Nobody stands still: the trunk sways and breathes. Amplitudes [rad] and frequencies [Hz] of quiet standing.
 _SWAY = ((0.008, 0.27), (0.006, 0.19), (0.006, 0.23))
@@ -60,7 +64,8 @@ class Motion:
         """Resolve key poses; the first is where the person starts and must name both arms.
 
         Raises:
-            SyntheticError: a place, point or shape that does not exist.
+            SyntheticError: a place, point or shape that does not exist; in keys that keep out of the body,
+                "out_of_reach".
         """
         self._poser = poser
         self._resolver = resolver = KeyResolver(poser)
@@ -76,9 +81,17 @@ class Motion:
                 if arm is not None:
                     other = arms.get("L" if side == "R" else "R")
                     arms[side] = resolver.arm(side, arm, other, outside=key.keep_out)
+            if key.keep_out and resolver.shortfall > _MOST_SHORT:
+                raise SyntheticError(
+                    "out_of_reach",
+                    f"expected places within reach, got one {100.0 * resolver.shortfall:.0f} cm beyond it at "
+                    f"{now + key.move:.2f} s",
+                )
             stage = _Stage(key, now - (0.0 if before else key.move), arms, self._feet(poser, key))
             self._stages.append(stage)
             now = stage.end
+        self.shortfall = resolver.shortfall
+        """By how much a hand stays off its place at most, as it is out of reach [m]."""
         self.duration = now
         """How long the script is [s]."""
         self._starts = [stage.start for stage in self._stages]

@@ -21,6 +21,8 @@ from teo_skeleton_retriever.synthetic.take_bag import write_take
 from teo_skeleton_retriever.synthetic.take_messages import JPEG_QUALITY
 
 _DEFAULTS = TakeOptions()
+_WORTH_SAYING = 0.02
+"""A hand that is nearer than this to its place is there [m]."""
 _out = Console()
 _err = Console(stderr=True)
 _app = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -103,6 +105,12 @@ def _synthesize(
     except SyntheticError as error:
         _err.print(f"synthesize: {error}", style="red", markup=False, highlight=False)
         raise typer.Exit(1) from None
+    if take.motion.shortfall > _WORTH_SAYING:
+        _err.print(
+            f"synthesize: hands stay up to {100.0 * take.motion.shortfall:.0f} cm off places out of reach",
+            markup=False,
+            highlight=False,
+        )
     megabytes = sum(file.stat().st_size for file in out.iterdir()) / 1e6
     _out.print(f"{out}: {count} frames, {count / rate:.1f} s, {megabytes:.1f} MB", highlight=False)
 
