@@ -134,7 +134,8 @@ def test_a_place_that_no_arm_reaches_is_refused_and_a_little_too_far_is_said(
 ) -> None:
     text = (
         "about: x\nkeys:\n- {right: hanging, left: hanging}\n"
-        "- right:\n    {at: shoulders, offset: [AHEAD, 0.1, 0], fingers: [1, 0, 0], palm: [0, -1, 0], shape: flat}\n"
+        "- right: {at: shoulders, offset: [AHEAD, 0.1, 0], fingers: [1, 0, 0], palm: [0, -1, 0],\n"
+        "    shape: flat}\n"
     )
     near = Motion(signer.poser, read_script(written(tmp_path, text.replace("AHEAD", "0.5"))).keys)
     assert near.shortfall < 1e-6
