@@ -21,7 +21,7 @@ def speed(positions: Array) -> Array:
     return np.abs(np.diff(positions, axis=0)).max(axis=0) / (TIMES[1] - TIMES[0])
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(seed=st.integers(0, 1000), share=st.floats(0.0, 1.0))
 def test_no_frame_leaves_the_tube_or_the_limits(seed: int, share: float) -> None:
     rng = np.random.default_rng(seed)

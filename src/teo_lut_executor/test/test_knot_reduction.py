@@ -19,7 +19,7 @@ def swinging(times: Array, frequency: float, amplitude: float = 0.4) -> Array:
     return np.column_stack([amplitude * np.sin(2.0 * np.pi * frequency * times), 0.2 * times])
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(frequency=st.floats(0.1, 3.0), amplitude=st.floats(0.01, 0.8))
 def test_no_frame_is_farther_than_the_tolerance(frequency: float, amplitude: float) -> None:
     motion = swinging(TIMES, frequency, amplitude)

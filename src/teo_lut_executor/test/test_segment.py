@@ -47,7 +47,7 @@ def test_the_stroke_is_what_lies_between_the_way_up_and_the_way_down() -> None:
     assert not span.cut_end
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(
     up=st.floats(0.4, 0.8),
     stroke=st.floats(0.25, 0.8),

@@ -93,9 +93,9 @@ def _check_limits(gloss: str, plan: Plan) -> None:
 
 def _clearance(robot: Robot, gloss: str, plan: Plan) -> float:
     least, when, parts = np.inf, 0.0, ""
-    for time in np.arange(0.0, plan.duration, DEFAULT_PERIOD):
-        pose = dict(zip(plan.names, plan.at(float(time))[0].tolist(), strict=True))
-        found = robot.clearance(robot.configuration(pose))
+    times = np.arange(0.0, plan.duration, DEFAULT_PERIOD)
+    for time, pose in zip(times, sample_at(plan.motions, times).positions, strict=True):
+        found = robot.clearance(robot.configuration(dict(zip(plan.names, pose.tolist(), strict=True))))
         if found.distance < least:
             least, when = float(found.distance), float(time)
             parts = f"{found.first} and {found.second}"
