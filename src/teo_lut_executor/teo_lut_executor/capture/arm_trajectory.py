@@ -1,6 +1,6 @@
 """The motion of the arms as one whole.
 
-First each arm is sought by itself, in every third frame, from seven starts at once (the search has that many
+First each arm is sought by itself, in every third frame, from eight starts at once (the search has that many
 valleys), and of what is found the cheapest way through time is taken (Viterbi). Then all frames and both arms
 are solved together, with a price on speed that ties the frames to each other, by Newton's method projected
 onto the bounds (Bertsekas, SIAM J. Control 1982) with Gauss and Newton's curvature: a frame's joints are

@@ -21,9 +21,8 @@ _PUSHED = 3
 that have gone into each other too far are pushed to the wrong side), and what is wanted of it counts less."""
 _LESS, _AROUND = 0.3, 2
 """By how much less each time, and in how many frames before and after as well."""
-_ARM_REACH = 0.5
-"""[m] No part of an arm moves by more than this for a radian of all its joints together, and no two parts
-come nearer by more (see `self_collision`)."""
+_STILL = 1e-4
+"""[rad] A posture that moves by less keeps its distances to a tenth of a millimetre."""
 
 
 def clear_arms(
@@ -55,8 +54,7 @@ def clear_arms(
             shares = shares * np.where(maximum_filter1d(distances < LEAST, 2 * _AROUND + 1), _LESS, 1.0)
         touches = whole.touches(np.flatnonzero(distances < 2.0 * WANTED), arms)
         arms = refine_arms(problem, track.times, bounds, arms, touches=touches, shares=shares)
-        way = _ARM_REACH * np.abs(arms - measured).sum(axis=1)
-        changed = np.flatnonzero(distances - way < WANTED)
+        changed = np.flatnonzero(np.abs(arms - measured).max(axis=1) > _STILL)
         measured = measured.copy()
         for frame in changed.tolist():
             distances[frame] = whole.clearance(frame, arms[frame]).distance
