@@ -10,12 +10,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
 from teo_lut_executor.capture.measures import clearance_mm, limit_margin_deg
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.score.arm_solver import ArmSolver, Reach, arm_bounds, mirrored, smoothest
+from teo_lut_executor.score.knot_rows import knots_of
 from teo_lut_executor.score.score_schema import Score
 from teo_lut_executor.score.targets import HandTarget, Posture, postures
 from teo_lut_executor.sign import Sign
@@ -38,8 +39,6 @@ _LOOKS = 6
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _OUT = np.array([0.0, -1.0, 0.0])
-_ARM_SWINGS = {"wrist": 5, "forearm": 4, "elbow": 3}
-_HAND_SWINGS = {"thumb": 1, "index": 2, "middle": 3, "ring": 4, "little": 5}
 
 
 def score_sign(robot: Robot, score: Score) -> Sign:
@@ -52,7 +51,7 @@ def score_sign(robot: Robot, score: Score) -> Sign:
     performance = _Performance(robot, score, moments)
     rights, lefts = performance.solve()
     place_errors = performance.place_errors(rights, lefts)
-    joints, knots = _knots(score, moments, rights, lefts)
+    joints, knots = knots_of(score, moments, rights, lefts)
     times = np.array([moment.time for moment in moments])
     times, knots = _round_obstacles(performance, joints, times, knots)
     reached = (*rights, *lefts)
@@ -104,7 +103,7 @@ class _Performance:
         pushes = np.zeros((len(self._moments), 2))
         for _ in range(_MOST_PUSHES + 1):
             rights, lefts = self._arms(pushes)
-            joints, knots = _knots(self._score, self._moments, rights, lefts)
+            joints, knots = knots_of(self._score, self._moments, rights, lefts)
             near = [self.clearance(joints, row) for row in knots]
             touching = [index for index, found in enumerate(near) if found.distance < _CLEARANCE]
             if not touching:
@@ -224,52 +223,6 @@ def _pushed(target: HandTarget, push: Array) -> HandTarget:
         return target
     aside = target.outward if target.other else _OUT
     return replace(target, point=target.point + push[0] * target.outward + push[1] * aside)
-
-
-def _knots(
-    score: Score, moments: list[Posture], rights: list[Reach], lefts: list[Reach]
-) -> tuple[tuple[str, ...], Array]:
-    joints = RIGHT_ARM + RIGHT_HAND
-    rows = [
-        _limb(moment, moment.right, reach, "right") for moment, reach in zip(moments, rights, strict=True)
-    ]
-    if score.hands != "right":
-        joints += LEFT_ARM + LEFT_HAND
-        others = [
-            _limb(moment, moment.left, reach, "left")
-            for moment, reach in zip(moments, lefts or rights, strict=True)
-        ]
-        rows = [np.concatenate([row, other]) for row, other in zip(rows, others, strict=True)]
-    if any(moment.turn or moment.bow for moment in moments):
-        joints += HEAD
-        # Towards the right is a negative turn about the upward axis.
-        rows = [
-            np.concatenate([row, [-moment.turn, moment.bow]])
-            for row, moment in zip(rows, moments, strict=True)
-        ]
-    return joints, np.array(rows)
-
-
-def _limb(moment: Posture, target: HandTarget | None, reach: Reach, side: str) -> Array:
-    """Arm and hand in a moment [rad]. Shape (12,)."""
-    assert target is not None
-    arm, hand = reach.positions.copy(), target.shape.copy()
-    hand_limits = joint_limits(RIGHT_HAND)
-    lower, upper = arm_bounds(side)
-    for name, angle in moment.swings:
-        if name in _ARM_SWINGS:
-            index = _ARM_SWINGS[name]
-            arm[index] = _swung(arm[index], angle, lower[index], upper[index])
-        else:
-            index = _HAND_SWINGS[name]
-            hand[index] = _swung(hand[index], angle, hand_limits.lower[index], hand_limits.upper[index])
-    return np.concatenate([mirrored(arm) if side == "left" else arm, hand])
-
-
-def _swung(position: float, angle: float, lower: float, upper: float) -> float:
-    """A joint that has swung, to the side where it has more room."""
-    room_up, room_down = upper - position, position - lower
-    return position + min(angle, room_up) if room_up >= room_down else position - min(angle, room_down)
 
 
 def _round_obstacles(
