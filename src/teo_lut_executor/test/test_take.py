@@ -73,7 +73,7 @@ def test_a_hand_that_is_lost_shortly_is_filled_in_and_said(robot: Robot) -> None
 
 
 def test_a_hand_that_is_lost_for_long_is_refused_with_when(robot: Robot) -> None:
-    with pytest.raises(LutError, match=r"right hand in view .* lost from 1\.[12]") as error:
+    with pytest.raises(LutError, match=r"right hand in view .* lost from 1\.3.* to 1\.7") as error:
         capture_take(robot, lose(lose(signing(), "right_hand", 1.2, 1.75), "body", 1.3, 1.7))
     assert error.value.code == "hand_lost"
 
@@ -83,6 +83,14 @@ def test_a_hand_that_is_hidden_keeps_its_shape_if_its_wrist_is_seen(robot: Robot
     found = capture_take(robot, hidden).track.right_hand.positions
     truth = capture_take(robot, whole).track.right_hand.positions
     assert np.abs(found - truth).max() < 0.02
+
+
+def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Robot) -> None:
+    found = capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.25))
+    truth = capture_take(robot, signing(noise=0.0))
+    assert np.abs(found.track.right_hand.positions - truth.track.right_hand.positions).max() < 0.03
+    with pytest.raises(LutError, match=r"lost from 1\.0.* to 1\.3"):
+        capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.5))
 
 
 def test_the_other_hand_may_be_lost(robot: Robot) -> None:

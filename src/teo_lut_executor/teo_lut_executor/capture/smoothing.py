@@ -31,6 +31,9 @@ LONGEST_FILLED = 0.4
 LONGEST_KEPT = 1.2
 """[s] So long a hand is taken to keep its shape and direction if its wrist is seen meanwhile and both are the
 same before and after: hands that hide each other hold still."""
+LONGEST_EDGE = 0.2
+"""[s] So long before it is first seen, and after it is last seen, a hand is taken to have the shape that it
+has then, at its wrist: hands that come up from below the image are found some frames after they are there."""
 _SAME_SHAPE = 0.03
 """[m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found."""
 
@@ -189,13 +192,37 @@ def _with_wrist(times: Array, hand: Keypoints, wrist: Array) -> Keypoints:
     known = seen(relative)
     filled = _fillable(times, known, relative) & ~seen(hand.positions) & seen(wrist)[:, None]
     positions, sigma = hand.positions.copy(), hand.sigma.copy()
+    filled |= _near_known(times, known) & ~seen(hand.positions) & seen(wrist)[:, None]
     for column in np.flatnonzero(filled.any(axis=0)):
         here, there = known[:, column], filled[:, column]
         for axis in range(3):
-            shape = np.interp(times[there], times[here], relative[here, column, axis])
+            shape = _at(times[there], times[here], relative[here, column, axis])
             positions[there, column, axis] = wrist[there, axis] + shape
         sigma[there, column] = _FILLED_SIGMA
     return replace(hand, positions=positions, sigma=sigma)
+
+
+def _near_known(times: Array, known: Flags) -> Flags:
+    """Which lost samples are near the edge of a gap. Shape (n, k)."""
+    near = np.zeros_like(known)
+    for column in np.flatnonzero(known.any(axis=0)):
+        there = times[known[:, column]]
+        after = there[np.minimum(np.searchsorted(there, times), len(there) - 1)]
+        before = there[np.maximum(np.searchsorted(there, times, side="right") - 1, 0)]
+        away = np.minimum(np.abs(after - times), np.abs(times - before))
+        near[:, column] = (away <= LONGEST_EDGE) & ~known[:, column]
+    return near
+
+
+def _at(times: Array, known_times: Array, values: Array) -> Array:
+    """Values between known ones; those of the nearest where the next is far, and before and after all."""
+    between = np.interp(times, known_times, values)
+    following = np.clip(np.searchsorted(known_times, times), 1, max(len(known_times) - 1, 1))
+    if len(known_times) < 2:
+        return between
+    before, after = known_times[following - 1], known_times[following]
+    nearest = np.where(times - before < after - times, values[following - 1], values[following])
+    return np.where(after - before > LONGEST_KEPT, nearest, between)
 
 
 def _smoothed(times: Array, measured: Array, variance: Array) -> tuple[Array, Array]:

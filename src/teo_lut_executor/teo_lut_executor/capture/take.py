@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,19 +12,21 @@ from teo_lut_executor.capture.motion_retarget import RobotMotion, retarget_motio
 from teo_lut_executor.capture.person import measure_person
 from teo_lut_executor.capture.segment import SignSpan, the_sign
 from teo_lut_executor.capture.skeleton_track import SkeletonTrack
-from teo_lut_executor.capture.smoothing import Gap, Smoothed, seen, smooth_track
+from teo_lut_executor.capture.smoothing import Gap, Smoothed, runs, seen, smooth_track
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign_schema import Handedness
 
 Array = NDArray[np.float64]
 
-MOST_OUT_OF_REACH = 0.25
-"""[m] A hand that is farther than this from where it belongs is at another part of the body: from the temple
-to the shoulder."""
+MOST_OUT_OF_REACH = 0.30
+"""[m] A hand that is farther than this from where it belongs is at another part of the body: from the crown to
+the shoulder."""
 _CONTEXT = 1.0
 """[s] Of the recording around a cut, from which keypoints that are lost at its edges are filled in."""
 _SHARE = 95.0
 """[%] Of the frames, so that a single one decides nothing."""
+_SEEN = 0.5
+"""Share of a hand's keypoints of which its shape is known."""
 _ROUNDING = 1e-4
 """[s] Of sums of times and of stamps; frames are a hundred times as far apart."""
 _HANDS = {"right": ("right_hand",), "left": ("left_hand",), "both": ("right_hand", "left_hand")}
@@ -91,8 +92,8 @@ def capture_take(
         for gap in smoothed.gaps
         if gap.part in _HANDS[handedness] and gap.start < span.end and gap.end > span.start
     )
-    _check_gaps(track.source, span, gaps, offset)
     stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
+    _check_seen(stroke, handedness, offset + span.start)
     motion = retarget_motion(robot, stroke, handedness=handedness, person=measure_person(track))
     _check_reach(track.source, motion, offset + span.start)
     return Take(
@@ -147,14 +148,17 @@ def _moved(span: SignSpan, offset: float) -> SignSpan:
     )
 
 
-def _check_gaps(source: str, span: SignSpan, gaps: Sequence[Gap], offset: float) -> None:
-    for gap in gaps:
-        if not gap.filled:
+def _check_seen(stroke: SkeletonTrack, handedness: Handedness, start: float) -> None:
+    """Refuse a stroke in which a hand is lost and cannot be filled in."""
+    end = start + float(stroke.times[-1])
+    for part in _HANDS[handedness]:
+        lost = seen(getattr(stroke, part).positions).mean(axis=1) < _SEEN
+        for first, last in runs(lost):
             raise LutError(
                 "hand_lost",
-                f"{source}: expected the {gap.part.replace('_', ' ')} in view from {span.start + offset:.2f} "
-                f"to {span.end + offset:.2f} s, got it lost from {gap.start + offset:.2f} to "
-                f"{gap.end + offset:.2f} s: record it again, or name the hands that sign with --hands",
+                f"{stroke.source}: expected the {part.replace('_', ' ')} in view from {start:.2f} to "
+                f"{end:.2f} s, got it lost from {start + stroke.times[first]:.2f} to "
+                f"{start + stroke.times[last]:.2f} s: record it again, or name the hands with --hands",
             )
 
 
