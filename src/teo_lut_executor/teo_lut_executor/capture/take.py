@@ -19,8 +19,8 @@ from teo_lut_executor.sign_schema import Handedness
 Array = NDArray[np.float64]
 
 MOST_OUT_OF_REACH = 0.30
-"""[m] A hand that is farther than this from where it belongs is at another part of the body: from the crown to
-the shoulder."""
+"""[m] A hand that is farther than this from where it belongs is at another part of the body: from the crown
+to the shoulder."""
 _CONTEXT = 1.0
 """[s] Of the recording around a cut, from which keypoints that are lost at its edges are filled in."""
 _SHARE = 95.0
