@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import platform
 
+import camera_path
 import driver_rate
+import letters
 import lexicon
+import lifting
 import limbs
 import planning
+import retargeting
 import retriever_accuracy
 import retriever_node
 import robot_model
@@ -20,12 +24,16 @@ BENCHES = (
     robot_model,
     planning,
     lexicon,
+    letters,
+    lifting,
     driver_rate,
     translation,
     text_to_trajectory,
     limbs,
+    retargeting,
     retriever_accuracy,
     retriever_node,
+    camera_path,
 )
 
 

@@ -22,6 +22,23 @@ class Clearance(NamedTuple):
     """Name of the other link."""
 
 
+class Contact(NamedTuple):
+    """Two links that are near each other or overlap."""
+
+    distance: float
+    """Distance [m]; negative is the depth of the overlap."""
+    first: str
+    """Name of one link."""
+    second: str
+    """Name of the other link."""
+    first_point: NDArray[np.float64]
+    """Where the one is nearest to the other, in ``base_link`` [m]. Shape (3,)."""
+    second_point: NDArray[np.float64]
+    """Where the other is nearest to the one [m]. Shape (3,)."""
+    normal: NDArray[np.float64]
+    """Way along which the other link leaves the one, unit vector. Shape (3,)."""
+
+
 HEAD_LINKS = ("AxialNeck_link", "FrontalNeck_link")
 """What the joints of the head move."""
 
@@ -120,12 +137,7 @@ class ClearanceChecker:
 
     def clearance(self, q: NDArray[np.float64]) -> Clearance:
         """Smallest distance at a configuration, shape (nq,)."""
-        pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._geometry_data, q)
-        centres = np.array(
-            [pose.act(centre) for pose, centre in zip(self._geometry_data.oMg, self._centres, strict=True)]
-        )
-        apart = centres[self._pairs[:, 0]] - centres[self._pairs[:, 1]]
-        bounds = np.sqrt(np.einsum("ij,ij->i", apart, apart)) - self._reach
+        bounds = self._bounds(q)
         best, closest = np.inf, 0
         for index in np.argsort(bounds):
             if bounds[index] >= best:
@@ -136,3 +148,32 @@ class ClearanceChecker:
                 best, closest = distance, pair
         first, second = self._pairs[closest]
         return Clearance(float(best), self._links[first], self._links[second])
+
+    def contacts(self, q: NDArray[np.float64], within: float) -> list[Contact]:
+        """All pairs of shapes nearer to each other than a distance [m] at a configuration, shape (nq,)."""
+        found = []
+        for index in np.flatnonzero(self._bounds(q) < within):
+            result = pin.computeDistance(self._geometry, self._geometry_data, int(index))
+            if result.min_distance < within:
+                first, second = self._pairs[index]
+                found.append(
+                    Contact(
+                        float(result.min_distance),
+                        self._links[first],
+                        self._links[second],
+                        np.array(result.getNearestPoint1()),
+                        np.array(result.getNearestPoint2()),
+                        np.array(result.normal),
+                    )
+                )
+        return found
+
+    def _bounds(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What the distance of each pair is not below, by their bounding spheres [m]."""
+        pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._geometry_data, q)
+        centres = np.array(
+            [pose.act(centre) for pose, centre in zip(self._geometry_data.oMg, self._centres, strict=True)]
+        )
+        apart = centres[self._pairs[:, 0]] - centres[self._pairs[:, 1]]
+        bounds: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->i", apart, apart)) - self._reach
+        return bounds

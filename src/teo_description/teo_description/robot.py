@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from teo_description.clearance import HEAD_LINKS, Clearance, ClearanceChecker
+from teo_description.clearance import HEAD_LINKS, Clearance, ClearanceChecker, Contact
 from teo_description.errors import DescriptionError
 from teo_description.home import HOME
 from teo_description.joints import ALL_JOINTS
@@ -169,6 +169,14 @@ class Robot:
             DescriptionError: ``wrong_shape``.
         """
         return self._head_checker.clearance(self._checked(q))
+
+    def contacts(self, q: Matrix, within: float) -> list[Contact]:
+        """All pairs of parts that must not touch and are nearer than a distance [m]; see `clearance`.
+
+        Raises:
+            DescriptionError: ``wrong_shape``.
+        """
+        return self._checker.contacts(self._checked(q), within)
 
     @cached_property
     def _checker(self) -> ClearanceChecker:

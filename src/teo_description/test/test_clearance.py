@@ -95,3 +95,31 @@ def test_pairs_are_the_same_on_both_sides_and_none_is_a_neighbour(robot):
         for joint in range(1, robot.model.njoints)
     }
     assert not pairs & parents
+
+
+def test_contacts_are_all_pairs_within_a_distance_and_the_least_of_them_is_the_clearance(robot):
+    q = robot.configuration(arms(*DEMONSTRATED["nombre 1"]))
+    nearest = robot.clearance(q)
+    contacts = robot.contacts(q, nearest.distance + 0.02)
+    assert len(contacts) > 1
+    least = min(contacts, key=lambda contact: contact.distance)
+    assert (least.first, least.second) == (nearest.first, nearest.second)
+    assert least.distance == pytest.approx(nearest.distance, abs=1e-6)
+    assert robot.contacts(q, nearest.distance - 0.001) == []
+    for contact in contacts:
+        apart = contact.second_point - contact.first_point
+        assert apart == pytest.approx(contact.distance * contact.normal, abs=1e-4)
+
+
+def test_an_overlap_shrinks_as_the_link_moves_against_the_normal(robot):
+    into = np.array([25, 0, 57.0, -99.6, 0, 0])
+    q = robot.configuration(arms(REST, into))
+    deepest = min(robot.contacts(q, 0.0), key=lambda contact: contact.distance)
+    assert deepest.second == "FrontalTrunk_link"  # which stands still
+    slope = robot.jacobian(q, deepest.first, RIGHT_ARM[:1])[:, 0]
+    origin = robot.placement(q, deepest.first)[:3, 3]
+    moves = slope[:3] + np.cross(slope[3:], deepest.first_point - origin)
+    step = 0.2  # [deg]
+    there = robot.contacts(robot.configuration(arms(REST, into + step * np.eye(6)[0])), 0.0)
+    changed = min(contact.distance for contact in there) - deepest.distance
+    assert changed == pytest.approx(-np.radians(step) * moves @ deepest.normal, rel=0.1)

@@ -46,10 +46,14 @@ def capture_letters(
 
 
 def capture_numbers(out: Out, replace: Replace = False) -> None:
-    """Write the numbers 0 to 10 from measured handshapes."""
+    """Write the numbers 0 to 10 from measured handshapes, and from them 11 to 20, the tens and 100."""
+    from teo_lut_executor.capture.higher_numbers import higher_number_signs
     from teo_lut_executor.capture.numbers import digit_signs
 
-    _save(digit_signs(Robot.load()), out, replace=replace)
+    robot = Robot.load()
+    digits = digit_signs(robot)
+    higher = higher_number_signs(robot, {sign.gloss: sign for sign in digits})
+    _save([*digits, *higher], out, replace=replace)
 
 
 def capture_demonstration(out: Out, replace: Replace = False) -> None:

@@ -40,6 +40,7 @@ from teo_lut_executor.executor_messages import (
 from teo_lut_executor.executor_parameters import (
     PARAMETERS,
     Value,
+    left_handed_from,
     limits_from,
     queue_settings_from,
     standing_from,
@@ -48,6 +49,7 @@ from teo_lut_executor.executor_parameters import (
 from teo_lut_executor.live_lut import LiveLut
 from teo_lut_executor.lut import Lut
 from teo_lut_executor.lut_error import LutError
+from teo_lut_executor.mirrored_signs import MirroredSigns
 from teo_lut_executor.plan import Plan
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.planner import Planner
@@ -229,8 +231,9 @@ class ExecutorNode(Node):
         self._queue.limits, self._queue.settings = self._planner.limits, queue_settings_from(values)
 
     def _make_planner(self, values: dict[str, Value]) -> Planner:
+        signs = self._live_lut.lut
         return Planner(
-            self._live_lut.lut,
+            MirroredSigns(signs, self._robot) if left_handed_from(values) else signs,
             limits=limits_from(values),
             style=style_from(values),
             robot=self._robot,

@@ -64,6 +64,11 @@ PARAMETERS = (
         default=DEFAULT_STANDING,
         description=f"Lowest standing of signs ({', '.join(STANDINGS)}); words of a lower one are spelled.",
     ),
+    ParameterRow(
+        name="dominant_hand",
+        default="right",
+        description="Hand that makes one-handed signs (right, left); left mirrors every sign.",
+    ),
     # Motion.
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
     _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of every joint [rad/s^3]."),
@@ -151,6 +156,18 @@ def standing_from(values: Mapping[str, Value]) -> Standing:
             return standing
     got = values["least_standing"]
     raise PlanError("bad_standing", f"least_standing: expected one of {', '.join(STANDINGS)}, got {got!r}")
+
+
+def left_handed_from(values: Mapping[str, Value]) -> bool:
+    """Whether signs are mirrored for a left-handed signer.
+
+    Raises:
+        PlanError: The dominant hand is neither ("bad_hand").
+    """
+    hand = values["dominant_hand"]
+    if hand not in ("right", "left"):
+        raise PlanError("bad_hand", f"dominant_hand: expected right or left, got {hand!r}")
+    return hand == "left"
 
 
 def style_from(values: Mapping[str, Value]) -> SigningStyle:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.plan_error import PlanError
@@ -21,7 +22,7 @@ _TILDE = "\N{COMBINING TILDE}"
 #: else, or nothing, where letters tell the word.
 DEFAULT_STANDING: Standing = "described"
 
-# Signs that can spell have names this short: "A", "CH", "10". Longer entries are not read when spelling.
+# Signs that can spell have names this short: "A", "CH". Longer entries are not read when spelling.
 _LONGEST_SPELLER = 2
 
 
@@ -39,7 +40,11 @@ class Lexicon:
     A lexical gloss that the table lacks is spelled with the table's own letters, longest match first, so
     that CH, LL and RR are one sign where the table has them; digits in it become number signs and "_" a
     pause. Accents are dropped first, except on Ñ, which is a letter of its own. So is a gloss whose sign is
-    of too low a standing; letters and numbers are always used, for nothing could stand for them.
+    of too low a standing; letters and digits are always used, for nothing could stand for them.
+
+    The digits of one word are a number: it is made with its own sign where the table has one that is good
+    enough (11 to 14 in the package's), and else digit by digit. Tens and units are not put together: no
+    source says how LSE does it, and a digit for each is understood by everybody.
     """
 
     def __init__(self, signs: Mapping[str, Sign], least_standing: Standing = DEFAULT_STANDING) -> None:
@@ -63,7 +68,17 @@ class Lexicon:
             PlanError: A token cannot be signed ("unknown_sign", "invalid_sign" or see `check_tokens`).
         """
         check_tokens(tokens)
-        return tuple(signed for token in tokens for signed in self._resolve(token))
+        return tuple(signed for token in self._numbers_joined(tokens) for signed in self._resolve(token))
+
+    def _numbers_joined(self, tokens: Sequence[Token]) -> Iterator[Token]:
+        """Tokens, those of one number's digits as one where the number has a sign of its own."""
+        for (kind, _), run in groupby(tokens, key=lambda token: (token.kind, token.word_index)):
+            word = tuple(run)
+            gloss = "".join(token.gloss.strip() for token in word)
+            if kind == Kind.NUMBER and len(word) > 1 and self._find(gloss, Kind.NUMBER) is not None:
+                yield dataclasses.replace(word[0], gloss=gloss)
+            else:
+                yield from word
 
     def _resolve(self, token: Token) -> list[SignedToken]:
         if token.kind == Kind.PAUSE:
@@ -86,7 +101,8 @@ class Lexicon:
             sign = self._signs[gloss]
         except LutError as error:
             raise PlanError("invalid_sign", f"the entry of {gloss!r} cannot be used: {error}") from error
-        if kind == Kind.LEXICAL and sign.provenance.standing not in self._good_enough:
+        must = kind == Kind.LETTER or (kind == Kind.NUMBER and len(gloss) == 1)
+        if not must and sign.provenance.standing not in self._good_enough:
             return None
         return sign if sign.kind == _SIGN_KIND[kind] else None
 
@@ -102,7 +118,8 @@ class Lexicon:
             for length in range(_LONGEST_SPELLER, 0, -1):
                 piece = text[position : position + length]
                 kind = Kind.NUMBER if piece.isdecimal() else Kind.LETTER
-                if token.kind == Kind.NUMBER and kind != Kind.NUMBER:
+                # Digits one by one: "1012" is not ten and twelve.
+                if (kind == Kind.NUMBER and length > 1) or (token.kind == Kind.NUMBER != kind):
                     continue
                 sign = self._find(piece, kind) if len(piece) == length else None
                 if sign is not None:

@@ -13,6 +13,9 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_lut_executor.lut import Lut, LutError, Sign, default_lut_directory
+from teo_lut_executor.lut_capture_cli import capture
+from teo_lut_executor.lut_exchange_cli import export, import_pose
+from teo_lut_executor.lut_record_cli import record
 from teo_lut_executor.sign import sign_warnings
 from teo_lut_executor.sign_file import format_sign
 from teo_lut_executor.sign_schema import STANDINGS, Kind, sign_json_schema
@@ -23,6 +26,10 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
+app.command()(capture)
+app.command()(record)
+app.command()(export)
+app.command("import")(import_pose)
 
 Directory = Annotated[
     Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
@@ -147,7 +154,7 @@ def overview(
     kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "lexical",
     lut: Directory = None,
 ) -> None:
-    """Draw all signs of a kind on one small picture, each as it begins and ends."""
+    """Draw all signs of a kind on one small picture, each as it begins and farthest from there."""
     from teo_lut_executor.lut_pictures import save_overview
 
     signs = _of_kind(_open(lut), kind)
@@ -171,7 +178,9 @@ def nearest(
     from teo_lut_executor.similarity import nearest_pairs
 
     signs = _of_kind(_open(lut), kind)
-    table = Table("pair", "seen", "handshape [mm]", "orientation [deg]", "movement [mm]", box=None)
+    # Rich takes "[mm]" for markup.
+    columns = (r"handshape \[mm]", r"orientation \[deg]", r"movement \[mm]", r"place \[mm]")
+    table = Table("pair", "seen", *columns, box=None)
     for pair in nearest_pairs(Robot.load(), signs)[:count]:
         table.add_row(
             f"{pair.first} {pair.second}",
@@ -179,10 +188,13 @@ def nearest(
             f"{1000.0 * pair.handshape:.0f}",
             f"{np.degrees(pair.orientation):.0f}",
             f"{1000.0 * pair.movement:.0f}",
+            f"{1000.0 * pair.place:.0f}",
         )
     _output.print(table)
     _output.print(
-        "seen: the largest difference, in finger thicknesses (15 mm) or 15 deg; below 1 they look alike"
+        "seen: the largest difference, in finger thicknesses (15 mm), 15 deg or neighbouring places on the "
+        "face (28 mm); below 1 they look alike",
+        soft_wrap=True,
     )
 
 

@@ -86,12 +86,15 @@ def save_sheet(path: Path, signs: Iterable[Sign]) -> None:
 
 
 def save_overview(path: Path, signs: Iterable[Sign]) -> None:
-    """Draw many signs on one small picture: from the front, as each begins and ends, in few colours."""
+    """Draw many signs on one small picture: from the front, each at two moments, in few colours.
+
+    The moments are its beginning and where it is farthest from it: many signs end as they begin.
+    """
     camera = FRONT.sized(_OVERVIEW_SIZE, _OVERVIEW_SIZE)
     frames: list[Image] = []
     captions: list[str] = []
     for sign in signs:
-        frames += [render_pose(pose_at(sign, moment), camera) for moment in (0.0, sign.duration)]
+        frames += [render_pose(pose_at(sign, moment), camera) for moment in (0.0, _farthest(sign))]
         captions += [sign.gloss, ""]
     sheet = film_strip(frames, captions, columns=_OVERVIEW_COLUMNS)
     # A picture of grey robots needs no 16 million colours, and a page of documentation no 8 MB.
@@ -102,6 +105,12 @@ def save_overview(path: Path, signs: Iterable[Sign]) -> None:
     written = BytesIO()
     few.save(written, "PNG", optimize=True)
     write_atomically(path, written.getvalue())
+
+
+def _farthest(sign: Sign) -> float:
+    """Time at which a joint is farthest from where it begins; of several, the last [s]."""
+    away = np.abs(sign.knots - sign.knots[0]).max(axis=1)
+    return float(sign.times[np.flatnonzero(away >= away.max() - 1e-6)[-1]])
 
 
 def _cells(sign: Sign) -> Iterator[tuple[Image, str]]:

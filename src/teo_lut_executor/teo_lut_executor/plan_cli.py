@@ -17,6 +17,7 @@ from teo_description import DescriptionError
 from teo_description.robot import Robot
 from teo_lut_executor.lut import Lut
 from teo_lut_executor.lut_error import LutError
+from teo_lut_executor.mirrored_signs import MirroredSigns
 from teo_lut_executor.motion_limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_lut_executor.plan import Plan
 from teo_lut_executor.plan_csv import write_csv
@@ -72,6 +73,9 @@ def _plan(
         float, typer.Option(help="Greatest acceleration of every joint [rad/s^2].")
     ] = DEFAULT_ACCELERATION,
     jerk: Annotated[float, typer.Option(help="Greatest jerk of every joint [rad/s^3].")] = DEFAULT_JERK,
+    left: Annotated[
+        bool, typer.Option("--left", help="Sign as a left-handed signer: every sign as its mirror image.")
+    ] = False,
     mp4: Annotated[Path | None, typer.Option(help="File for a film of the motion.")] = None,
     strip: Annotated[Path | None, typer.Option(help="PNG with the middle of every sign.")] = None,
 ) -> None:
@@ -83,7 +87,8 @@ def _plan(
     """
     try:
         limits = MotionLimits.of_robot(acceleration=acceleration, jerk=jerk)
-        planner = Planner(Lut.open(lut), limits=limits, robot=Robot.load())
+        signs, robot = Lut.open(lut), Robot.load()
+        planner = Planner(MirroredSigns(signs, robot) if left else signs, limits=limits, robot=robot)
         tokens = parse_printed(without_marks(sentence))
         form = printed_form(sentence, tokens)
         if type_ is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
@@ -23,6 +24,8 @@ from teo_lut_executor.plan import Plan
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.sign_file import save_sign
 from teo_lut_executor.sign_schema import Provenance
+
+sys.path.insert(0, str(Path(__file__).parent))  # for helpers that several tests share
 
 RIGHT = RIGHT_ARM + RIGHT_HAND
 LEFT = LEFT_ARM + LEFT_HAND

@@ -69,6 +69,18 @@ def test_the_form_of_a_sentence_is_shown_with_the_head(
     assert last.startswith(said) if said else "head" not in done.stdout
 
 
+def test_a_left_handed_signer_moves_the_left_arm(table_directory: Path, tmp_path: Path) -> None:
+    moved: dict[str, set[str]] = {}
+    for name, options in (("right", []), ("left", ["--left"])):
+        done = run("TÚ", "--lut", table_directory, "--csv", tmp_path / f"{name}.csv", *options)
+        assert done.returncode == 0, done.stderr
+        content = np.loadtxt((tmp_path / f"{name}.csv").read_text().splitlines()[1:], delimiter=",")[:, 1:]
+        joints = zip(COMMANDED_JOINTS, np.ptp(content, axis=0) > 0.01, strict=True)
+        moved[name] = {joint for joint, moves in joints if moves}
+    assert moved["right"] and not any("Left" in joint for joint in moved["right"])
+    assert moved["left"] == {joint.replace("Right", "Left") for joint in moved["right"]}
+
+
 def test_slower_limits_give_a_slower_plan(table_directory: Path) -> None:
     def duration(*options: str) -> float:
         done = run("TÚ", "--lut", table_directory, *options)

@@ -1,14 +1,18 @@
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import pytest
 
 from teo_lut_executor.lexicon import Lexicon, without_accents
+from teo_lut_executor.lut import Lut
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.tokens import Kind, Token
+
+MakeSign = Callable[..., Sign]
 
 
 def resolved(table: Mapping[str, Sign], *tokens: Token) -> list[tuple[str, str]]:
@@ -53,6 +57,48 @@ def test_a_blank_in_a_missing_gloss_is_a_pause_and_digits_are_numbers(table: Map
 
 def test_a_long_number_is_signed_digit_by_digit(table: Mapping[str, Sign]) -> None:
     assert resolved(table, Token(gloss="171", kind=Kind.NUMBER)) == [("1", "1"), ("7", "7"), ("1", "1")]
+
+
+def digits(text: str, *, word: int = 0) -> list[Token]:
+    """A number as the translator sends it: a token for each digit, of one word."""
+    return [Token(gloss=digit, kind=Kind.NUMBER, word_index=word) for digit in text]
+
+
+def test_a_number_with_a_sign_of_its_own_is_made_with_it(
+    table: Mapping[str, Sign], make_sign: MakeSign
+) -> None:
+    eleven = make_sign("11", table["1"].knots, kind="number")
+    signs = {**table, "11": eleven}
+    assert resolved(signs, Token(gloss="11", kind=Kind.NUMBER)) == [("11", "11")]
+    assert resolved(signs, *digits("11")) == [("11", "11")]
+    # One word is one number: no part of a longer one, and no two words.
+    assert resolved(signs, *digits("711")) == [("7", "7"), ("1", "1"), ("1", "1")]
+    assert resolved(signs, Token(gloss="711", kind=Kind.NUMBER)) == [("7", "7"), ("1", "1"), ("1", "1")]
+    assert resolved(signs, *digits("1"), *digits("1", word=1)) == [("1", "1"), ("1", "1")]
+
+
+def test_a_number_of_too_low_a_standing_is_signed_in_digits_which_are_always_used(
+    table: Mapping[str, Sign], make_sign: MakeSign
+) -> None:
+    def sketched(sign: Sign) -> Sign:
+        return replace(sign, provenance=sign.provenance.model_copy(update={"standing": "sketched"}))
+
+    signs = {
+        **table,
+        "1": sketched(table["1"]),
+        "11": sketched(make_sign("11", table["1"].knots, kind="number")),
+    }
+    assert resolved(signs, *digits("11")) == [("1", "1"), ("1", "1")]
+    (whole,) = Lexicon(signs, least_standing="sketched").resolve(digits("11"))
+    assert whole.token.gloss == "11"
+
+
+def test_the_package_signs_11_to_14_as_one_and_other_numbers_in_digits() -> None:
+    lut = Lut.open()
+    for number in ("11", "12", "13", "14"):
+        assert resolved(lut, *digits(number)) == [(number, number)]
+    for number in ("15", "20", "21", "85", "100", "1112", "1999"):
+        assert resolved(lut, *digits(number)) == [(digit, digit) for digit in number]
 
 
 def test_a_letter_is_not_taken_for_a_sign_of_the_same_name(table: Mapping[str, Sign]) -> None:

@@ -161,7 +161,7 @@ class DriverNode(Node):
         self._follower.rules = Rules(**values)
 
 
-_HAND_JOINTS = tuple(axis.joint for axis in dextra.LEFT_AXES + dextra.RIGHT_AXES)
+_HAND_JOINTS = tuple(axis.joint for axis in dextra.AXES)
 _HANDS = len(_HAND_JOINTS)
 if COMMANDED_JOINTS[-_HANDS:] != _HAND_JOINTS:
     raise RuntimeError(

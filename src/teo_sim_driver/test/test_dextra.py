@@ -4,32 +4,12 @@ import numpy as np
 import pytest
 
 from teo_description import COMMANDED_JOINTS, HOME, LEFT_HAND, RIGHT_HAND, joint_limits
-from teo_sim_driver.dextra import LEFT_AXES, RIGHT_AXES, setpoints
+from teo_description.dextra import RIGHT_AXES
+from teo_sim_driver.dextra import setpoints
 from teo_sim_driver.errors import DriverError
 
 HANDS = LEFT_HAND + RIGHT_HAND
 HOME_SETPOINTS = [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0]  # abductor, thumb, fingers
-
-
-@pytest.mark.parametrize(
-    ("joint", "degrees", "setpoint"),
-    [
-        ("LeftIndexFinger", 7.0, 0.0),
-        ("LeftIndexFinger", 85.0, 20.0),
-        ("RightPinkyFinger", 46.0, 10.0),
-        ("RightThumbFinger", -90.0, 0.0),
-        ("LeftThumbFinger", 0.0, 5.0),
-        ("RightThumbFinger", 7.2, 5.4),
-        ("RightThumbFinger", 90.0, 10.0),
-        ("LeftHandAbductor", 0.0, 0.0),
-        ("LeftHandAbductor", 57.3, 57.3),
-        ("RightHandAbductor", 90.0, 90.0),
-    ],
-)
-def test_an_angle_is_a_tendon_travel_or_a_servo_angle(joint, degrees, setpoint):
-    axis = next(axis for axis in LEFT_AXES + RIGHT_AXES if axis.joint == joint)
-    assert axis.setpoint(math.radians(degrees)) == pytest.approx(setpoint, abs=1e-9)
-    assert math.degrees(axis.angle(setpoint)) == pytest.approx(degrees)
 
 
 def test_the_letter_t_of_teos_own_demonstration_comes_back():
@@ -52,16 +32,12 @@ def test_at_home_the_fingers_tendons_are_slack_and_the_thumbs_wound_by_a_third()
 
 @pytest.mark.parametrize("degrees", [6.9, 85.1, math.nan, math.inf])
 def test_an_angle_outside_the_range_is_refused(degrees):
+    positions = np.array([HOME[name] for name in HANDS])
+    positions[HANDS.index("RightIndexFinger")] = math.radians(degrees)
     with pytest.raises(DriverError) as refusal:
-        RIGHT_AXES[2].setpoint(math.radians(degrees))
+        setpoints(HANDS, positions)
     assert refusal.value.code == "outside_hand_range"
     assert "RightIndexFinger" in refusal.value.sentence
-
-
-@pytest.mark.parametrize("millimetres", [-0.1, 20.1, math.nan])
-def test_a_setpoint_outside_the_range_is_refused(millimetres):
-    with pytest.raises(DriverError, match="outside_hand_range"):
-        RIGHT_AXES[2].angle(millimetres)
 
 
 def test_a_missing_hand_axis_is_named():

@@ -120,6 +120,30 @@ def test_synthesize_writes_a_bag(tmp_path: Path) -> None:
     assert len(read(out)["/truth/skeletons"]) == 2
 
 
+def test_the_truth_alone_is_that_of_the_images(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
+    out = tmp_path / "truth"
+    code, output = run(
+        *("--out", str(out), "--truth-only", "--scene", "studio", "--size", "160x120"),
+        *("--rate", "10", "--frames", "3"),
+    )
+    assert code == 0, output
+    found = read(out)
+    assert set(found) == {"/truth/skeletons"}
+    for (time, message), frame in zip(found["/truth/skeletons"], frames, strict=True):
+        assert time == START + round(frame.stamp * 1e9)
+        hand = message.skeletons[0].right_hand
+        points = np.array([[k.position.x, k.position.y, k.position.z] for k in hand])
+        np.testing.assert_allclose(points, frame.truth.right_hand)
+        assert [k.status == 1 for k in hand] == frame.truth.right_hand_visible.tolist()
+
+
+def test_a_mistake_in_a_script_is_named_with_line_and_field(tmp_path: Path) -> None:
+    (tmp_path / "x.yaml").write_text("about: x\nkeys:\n- {right: hanging, left: hangin}\n- {}\n")
+    code, output = run("--out", str(tmp_path / "take"), "--script", str(tmp_path / "x.yaml"))
+    assert code == 2
+    assert "x.yaml:3: keys.0.left" in output
+
+
 def test_synthesize_lists_what_there_is() -> None:
     code, output = run("--list")
     assert code == 0

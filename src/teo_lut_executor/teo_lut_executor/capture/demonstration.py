@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description.dextra import RIGHT_AXES
 from teo_description.robot import Robot
 from teo_lut_executor.capture.measures import clearance_mm, limit_margin_deg
 from teo_lut_executor.lut_error import LutError
@@ -29,10 +30,6 @@ SPELLING_POSES = {
 }
 
 _PAUSE = 0.5  # [s], after each sign of the demonstration
-_FINGER_TRAVEL, _THUMB_TRAVEL = 20.0, 10.0  # [mm] of tendon, straight to bent
-# [deg] Flexion of the proximal phalanx at both ends of the travel: fingers, thumb.
-_STRAIGHT, _BENT = 7.0, 85.0
-_THUMB_OUT, _THUMB_BENT = -90.0, 90.0
 _OPEN_HAND = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 """Every motor at rest, tendons slack: the thumb stands out from the straight fingers."""
 _ROUNDING = np.radians(0.05)
@@ -91,20 +88,14 @@ _SIGNS = (
 def flexions(motors: tuple[float, ...]) -> Array:
     """Hand motor positions as flexions.
 
-    No measured map from tendon to joint is public; a straight line over the whole travel is assumed: flexion
-    = 7 deg + 78 deg * tendon / 20 mm for a finger, -90 deg + 180 deg * tendon / 10 mm for the thumb.
-
     Args:
         motors: Abductor [deg], thumb and four fingers [mm].
 
     Returns:
         The six axes of a hand [rad]. Shape (6,).
     """
-    abductor, thumb, *fingers = motors
-    thumb_flexion = _THUMB_OUT + (_THUMB_BENT - _THUMB_OUT) * thumb / _THUMB_TRAVEL
-    flexion = _STRAIGHT + (_BENT - _STRAIGHT) * np.array(fingers) / _FINGER_TRAVEL
-    axes: Array = np.radians([abductor, thumb_flexion, *flexion])
-    return axes
+    # Both hands count alike.
+    return np.array([axis.angle(motor) for axis, motor in zip(RIGHT_AXES, motors, strict=True)])
 
 
 def demonstrated_signs(robot: Robot) -> list[Sign]:

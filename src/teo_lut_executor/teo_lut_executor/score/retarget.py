@@ -10,12 +10,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
 from teo_lut_executor.capture.measures import clearance_mm, limit_margin_deg
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.score.arm_solver import ArmSolver, Reach, arm_bounds, mirrored, smoothest
+from teo_lut_executor.score.knot_rows import knots_of
 from teo_lut_executor.score.score_schema import Score
 from teo_lut_executor.score.targets import HandTarget, Posture, postures
 from teo_lut_executor.sign import Sign
@@ -30,7 +31,7 @@ _PUSH, _MOST_PUSHES = 0.012, 12
 """[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
 8 cm beyond the middle of its palm."""
 _TOUCH = 0.5
-"""What an arm that touches the body costs: as much as a palm that is turned by 60 deg."""
+"""What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg."""
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
 """[rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body."""
 _LOOKS = 6
@@ -38,8 +39,6 @@ _LOOKS = 6
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _OUT = np.array([0.0, -1.0, 0.0])
-_ARM_SWINGS = {"wrist": 5, "forearm": 4, "elbow": 3}
-_HAND_SWINGS = {"thumb": 1, "index": 2, "middle": 3, "ring": 4, "little": 5}
 
 
 def score_sign(robot: Robot, score: Score) -> Sign:
@@ -52,7 +51,7 @@ def score_sign(robot: Robot, score: Score) -> Sign:
     performance = _Performance(robot, score, moments)
     rights, lefts = performance.solve()
     place_errors = performance.place_errors(rights, lefts)
-    joints, knots = _knots(score, moments, rights, lefts)
+    joints, knots = knots_of(score, moments, rights, lefts)
     times = np.array([moment.time for moment in moments])
     times, knots = _round_obstacles(performance, joints, times, knots)
     reached = (*rights, *lefts)
@@ -104,7 +103,7 @@ class _Performance:
         pushes = np.zeros((len(self._moments), 2))
         for _ in range(_MOST_PUSHES + 1):
             rights, lefts = self._arms(pushes)
-            joints, knots = _knots(self._score, self._moments, rights, lefts)
+            joints, knots = knots_of(self._score, self._moments, rights, lefts)
             near = [self.clearance(joints, row) for row in knots]
             touching = [index for index, found in enumerate(near) if found.distance < _CLEARANCE]
             if not touching:
@@ -112,6 +111,13 @@ class _Performance:
             for index in touching:
                 parts = {side for side in ("Left", "Right") for part in near[index][1:] if side in str(part)}
                 pushes[index, int(len(parts) == 2)] += _PUSH
+            # While a joint wiggles the hand keeps its place.
+            for index in range(1, len(pushes)):
+                if (
+                    self._moments[index].swings
+                    and self._moments[index].right is self._moments[index - 1].right
+                ):
+                    pushes[index - 1 : index + 1] = pushes[index - 1 : index + 1].max(axis=0)
         found, moment = near[touching[0]], self._moments[touching[0]]
         raise LutError(
             "self_collision",
@@ -163,8 +169,11 @@ class _Performance:
             _pushed(self._resolved(moment.right, left, reach), push)
             for moment, left, reach, push in zip(self._moments, left_targets, lefts, pushes, strict=True)
         ]
-        rights = smoothest([self._reaches(target, self._right_bounds, "right") for target in targets])
-        return rights, lefts
+        candidates = [
+            self._beside(target, self._reaches(target, self._right_bounds, "right"), moment, left)
+            for target, moment, left in zip(targets, self._moments, lefts, strict=True)
+        ]
+        return smoothest(candidates), lefts
 
     def _resolved(self, right: HandTarget, left: HandTarget, reach: Reach) -> HandTarget:
         """A target on the left hand, in ``base_link``; away from the left palm is its way out."""
@@ -179,13 +188,26 @@ class _Performance:
 
     def _reaches(self, target: HandTarget, bounds: tuple[Array, Array], side: str) -> list[Reach]:
         arrays = (target.shape, target.point, target.palm, target.fingers)
-        key = (side, target.part, target.body, *(np.round(array, 6).tobytes() for array in arrays))
+        key = (side, target.part, target.meets, *(np.round(array, 6).tobytes() for array in arrays))
         if key not in self._known:
             reaches = self._solver.reaches(target, bounds)
             self._known[key] = [
                 replace(reach, cost=reach.cost + self._touch(target, reach, side)) for reach in reaches
             ]
         return self._known[key]
+
+    def _beside(self, target: HandTarget, reaches: list[Reach], moment: Posture, left: Reach) -> list[Reach]:
+        """Right arms, those that touch the left one at a higher cost."""
+        assert moment.left is not None
+        other = np.concatenate([mirrored(left.positions), moment.left.shape])
+        joints = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
+        return [
+            replace(reach, cost=reach.cost + _TOUCH)
+            if self.clearance(joints, np.concatenate([reach.positions, target.shape, other])).distance
+            < _CLEARANCE
+            else reach
+            for reach in reaches
+        ]
 
     def _touch(self, target: HandTarget, reach: Reach, side: str) -> float:
         """What it costs that an arm, the other at rest, touches the body."""
@@ -201,52 +223,6 @@ def _pushed(target: HandTarget, push: Array) -> HandTarget:
         return target
     aside = target.outward if target.other else _OUT
     return replace(target, point=target.point + push[0] * target.outward + push[1] * aside)
-
-
-def _knots(
-    score: Score, moments: list[Posture], rights: list[Reach], lefts: list[Reach]
-) -> tuple[tuple[str, ...], Array]:
-    joints = RIGHT_ARM + RIGHT_HAND
-    rows = [
-        _limb(moment, moment.right, reach, "right") for moment, reach in zip(moments, rights, strict=True)
-    ]
-    if score.hands != "right":
-        joints += LEFT_ARM + LEFT_HAND
-        others = [
-            _limb(moment, moment.left, reach, "left")
-            for moment, reach in zip(moments, lefts or rights, strict=True)
-        ]
-        rows = [np.concatenate([row, other]) for row, other in zip(rows, others, strict=True)]
-    if any(moment.turn or moment.bow for moment in moments):
-        joints += HEAD
-        # Towards the right is a negative turn about the upward axis.
-        rows = [
-            np.concatenate([row, [-moment.turn, moment.bow]])
-            for row, moment in zip(rows, moments, strict=True)
-        ]
-    return joints, np.array(rows)
-
-
-def _limb(moment: Posture, target: HandTarget | None, reach: Reach, side: str) -> Array:
-    """Arm and hand in a moment [rad]. Shape (12,)."""
-    assert target is not None
-    arm, hand = reach.positions.copy(), target.shape.copy()
-    hand_limits = joint_limits(RIGHT_HAND)
-    lower, upper = arm_bounds(side)
-    for name, angle in moment.swings:
-        if name in _ARM_SWINGS:
-            index = _ARM_SWINGS[name]
-            arm[index] = _swung(arm[index], angle, lower[index], upper[index])
-        else:
-            index = _HAND_SWINGS[name]
-            hand[index] = _swung(hand[index], angle, hand_limits.lower[index], hand_limits.upper[index])
-    return np.concatenate([mirrored(arm) if side == "left" else arm, hand])
-
-
-def _swung(position: float, angle: float, lower: float, upper: float) -> float:
-    """A joint that has swung, to the side where it has more room."""
-    room_up, room_down = upper - position, position - lower
-    return position + min(angle, room_up) if room_up >= room_down else position - min(angle, room_down)
 
 
 def _round_obstacles(

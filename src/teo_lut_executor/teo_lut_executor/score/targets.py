@@ -15,6 +15,9 @@ from teo_lut_executor.score.score_schema import Circle, HandScore, Part, Score, 
 
 Array = NDArray[np.float64]
 
+_ON_BODY = 0.10
+"""[m] A hand that is farther than this from its place on the body is before it, not on it: its orientation
+counts as in the air."""
 _PER_TURN = 8
 """Postures on a circle's round: the straight lines between them stay within 8 % of the radius of it."""
 
@@ -42,6 +45,11 @@ class HandTarget:
     body: bool
     palm: Array
     fingers: Array
+
+    @property
+    def meets(self) -> bool:
+        """Whether the hand meets something there: it is on a body, or a part of it is named for the place."""
+        return self.body or self.part != "palm"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,7 +116,7 @@ def _target(before: HandTarget | None, hand: HandScore | None) -> HandTarget:
                 "other": "",
                 "point": place.point + offset,
                 "outward": place.outward,
-                "body": place.body,
+                "body": place.body and float(np.linalg.norm(offset)) <= _ON_BODY,
             }
     if hand.palm is not None:
         fields["palm"] = direction(hand.palm)

@@ -28,6 +28,9 @@ _ELBOW_TWIST, _WRIST_TWIST = 0.15, 0.75
 # What is easy for a wrist, and how much less easy what lies beyond is, in the search for the elbow [rad].
 _ROLL_EASE = math.radians(70.0)
 _BEND_EASE = math.radians(45.0)
+_INWARDS_EASE, _INWARDS_COST = 0.03, 200.0
+"""From where on an elbow that is nearer to the body's middle than its shoulder is in the trunk's way [m], and
+what it costs [1/m^2]: 7 cm as much as half a radian beyond what is easy for a wrist."""
 _SWIVELS = np.radians(np.arange(-70.0, 71.0, 5.0))
 
 
@@ -76,21 +79,25 @@ class Arm:
         elbow: FloatArray = shoulder + along * line + radius * turned
         return elbow
 
-    def easiest_swivel(self, shoulder: FloatArray, wrist: FloatArray, hand: FloatArray) -> float:
+    def easiest_swivel(
+        self, shoulder: FloatArray, wrist: FloatArray, hand: FloatArray, *, outside: bool = False
+    ) -> float:
         """Find the swivel with which the wrist is strained least.
 
         Args:
             shoulder: [m].
             wrist: [m].
             hand: rotation of the hand from rest. Shape (3, 3).
+            outside: keep the elbow beside the trunk, whatever that asks of the wrist.
         """
         costs = []
         for swivel in _SWIVELS:
-            roll, bend = self.wrist_strain(
-                shoulder, self.elbow_at(shoulder, wrist, float(swivel)), wrist, hand
-            )
+            elbow = self.elbow_at(shoulder, wrist, float(swivel))
+            roll, bend = self.wrist_strain(shoulder, elbow, wrist, hand)
+            inwards = max(0.0, float((shoulder - elbow) @ self._outwards) - _INWARDS_EASE)
             costs.append(
-                0.35 * swivel**2
+                _INWARDS_COST * inwards**2 * outside
+                + 0.35 * swivel**2
                 + 4.0 * max(0.0, abs(roll) - _ROLL_EASE) ** 2
                 + 4.0 * max(0.0, bend - _BEND_EASE) ** 2
                 + 0.3 * bend**2

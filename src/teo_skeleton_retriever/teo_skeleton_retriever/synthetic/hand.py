@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.synthetic.hand_shapes import FINGERS, HandShape
+from teo_skeleton_retriever.synthetic.hand_shapes import FINGERS, HAND_SHAPES, HandShape
 from teo_skeleton_retriever.synthetic.rig import Rig
 from teo_skeleton_retriever.synthetic.rotations import about, cross, frame, perpendicular, turn, unit
 
@@ -41,6 +41,11 @@ class Hand:
         joints.append(self._rig.tail(f"finger1-3.{self.side}"))
         steps = [unit(b - a) for a, b in pairwise(joints)]
         return perpendicular(steps[2] - steps[0], unit(joints[3] - joints[1]))
+
+    @cached_property
+    def joints_straight(self) -> FloatArray:
+        """The hand's 21 keypoints with all fingers straight and the wrist at rest [m]. Shape (21, 3)."""
+        return self.joints(HAND_SHAPES["open"])
 
     def to_body(self, direction: FloatArray) -> FloatArray:
         """Bring a direction in the hand's axes to those of the body at rest."""

@@ -55,7 +55,7 @@ _CLAW = (25.0, 50.0, 35.0)
 _PINCH = (55.0, 50.0, 25.0)
 
 # Where the thumb's metacarpal points, towards where it bends, and how far in its two outer joints [deg].
-_THUMBS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float]]] = {
+THUMBS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float]]] = {
     "out": ((0.70, 0.30, 0.65), (0.75, 0.15, -0.65), (0.0, 0.0)),
     "beside": ((0.90, 0.30, 0.32), (0.35, 0.35, -0.87), (8.0, 5.0)),
     "relaxed": ((0.80, 0.45, 0.40), (0.30, 0.45, -0.84), (18.0, 15.0)),
@@ -66,18 +66,18 @@ _THUMBS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float],
 }
 
 
+def hand_thumb(name: str) -> tuple[FloatArray, FloatArray]:
+    """Give a thumb of `THUMBS`: `HandShape.thumb` and `HandShape.thumb_flexion`."""
+    points, bends, angles = THUMBS[name]
+    return np.array([points, bends]), np.radians(np.array(angles))
+
+
 def _shape(
     fingers: tuple[tuple[float, float, float], ...],
     thumb: str,
     spread: tuple[float, float, float, float] = (2.0, 0.0, -2.0, -5.0),
 ) -> HandShape:
-    points, bends, angles = _THUMBS[thumb]
-    return HandShape(
-        np.radians(np.array(fingers)),
-        np.radians(np.array(spread)),
-        np.array([points, bends]),
-        np.radians(np.array(angles)),
-    )
+    return HandShape(np.radians(np.array(fingers)), np.radians(np.array(spread)), *hand_thumb(thumb))
 
 
 _FAN = (12.0, 2.0, -9.0, -20.0)  # spread of an open hand [deg]

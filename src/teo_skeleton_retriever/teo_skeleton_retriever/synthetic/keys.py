@@ -8,20 +8,33 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.synthetic.body_data import load_body_data
 from teo_skeleton_retriever.synthetic.errors import unknown_name
-from teo_skeleton_retriever.synthetic.hand_shapes import hand_shape
+from teo_skeleton_retriever.synthetic.hand_points import OTHER_HAND, hand_point
+from teo_skeleton_retriever.synthetic.hand_shapes import HandShape, hand_shape
+from teo_skeleton_retriever.synthetic.places import PLACES, Places
 from teo_skeleton_retriever.synthetic.pose import ArmPose, Poser
-from teo_skeleton_retriever.synthetic.rig import Rig
-from teo_skeleton_retriever.synthetic.rotations import frame
+from teo_skeleton_retriever.synthetic.rotations import about, cross, frame, turn
 
 Vector = tuple[float, float, float]
 """Forwards, outwards (away from the body's middle, on the hand's side) and up."""
 
 _ARM_LENGTH = 0.53
 """Shoulder to wrist of the person for whom offsets are written [m]; others' are scaled by theirs."""
-_ARM_BONES = ("upperarm", "lowerarm", "wrist", "metacarpal", "finger")
-PLACES = ("shoulders", "sternum", "belly", "chin", "mouth", "nose", "forehead", "temple", "hip", "side")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Swing:
+    """By how much joints of an arm are turned after its hand is where it goes: what a wiggle needs [rad].
+
+    Attributes:
+        wrist: bends the hand towards the thumb's side.
+        forearm: rolls the palm upwards, as a right hand turns a key to the right.
+        elbow: stretches the arm.
+    """
+
+    wrist: float = 0.0
+    forearm: float = 0.0
+    elbow: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,12 +42,13 @@ class ArmKey:
     """Where an arm goes.
 
     Attributes:
-        at: one of `PLACES`, or "other_palm", "other_wrist".
+        at: one of `PLACES`, or of `OTHER_HAND`.
         offset: from there [m, for an arm of 0.53 m].
-        point: of the hand that goes there: "wrist", "palm", "index_tip" or "middle_tip".
+        point: of the hand that goes there, one of `POINTS`.
         fingers: where straight fingers would point.
         palm: where the palm faces.
-        shape: of the hand.
+        shape: of the hand, by its name or in full.
+        swing: of joints, from there.
         swivel: turns the elbow further outwards and up than is easiest [rad].
     """
 
@@ -43,7 +57,8 @@ class ArmKey:
     point: str = "palm"
     fingers: Vector = (0.0, 0.0, 1.0)
     palm: Vector = (1.0, 0.0, 0.0)
-    shape: str = "flat"
+    shape: str | HandShape = "flat"
+    swing: Swing = Swing()
     swivel: float = 0.0
 
 
@@ -57,12 +72,15 @@ class Key:
         move: how long it takes to get there [s].
         hold: how long it stays [s].
         arc: by how much hands come forwards on the way, of the length of the way.
+        bulge: by how much the hands' way swings out in its middle [m, for an arm of 0.53 m].
         place: forwards and to the left [m].
         heading: turned to the left [rad].
         lean: see `BodyPose`.
         head: see `BodyPose`.
         step: the foot, "R" or "L", that is lifted on the way, if one is.
         face: facial actions.
+        through: goes on without a stop; there is no hold then, no arc and no bulge.
+        keep_out: hands go round the body and each other instead of through them.
     """
 
     right: ArmKey | None = None
@@ -70,121 +88,83 @@ class Key:
     move: float = 0.45
     hold: float = 0.15
     arc: float = 0.12
+    bulge: Vector = (0.0, 0.0, 0.0)
     place: tuple[float, float] = (0.0, 0.0)
     heading: float = 0.0
     lean: Vector = (0.0, 0.0, 0.0)
     head: Vector = (0.0, 0.0, 0.0)
     step: str | None = None
     face: Mapping[str, float] = field(default_factory=dict)
-
-
-class Places:
-    """Where the places of a body are while it stands at rest."""
-
-    def __init__(self, rig: Rig) -> None:
-        self._rig = rig
-        self._skin = np.unique(load_body_data().groups["body"])
-        right, left = rig.head("upperarm01.R"), rig.head("upperarm01.L")
-        eyes = (rig.head("eye.R") + rig.head("eye.L")) / 2.0
-        head = rig.tail("head")
-        hips = (rig.head("upperleg01.R") + rig.head("upperleg01.L")) / 2.0
-        shoulders = (right + left) / 2.0
-        trunk = shoulders[2] - hips[2]
-        face = head[2] - eyes[2]  # from the eyes to the crown, which is as far as from the eyes to the chin
-        self._half_hips = self._half_width(float(hips[2]))
-        self._half_head = 0.55 * float(face)
-        self.middle = {
-            "shoulders": shoulders,
-            "sternum": self._front(shoulders[2] - 0.22 * trunk),
-            "belly": self._front(shoulders[2] - 0.62 * trunk),
-            "chin": self._front(eyes[2] - 0.93 * face),
-            "mouth": self._front(eyes[2] - 0.58 * face),
-            "nose": self._front(eyes[2] - 0.30 * face),
-            "forehead": self._front(eyes[2] + 0.45 * face),
-            "temple": np.array([eyes[0], 0.0, eyes[2] + 0.1 * face]),
-            "hip": hips,
-            "side": hips,
-        }
-
-    def _front(self, height: float) -> FloatArray:
-        """Find the foremost skin at a height, in the middle of the body."""
-        skin = self._rig.vertices[self._skin]
-        near = np.abs(skin - [0.0, 0.0, height])
-        chosen = skin[(near[:, 1] < 0.03) & (near[:, 2] < 0.012)]
-        return np.array([chosen[:, 0].max(), 0.0, height])
-
-    def _half_width(self, height: float) -> float:
-        """Measure the hips: half of how wide the body is at a height and a hand's breadth above [m]."""
-        skin = self._rig.vertices[self._skin]
-        arms = [i for i, name in enumerate(load_body_data().bones) if name.startswith(_ARM_BONES)]
-        trunk = self._rig.weights[self._skin][:, arms].sum(axis=1) < 0.1
-        near = trunk & (skin[:, 2] > height) & (skin[:, 2] < height + 0.1)
-        return float(np.abs(skin[near, 1]).max())
-
-    def outwards(self, place: str) -> float:
-        """Tell how far a place is from the body's middle, on the side of the hand [m]."""
-        if place == "temple":
-            return self._half_head
-        if place == "side":
-            return self._half_hips
-        return 0.0
+    through: bool = False
+    keep_out: bool = False
 
 
 class KeyResolver:
-    """Turns key poses in words into poses of one person."""
+    """Turns key poses in words into poses of one person.
+
+    Attributes:
+        shortfall: By how much a hand stayed off its place at most, as arms are too short or elbows bend no
+            further [m].
+    """
 
     def __init__(self, poser: Poser) -> None:
         self._poser = poser
+        self.shortfall = 0.0
         self._places = Places(poser.rig)
         self._scale = (poser.arms["R"].upper + poser.arms["R"].fore) / _ARM_LENGTH
 
-    def arm(self, side: str, key: ArmKey, other: ArmPose | None) -> ArmPose:
+    def swung_out(self, side: str, bulge: Vector) -> FloatArray:
+        """Give a hand's `Key.bulge` in the axes of the body [m]. Shape (3,)."""
+        outwards = np.array([1.0, -1.0 if side == "R" else 1.0, 1.0])
+        way: FloatArray = self._scale * np.array(bulge) * outwards
+        return way
+
+    def arm(self, side: str, key: ArmKey, other: ArmPose | None, *, outside: bool = False) -> ArmPose:
         """Resolve one arm.
 
         Args:
             side: "R" or "L".
             key: what it does.
             other: what the other arm does, if its place is asked for.
+            outside: keep the elbow out of the trunk.
 
         Raises:
             SyntheticError: a place, point or shape that does not exist.
         """
-        shape = hand_shape(key.shape)
+        shape = hand_shape(key.shape) if isinstance(key.shape, str) else key.shape
         hand = self._poser.hands[side]
         outwards = np.array([1.0, -1.0 if side == "R" else 1.0, 1.0])
         rotation = (
             frame(np.array(key.fingers) * outwards, np.array(key.palm) * outwards)
             @ frame(hand.axes[:, 0], hand.axes[:, 1]).T
         )
-        joints = hand.joints(shape)
-        points = {
-            "wrist": joints[0],
-            "palm": (joints[0] + joints[9]) / 2.0,
-            "index_tip": joints[8],
-            "middle_tip": joints[12],
-        }
-        if key.point not in points:
-            raise unknown_name("point", key.point, points)
         anchor = self._anchor(side, key.at, other)
         target = anchor + self._scale * np.array(key.offset) * outwards
-        wrist = target - rotation @ (points[key.point] - hand.wrist)
+        wrist = target - rotation @ (hand_point(hand, shape, key.point) - hand.wrist)
         arm = self._poser.arms[side]
         _, shoulder = self._poser.girdle(side, wrist)
-        wrist = arm.reachable(shoulder, wrist)
-        swivel = arm.easiest_swivel(shoulder, wrist, rotation) + key.swivel
-        return ArmPose(wrist, rotation, swivel, shape)
+        wanted, wrist = wrist, arm.reachable(shoulder, wrist)
+        self.shortfall = max(self.shortfall, float(np.linalg.norm(wrist - wanted)))
+        swivel = arm.easiest_swivel(shoulder, wrist, rotation, outside=outside) + key.swivel
+        return self._swung(side, ArmPose(wrist, rotation, swivel, shape), key.swing)
+
+    def _swung(self, side: str, pose: ArmPose, swing: Swing) -> ArmPose:
+        if swing == Swing():
+            return pose
+        sign = 1.0 if side == "R" else -1.0  # the same about a right and a left axis mirrors
+        shoulder, elbow, wrist = self._poser.limb(side, pose.wrist, pose.swivel)
+        palm = pose.hand @ self._poser.hands[side].axes[:, 1]
+        hand = turn(wrist - elbow, sign * swing.forearm) @ turn(palm, -sign * swing.wrist) @ pose.hand
+        stretch = about(elbow, turn(cross(elbow - shoulder, wrist - elbow), -swing.elbow))
+        moved = (stretch @ [*wrist, 1.0])[:3]
+        return ArmPose(moved, stretch[:3, :3] @ hand, pose.swivel, pose.shape)
 
     def _anchor(self, side: str, at: str, other: ArmPose | None) -> FloatArray:
-        if at in self._places.middle:
-            outwards = -1.0 if side == "R" else 1.0
-            middle = self._places.middle[at]
-            aside = np.array([0.0, outwards * self._places.outwards(at), 0.0])
-            place: FloatArray = middle + aside
-            return place
-        if at in ("other_palm", "other_wrist") and other is not None:
+        if at in PLACES:
+            return self._places.at(at, side)
+        if at in OTHER_HAND and other is not None:
             hand = self._poser.hands["L" if side == "R" else "R"]
-            joints = hand.joints(other.shape)
-            middle = (joints[9] - joints[0]) / 2.0 if at == "other_palm" else np.zeros(3)
-            anchor: FloatArray = other.wrist + other.hand @ middle
+            point = hand_point(hand, other.shape, OTHER_HAND[at])
+            anchor: FloatArray = other.wrist + other.hand @ (point - hand.wrist)
             return anchor
-        raise unknown_name("place", at, (*PLACES, "other_palm", "other_wrist (one hand only)"))
+        raise unknown_name("place", at, (*PLACES, *(f"{name} (one hand only)" for name in OTHER_HAND)))

@@ -11,12 +11,19 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.synthetic.clearing import Clearing
+from teo_skeleton_retriever.synthetic.errors import SyntheticError
+from teo_skeleton_retriever.synthetic.hand_points import OTHER_HAND
 from teo_skeleton_retriever.synthetic.keys import ArmKey, Key, KeyResolver
+from teo_skeleton_retriever.synthetic.path import Path
 from teo_skeleton_retriever.synthetic.pose import ArmPose, BodyPose, Poser
 from teo_skeleton_retriever.synthetic.rig import SIDES
 
 _STEP_HEIGHT = 0.06
 """How far a foot is lifted for a step [m]."""
+
+_MOST_SHORT = 0.15
+"""A hand that stays farther than this off its place is at another part of the body [m]."""
 
 # Nobody stands still: the trunk sways and breathes. Amplitudes [rad] and frequencies [Hz] of quiet standing.
 _SWAY = ((0.008, 0.27), (0.006, 0.19), (0.006, 0.23))
@@ -57,10 +64,11 @@ class Motion:
         """Resolve key poses; the first is where the person starts and must name both arms.
 
         Raises:
-            SyntheticError: a place, point or shape that does not exist.
+            SyntheticError: a place, point or shape that does not exist; in keys that keep out of the body,
+                "out_of_reach".
         """
         self._poser = poser
-        resolver = KeyResolver(poser)
+        self._resolver = resolver = KeyResolver(poser)
         self._stages: list[_Stage] = []
         now = 0.0
         for key in keys:
@@ -68,16 +76,42 @@ class Motion:
             arms = dict(before.arms) if before else {}
             wanted: dict[str, ArmKey | None] = {"R": key.right, "L": key.left}
             # The arm that refers to the other is resolved after it.
-            for side in sorted(SIDES, key=lambda side: (wanted[side] or ArmKey()).at.startswith("other")):
+            for side in sorted(SIDES, key=lambda side: (wanted[side] or ArmKey()).at in OTHER_HAND):
                 arm = wanted[side]
                 if arm is not None:
-                    arms[side] = resolver.arm(side, arm, arms.get("L" if side == "R" else "R"))
+                    other = arms.get("L" if side == "R" else "R")
+                    arms[side] = resolver.arm(side, arm, other, outside=key.keep_out)
+            if key.keep_out and resolver.shortfall > _MOST_SHORT:
+                raise SyntheticError(
+                    "out_of_reach",
+                    f"expected places within reach, got one {100.0 * resolver.shortfall:.0f} cm beyond it at "
+                    f"{now + key.move:.2f} s",
+                )
             stage = _Stage(key, now - (0.0 if before else key.move), arms, self._feet(poser, key))
             self._stages.append(stage)
             now = stage.end
+        self.shortfall = resolver.shortfall
+        """By how much a hand stays off its place at most, as it is out of reach [m]."""
         self.duration = now
         """How long the script is [s]."""
         self._starts = [stage.start for stage in self._stages]
+        self._clearing = Clearing(poser) if any(key.keep_out for key in keys) else None
+        self._paths = self._laid()
+
+    def _laid(self) -> dict[int, Path]:
+        """Lay the ways through poses without a stop, by the stages that go them."""
+        paths: dict[int, Path] = {}
+        first = 0
+        for index, stage in enumerate(self._stages):
+            if stage.key.through and index + 1 < len(self._stages):
+                continue
+            if index > first + 1:
+                run = self._stages[first : index + 1]
+                times = [run[1].start, *(passed.arrival for passed in run[1:])]
+                path = Path(times, {side: [at.arms[side].wrist for at in run] for side in SIDES})
+                paths |= dict.fromkeys(range(first + 1, index + 1), path)
+            first = index
+        return paths
 
     @staticmethod
     def _feet(poser: Poser, key: Key) -> dict[str, tuple[float, float, float]]:
@@ -91,11 +125,9 @@ class Motion:
         """Give the pose at a time after the start [s]; before and after the script, its first and last."""
         index = max(1, min(bisect_right(self._starts, time) - 1, len(self._stages) - 1))
         before, stage = self._stages[index - 1], self._stages[index]
-        done = min(1.0, max(0.0, (time - stage.start) / stage.key.move))
-        share = minimum_jerk(done)
-        arms = {
-            side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key.arc) for side in SIDES
-        }
+        share, arms = self._arms(index, before, stage, time)
+        if self._clearing and stage.key.keep_out:
+            arms = self._clearing.cleared(arms)
         mix = _Mix(share)
         face = dict.fromkeys([*before.key.face, *stage.key.face], 0.0)
         for name in face:
@@ -121,19 +153,38 @@ class Motion:
             face=face,
         )
 
-    def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, arc: float) -> ArmPose:
+    def _arms(
+        self, index: int, before: _Stage, stage: _Stage, time: float
+    ) -> tuple[float, dict[str, ArmPose]]:
+        """Give how much of the way to a stage is gone, and the arms."""
+        if index in self._paths and stage.start <= time < stage.arrival:
+            path = self._paths[index]
+            share = path.share(time)
+            return share, {
+                side: self._between(side, before.arms[side], stage.arms[side], share, path.wrist(side, time))
+                for side in SIDES
+            }
+        share = minimum_jerk(min(1.0, max(0.0, (time - stage.start) / stage.key.move)))
+        return share, {
+            side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key) for side in SIDES
+        }
+
+    def _arm(self, side: str, start: ArmPose, end: ArmPose, share: float, key: Key) -> ArmPose:
         """Go from one pose of an arm to another; the forearm rolls and the wrist bends as joints do."""
-        if share in (0.0, 1.0):
+        if share in (0.0, 1.0) or start is end:
             return end if share else start
+        way: FloatArray = end.wrist - start.wrist
+        forwards = np.array([key.arc * float(np.linalg.norm(way)), 0.0, 0.0])
+        bulge = 4.0 * share * (1.0 - share) * (forwards + self._resolver.swung_out(side, key.bulge))
+        return self._between(side, start, end, share, start.wrist + share * way + bulge)
+
+    def _between(self, side: str, start: ArmPose, end: ArmPose, share: float, wrist: FloatArray) -> ArmPose:
         arm, poser = self._poser.arms[side], self._poser
         rolls, swings = zip(
             *(arm.wrist_joint(*poser.limb(side, at.wrist, at.swivel), at.hand) for at in (start, end)),
             strict=True,
         )
         mix = _Mix(share)
-        way: FloatArray = end.wrist - start.wrist
-        bulge = 4.0 * share * (1.0 - share) * arc * float(np.linalg.norm(way))
-        wrist = start.wrist + share * way + np.array([bulge, 0.0, 0.0])
         swivel = mix(start.swivel, end.swivel)
         swing = Slerp([0.0, 1.0], Rotation.from_matrix(np.array(swings)))(share).as_matrix()
         hand = arm.hand_at(*poser.limb(side, wrist, swivel), mix(*rolls), swing)

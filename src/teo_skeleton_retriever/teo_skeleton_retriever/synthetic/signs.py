@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from teo_skeleton_retriever.synthetic.keys import ArmKey, Key, Vector
 
-_HANGING = ArmKey(
+HANGING = ArmKey(
     at="side",
     offset=(0.03, 0.035, 0.02),
     point="wrist",
@@ -15,7 +15,7 @@ _HANGING = ArmKey(
     palm=(-0.35, -1.0, 0.0),
     shape="relaxed",
 )
-REST = Key(right=_HANGING, left=_HANGING, move=0.7, hold=0.3)
+REST = Key(right=HANGING, left=HANGING, move=0.7, hold=0.3)
 """Both arms hang."""
 _SPEAK = {"jawOpen": 0.25}
 _ROUND = {"mouthPucker": 0.7}
@@ -60,7 +60,7 @@ def spelled(shapes: Sequence[str]) -> list[Key]:
     """Spell: the hand stays before the shoulder and changes its shape."""
     return [
         Key(
-            left=_HANGING if i == 0 else None,
+            left=HANGING if i == 0 else None,
             right=neutral(shape, at=(0.30, 0.06 + 0.008 * i, 0.0)),
             move=0.5 if i == 0 else 0.2,
             hold=0.22,
@@ -267,7 +267,7 @@ COVER = [
         right=ArmKey(
             at="mouth", offset=(0.06, 0.02, 0.0), fingers=(0.1, -1.0, 0.3), palm=_TO_SELF, shape="flat"
         ),
-        left=_HANGING,
+        left=HANGING,
         move=0.5,
         hold=0.3,
     ),

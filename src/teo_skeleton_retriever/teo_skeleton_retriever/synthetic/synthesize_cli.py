@@ -21,6 +21,8 @@ from teo_skeleton_retriever.synthetic.take_bag import write_take
 from teo_skeleton_retriever.synthetic.take_messages import JPEG_QUALITY
 
 _DEFAULTS = TakeOptions()
+_WORTH_SAYING = 0.02
+"""A hand that is nearer than this to its place is there [m]."""
 _out = Console()
 _err = Console(stderr=True)
 _app = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -31,7 +33,9 @@ def _synthesize(
     out: Annotated[
         Path | None, typer.Option(help="Folder of the bag, to be made.", show_default=False)
     ] = None,
-    script: Annotated[str, typer.Option(help="What the person does; see --list.")] = _DEFAULTS.script,
+    script: Annotated[
+        str, typer.Option(help="What the person does: a name, see --list, or a script's file (.yaml).")
+    ] = _DEFAULTS.script,
     body: Annotated[str, typer.Option(help="Who; see --list.")] = _DEFAULTS.body,
     scene: Annotated[str, typer.Option(help="What is around; see --list.")] = _DEFAULTS.scene,
     sensor: Annotated[str, typer.Option(help="What measures; see --list.")] = _DEFAULTS.sensor,
@@ -46,6 +50,9 @@ def _synthesize(
     rate: Annotated[float, typer.Option(help="Frames per second [Hz].")] = _DEFAULTS.rate,
     seed: Annotated[int, typer.Option(min=0, help="Of the noise; the same gives the same bag.")] = 0,
     frames: Annotated[int, typer.Option(min=0, help="Only the first frames; 0 for all.")] = 0,
+    truth_only: Annotated[
+        bool, typer.Option("--truth-only", help="Only /truth/skeletons, no images: a third of the time.")
+    ] = False,
     raw: Annotated[bool, typer.Option("--raw", help="Do not compress images.")] = False,
     jpeg_quality: Annotated[int, typer.Option(min=1, max=100, help="Of the colour images.")] = JPEG_QUALITY,
     perfect_depth: Annotated[
@@ -82,17 +89,28 @@ def _synthesize(
     except SyntheticError as error:
         raise typer.BadParameter(error.sentence) from None
     count = min(frames, len(take)) if frames else len(take)
-    rendered = (take.frame(i) for i in range(count))
+    rendered = (take.truth(i) if truth_only else take.frame(i) for i in range(count))
     columns = (TextColumn("rendering"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    about_it = {"synthetic signer": f"{script} by {body} in {scene} before {sensor} at {distance:g} m"}
+    about_it = {
+        "synthetic signer": f"{Path(script).name} by {body} in {scene} before {sensor} at {distance:g} m",
+        "script": take.about,
+    }
     try:
         with Progress(*columns, console=_err) as progress:
             task = progress.add_task("", total=count)
-            for number in write_take(rendered, out, raw=raw, quality=jpeg_quality, about=about_it):
+            for number in write_take(
+                rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=about_it
+            ):
                 progress.update(task, completed=number)
     except SyntheticError as error:
         _err.print(f"synthesize: {error}", style="red", markup=False, highlight=False)
         raise typer.Exit(1) from None
+    if take.motion.shortfall > _WORTH_SAYING:
+        _err.print(
+            f"synthesize: hands stay up to {100.0 * take.motion.shortfall:.0f} cm off places out of reach",
+            markup=False,
+            highlight=False,
+        )
     megabytes = sum(file.stat().st_size for file in out.iterdir()) / 1e6
     _out.print(f"{out}: {count} frames, {count / rate:.1f} s, {megabytes:.1f} MB", highlight=False)
 
@@ -121,3 +139,7 @@ def _print_choices() -> None:
 def main() -> None:
     """Run `synthesize`."""
     _app()
+
+
+if __name__ == "__main__":
+    main()

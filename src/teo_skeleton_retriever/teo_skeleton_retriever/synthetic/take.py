@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,10 +20,10 @@ from teo_skeleton_retriever.synthetic.motion import Motion
 from teo_skeleton_retriever.synthetic.pose import BodyPose
 from teo_skeleton_retriever.synthetic.ray_caster import RayCaster
 from teo_skeleton_retriever.synthetic.renderer import Rendered, Renderer
-from teo_skeleton_retriever.synthetic.scripts import script as script_named
+from teo_skeleton_retriever.synthetic.script_file import script_of
 from teo_skeleton_retriever.synthetic.sensors import sensor as sensor_named
 from teo_skeleton_retriever.synthetic.signer import Signer
-from teo_skeleton_retriever.synthetic.truth import SyntheticFrame, Truth
+from teo_skeleton_retriever.synthetic.truth import SyntheticFrame, Truth, TruthFrame
 from teo_skeleton_retriever.synthetic.visibility import visible
 
 DISTANCES = (0.2, 6.0)
@@ -38,7 +39,7 @@ class TakeOptions:
     """What is rendered.
 
     Attributes:
-        script: one of `SCRIPTS`.
+        script: one of `SCRIPTS`, or the path of a script's file, which ends in .yaml.
         body: one of `BODIES`.
         scene: one of `SCENES`.
         sensor: one of `SENSORS`.
@@ -92,17 +93,33 @@ class Take:
         self._options = options
         self.sensor = sensor_named(options.sensor)
         self.camera: CameraModel = self.sensor.camera(options.width, options.height)
-        vertices, room = furnish(options.scene)
-        keys = script_named(options.script)
+        vertices, self._room = furnish(options.scene)
+        keys, self.about = script_of(options.script)
         self._signer = Signer(options.body)
         self.motion = Motion(self._signer.poser, keys)
         self._rotation, self._position = self._camera_pose()
         self._surface = self._signer.dress.surface
-        self._renderer = Renderer(self.camera, self._rotation, self._surface, room, self._seen(vertices))
+        self._walls = self._seen(vertices)
 
     def __len__(self) -> int:
         """Tell how many frames the take has."""
         return int(self.motion.duration * self._options.rate) + 1
+
+    @cached_property
+    def _renderer(self) -> Renderer:
+        return Renderer(self.camera, self._rotation, self._surface, self._room, self._walls)
+
+    @cached_property
+    def _obstacles(self) -> RayCaster:
+        return RayCaster(self._walls[self._room.triangles])
+
+    def truth(self, index: int) -> TruthFrame:
+        """Tell what is true in a frame, without the image: in a third of the time."""
+        stamp = index / self._options.rate
+        pose = self.motion.pose(stamp)
+        transforms = self._signer.poser.transforms(pose)
+        person = RayCaster(self._seen(self._signer.vertices(pose, transforms))[self._surface.triangles])
+        return TruthFrame(stamp=stamp, camera=self.camera, truth=self._truth(pose, transforms, person))
 
     def frame(self, index: int) -> SyntheticFrame:
         """Render one frame, the first is 0."""
@@ -136,9 +153,7 @@ class Take:
 
     def _truth(self, pose: BodyPose, transforms: FloatArray, person: RayCaster) -> Truth:
         body, left, right, face = (self._seen(part) for part in self._signer.keypoints(pose, transforms))
-        seen = visible(
-            person, self._renderer.room, self._surface.bones, self.camera, (body, left, right, face)
-        )
+        seen = visible(person, self._obstacles, self._surface.bones, self.camera, (body, left, right, face))
         return Truth(
             body=body,
             left_hand=left,

@@ -19,7 +19,7 @@ from teo_ros2cli.definitions.type_hash import installed_type_hash
 from teo_ros2cli.errors import Ros2CliError
 from teo_skeleton_retriever.synthetic import take_messages
 from teo_skeleton_retriever.synthetic.errors import SyntheticError
-from teo_skeleton_retriever.synthetic.truth import SyntheticFrame
+from teo_skeleton_retriever.synthetic.truth import TruthFrame
 
 START = 1_700_000_000 * 10**9
 """Stamp of the first frame [ns since the epoch]: a fixed one, so that the same take gives the same bag."""
@@ -35,10 +35,10 @@ class _Topic(NamedTuple):
     message: Any  # from a frame and a header to a message
 
 
-_ALWAYS = (
-    _Topic("/camera/color/camera_info", _INFO, lambda frame, at: take_messages.camera_info(frame.camera, at)),
-    _Topic("/truth/skeletons", "teo_sign_msgs/msg/SkeletonArray", take_messages.truth_skeletons),
+_CAMERA_INFO = _Topic(
+    "/camera/color/camera_info", _INFO, lambda frame, at: take_messages.camera_info(frame.camera, at)
 )
+_TRUTH = _Topic("/truth/skeletons", "teo_sign_msgs/msg/SkeletonArray", take_messages.truth_skeletons)
 _RAW = (
     _Topic("/camera/color/image_raw", _IMAGE, take_messages.color_image),
     _Topic("/camera/aligned_depth_to_color/image_raw", _IMAGE, take_messages.depth_image),
@@ -48,19 +48,21 @@ _SMALL_DEPTH = "/camera/aligned_depth_to_color/image_raw/compressedDepth"
 
 
 def write_take(
-    frames: Iterable[SyntheticFrame],
+    frames: Iterable[TruthFrame],
     out: Path,
     *,
     raw: bool = False,
+    truth_only: bool = False,
     quality: int = take_messages.JPEG_QUALITY,
     about: dict[str, str] | None = None,
 ) -> Iterator[int]:
     """Write frames to a bag while they come. The bag appears, whole, after the last.
 
     Args:
-        frames: of the take.
+        frames: of the take; `SyntheticFrame` each if images are written.
         out: folder to make.
         raw: write images uncompressed: twenty times larger.
+        truth_only: write no images, only the truth.
         quality: of JPEG, if not raw.
         about: what the bag's metadata say of it.
 
@@ -78,7 +80,7 @@ def write_take(
         _Topic(_SMALL_COLOR, _COMPRESSED, partial(take_messages.compressed_color, quality=quality)),
         _Topic(_SMALL_DEPTH, _COMPRESSED, take_messages.compressed_depth),
     )
-    topics = (*_ALWAYS, *(_RAW if raw else small))
+    topics = (_TRUTH,) if truth_only else (_CAMERA_INFO, _TRUTH, *(_RAW if raw else small))
     beside = out.parent / f".{out.name}.{os.getpid()}"
     try:
         writer = BagWriter(beside / out.name, preset="zstd_small", custom_data=about or {})

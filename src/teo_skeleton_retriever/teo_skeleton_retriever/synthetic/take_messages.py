@@ -21,7 +21,7 @@ from teo_skeleton_retriever.camera_model import CameraModel
 from teo_skeleton_retriever.messages import skeleton_array
 from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.synthetic.errors import SyntheticError
-from teo_skeleton_retriever.synthetic.truth import SyntheticFrame
+from teo_skeleton_retriever.synthetic.truth import SyntheticFrame, TruthFrame
 
 FRAME_ID = "camera_color_optical_frame"
 """As realsense2_camera names it."""
@@ -75,7 +75,7 @@ def compressed_depth(frame: SyntheticFrame, at: Header) -> CompressedImage:
     return CompressedImage(header=at, format="16UC1; compressedDepth png", data=array("B", data))
 
 
-def truth_skeletons(frame: SyntheticFrame, at: Header) -> SkeletonArray:
+def truth_skeletons(frame: TruthFrame, at: Header) -> SkeletonArray:
     """Give the truth: joint centres, status MEASURED where the camera sees them and HELD where not."""
     truth, camera = frame.truth, frame.camera
     joints = {name: truth.body[i] for name, i in BODY_25.index.items()}

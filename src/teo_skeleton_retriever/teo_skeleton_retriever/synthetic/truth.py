@@ -41,20 +41,29 @@ class Truth:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SyntheticFrame:
-    """One rendered image.
+class TruthFrame:
+    """What is true at one moment, with or without an image of it.
 
     Attributes:
         stamp: since the start of the take [s].
-        color: red, green, blue. Shape (height, width, 3).
-        depth: along the optical axis, as the sensor model measures it [m]; NaN where it measures nothing.
-            Shape (height, width), aligned to the colour image.
-        camera: of both.
+        camera: that looks.
         truth: where the keypoints are.
     """
 
     stamp: float
-    color: NDArray[np.uint8]
-    depth: DepthArray
     camera: CameraModel
     truth: Truth
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SyntheticFrame(TruthFrame):
+    """One rendered image.
+
+    Attributes:
+        color: red, green, blue. Shape (height, width, 3).
+        depth: along the optical axis, as the sensor model measures it [m]; NaN where it measures nothing.
+            Shape (height, width), aligned to the colour image.
+    """
+
+    color: NDArray[np.uint8]
+    depth: DepthArray

@@ -1,0 +1,36 @@
+"""The cheapest way through time over candidates (Viterbi, IEEE Trans. Inf. Theory 1967)."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def cheapest_way(cost: Array, values: Array, price: float) -> Array:
+    """One candidate at each moment, such that their costs and the ways between them are least together.
+
+    Args:
+        cost: Of c candidates at n moments. Shape (n, c).
+        values: What they are. Shape (n, c, k).
+        price: Of the square of the way from one moment to the next.
+
+    Returns:
+        The values chosen. Shape (n, k).
+    """
+    total = cost[0]
+    origins = []
+    for (before, now), own in zip(pairwise(values), cost[1:], strict=True):
+        through = total[None] + price * ((now[:, None] - before[None]) ** 2).sum(axis=2)
+        origins.append(through.argmin(axis=1))
+        total = through.min(axis=1) + own
+    index = int(total.argmin())
+    chosen = [index]
+    for origin in reversed(origins):
+        index = int(origin[index])
+        chosen.append(index)
+    path: Array = values[np.arange(len(values)), chosen[::-1]]
+    return path

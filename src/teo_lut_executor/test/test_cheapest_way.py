@@ -1,0 +1,26 @@
+from __future__ import annotations
+
+from itertools import pairwise, product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_lut_executor.capture.cheapest_way import cheapest_way
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 10**6), moments=st.integers(1, 5), price=st.floats(0.0, 3.0))
+def test_no_other_way_is_cheaper(seed, moments, price):
+    random = np.random.default_rng(seed)
+    cost, values = random.uniform(0.0, 1.0, (moments, 3)), random.normal(size=(moments, 3, 2))
+
+    def total(way):
+        path = values[np.arange(moments), way]
+        ways = sum(float(((b - a) ** 2).sum()) for a, b in pairwise(path))
+        return cost[np.arange(moments), way].sum() + price * ways
+
+    best = min((list(way) for way in product(range(3), repeat=moments)), key=total)
+    found = cheapest_way(cost, values, price)
+    assert found == pytest.approx(values[np.arange(moments), best])

@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from teo_description import HEAD, TRUNK
+from teo_description.robot import Robot
+from teo_lut_executor.capture.arm_chain import ArmChain
+from teo_lut_executor.capture.arm_problem import Quadratic
+from teo_lut_executor.capture.touches import WANTED, Touches, WholeRobot
+
+# Both hands before the chest, near it and each other [deg], the left one as in a mirror.
+NEAR = np.radians([-29.0, -2.0, 54.0, -61.0, 0.0, 10.0, -25.0, 0.0, 50.0, -72.0, -25.0, 11.0])
+HAND = np.tile(np.radians([45.0, -15.0, 40.0, 40.0, 40.0, 40.0]), (2, 1))
+
+
+@pytest.fixture(scope="module")
+def whole():
+    robot = Robot.load()
+    others = dict(zip(HEAD + TRUNK, np.radians([[20.0] * 2, [5.0] * 2, [15.0] * 2, [12.0] * 2]), strict=True))
+    return WholeRobot(robot, ArmChain(robot), ("right", "left"), (HAND, HAND), others)
+
+
+def test_slopes_say_how_each_distance_changes(whole):
+    arms = np.stack([NEAR, NEAR])
+    touches = whole.touches(np.array([0]), arms)
+    assert len(touches.frames) > 3
+    step = 1e-3
+    for joint in range(12):
+        moved = arms.copy()
+        ends = []
+        for sign in (1.0, -1.0):
+            moved[0] = NEAR + sign * step * np.eye(12)[joint]
+            ends.append(whole.touches(np.array([0]), moved))
+        if not len(ends[0].frames) == len(ends[1].frames) == len(touches.frames):
+            continue  # a pair has come near or gone
+        slope = (ends[0].distances - ends[1].distances) / (2.0 * step)
+        # Where witness points lie on flat faces they jump, and one or two pairs have no slope.
+        assert np.median(np.abs(slope - touches.slopes[:, joint])) < 0.01
+        assert np.percentile(np.abs(slope - touches.slopes[:, joint]), 80) < 0.05
+
+
+def test_the_nearest_of_them_is_the_clearance(whole):
+    arms = np.stack([NEAR, NEAR])
+    assert whole.touches(np.array([1]), arms).distances.min() == pytest.approx(
+        whole.clearance(1, NEAR).distance, abs=1e-6
+    )
+
+
+def test_only_what_is_too_near_costs():
+    touches = Touches(
+        frames=np.array([0, 1]),
+        distances=np.array([WANTED - 0.01, WANTED + 0.01]),
+        slopes=np.ones((2, 12)) * 0.1,
+        positions=np.zeros((2, 12)),
+    )
+    nothing = Quadratic(np.zeros(2), np.zeros((2, 12)), np.zeros((2, 12, 12)))
+    cost = touches.added(nothing, np.zeros((2, 12)))
+    assert cost.cost[0] > 0.0
+    assert cost.cost[1] == 0.0
+    assert (cost.gradient[0] < 0.0).all()  # the joints that take it away pay off
+    off = touches.added(nothing, np.full((2, 12), 0.01))
+    assert off.cost[0] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_arms_that_hang_are_near_to_nothing_that_matters(whole):
+    hanging = np.tile(np.radians([0.0, -30.0, 0.0, -20.0, 0.0, 0.0] * 2), (2, 1))
+    touches = whole.touches(np.array([0, 1]), hanging)
+    assert touches.slopes.shape == (len(touches.frames), 12)
