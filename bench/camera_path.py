@@ -41,7 +41,7 @@ from teo_skeleton_retriever.synthetic.take_bag import write_take
 
 Array = NDArray[np.float64]
 
-FEW = ("BIEN", "CASA", "TÚ")
+FEW = ("ADIÓS", "BIEN", "GRACIAS")
 MANY = (
     *(
         "ADIÓS",

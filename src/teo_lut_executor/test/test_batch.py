@@ -177,3 +177,16 @@ def test_a_scheduler_that_does_not_answer_is_said(monkeypatch: pytest.MonkeyPatc
     with pytest.raises(LutError, match="Dask") as error, workers(1, "tcp://127.0.0.1:9"):
         pass
     assert error.value.code == "no_cluster"
+
+
+def test_a_cluster_without_workers_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    from distributed import LocalCluster
+
+    monkeypatch.setattr("teo_lut_executor.capture.batch._CONNECT_TIMEOUT", 2.0)
+    with (
+        LocalCluster(n_workers=0, dashboard_address=None, host="127.0.0.1") as empty,
+        pytest.raises(LutError, match="workers") as error,
+        workers(1, empty.scheduler_address),
+    ):
+        pass
+    assert error.value.code == "no_cluster"

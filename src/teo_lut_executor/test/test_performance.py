@@ -71,7 +71,7 @@ DIRECTIONS = ("front", "back", "in", "up", "2 up in", "front up", "2 back in", "
 on_body = st.sampled_from([*FACE, "eye", "ear", "temple", "cheek", "forehead", "shoulder", "chest", "belly"])
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=8, deadline=None)
 @given(
     body=st.sampled_from(BODIES),
     place=on_body,

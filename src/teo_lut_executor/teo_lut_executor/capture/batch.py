@@ -14,7 +14,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, get_args
 
@@ -32,7 +32,7 @@ _TAKE = re.compile(r"_\d+$")
 """Ends the names of several takes of one sign: HOLA_1, HOLA_2."""
 _COLUMNS = ("bag", "gloss", "start", "end", "hands", "person")
 CAPTURED, UNCHANGED = "captured", "unchanged"
-_CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer by then is not there
+_CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer, or has no worker, by then will not
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,7 +129,17 @@ def run_jobs(
     Returns:
         The outcomes, by gloss.
     """
-    futures = {executor.submit(capture_job, job, settings): job for job in jobs}
+    # A worker may have been started elsewhere: names must not depend on where this is.
+    here = replace(
+        settings,
+        table=settings.table.absolute(),
+        cache=settings.cache.absolute(),
+        pictures=settings.pictures and settings.pictures.absolute(),
+    )
+    futures = {}
+    for job in jobs:
+        located = replace(job, bags=tuple(bag.absolute() for bag in job.bags))
+        futures[executor.submit(capture_job, located, here)] = job
     outcomes = []
     try:
         for future in as_completed(futures):
@@ -186,8 +196,15 @@ def workers(count: int, dask: str | None) -> Iterator[Executor]:
         raise LutError(
             "no_cluster", f"expected the scheduler of a Dask cluster at {dask}, got: {error}"
         ) from error
-    with client, client.get_executor(pure=False, retries=0) as pool:
-        yield pool
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=_CONNECT_TIMEOUT)
+        except TimeoutError as error:
+            raise LutError(
+                "no_cluster", f"expected a Dask cluster at {dask} that has workers, got: {error}"
+            ) from error
+        with client.get_executor(pure=False, retries=0) as pool:
+            yield pool
 
 
 def failures(outcomes: Iterable[Outcome]) -> list[Outcome]:

@@ -1,10 +1,8 @@
 """Where on TEO a place at a person's body is.
 
-TEO's shoulders are nearly twice as far apart as a person's, its head is a box, its arms are longer. Away from
-the body a place is scaled by the length of the arms, about the middle of the shoulders; sideways by a little
-more, so that both arms stretched out stay stretched out. At the body this is bent so that each place of
-articulation comes to lie on TEO's own (`score.places`): a chin is a chin. What is between is interpolated
-smoothly, and the bend fades away from the body within a forearm's length.
+Away from the body heights and distances are mapped axis by axis (`far_map`). At the body this is bent so that
+each place of articulation comes to lie on TEO's own (`score.places`): a chin is a chin. What is between is
+interpolated smoothly, and the bend fades away from the body within a forearm's length.
 
 At the head all this is done in the head's own axes: a hand at the chin stays there while the head turns.
 """
@@ -18,6 +16,7 @@ from numpy.typing import NDArray
 from teo_description import urdf_text
 from teo_description.robot import Robot
 from teo_lut_executor.capture.arm_chain import ArmChain
+from teo_lut_executor.capture.far_map import FarMap
 from teo_lut_executor.capture.head_motion import HeadMotion
 from teo_lut_executor.capture.person import Person
 from teo_lut_executor.score.places import find_place
@@ -49,14 +48,14 @@ class BodyMap:
     """The map from one person's body to TEO's, head and trunk of TEO at home.
 
     Attributes:
-        scale: What lengths are multiplied by, away from the body: forwards, sideways, up. Shape (3,).
+        scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
     """
 
     def __init__(self, robot: Robot, arm: ArmChain, person: Person) -> None:
         reach, shoulder = arm.reach, -float(arm.shoulder[1])
-        along = reach / person.arm
-        self.scale: Array = np.array([along, (shoulder + reach) / (person.shoulder + person.arm), along])
         self._origin = arm.shoulder * (1.0, 0.0, 1.0)
+        self._far_map = FarMap(person, reach, shoulder, float(arm.shoulder[2]))
+        self.scale: Array = self._far_map.scale
         self._size = person.trunk / _TRUNK
         self._boxes = body_boxes(robot)
         self._centres, wanted = self._pairs(person)
@@ -98,7 +97,7 @@ class BodyMap:
         return smooth_step((_HEAD_LEFT - away) / (_HEAD_LEFT - _HEAD_HELD))
 
     def _far(self, points: Array) -> Array:
-        moved: Array = self._origin + self.scale * points
+        moved: Array = self._origin + self._far_map(points)
         return moved
 
     def _nearness(self, points: Array) -> Array:

@@ -57,10 +57,10 @@ _PLACES = {
     "space": PersonPlace("sternum", (0.215, 0.10, 0.01)),
     "low_space": PersonPlace("belly", (0.235, 0.11, 0.01)),
     "middle_space": PersonPlace("sternum", (0.215, 0.0, 0.01)),
-    "shoulder_space": PersonPlace("shoulder", (0.26, 0.08, 0.03)),
-    "high_space": PersonPlace("shoulder", (0.30, 0.075, 0.18)),
+    "shoulder_space": PersonPlace("shoulder", (0.26, 0.03, 0.03)),
+    "high_space": PersonPlace("shoulder", (0.30, 0.02, 0.14)),
     "face_space": PersonPlace("mouth", (0.215, 0.02, -0.01)),
-    "beside_head": PersonPlace("ear", (0.10, 0.11, 0.03)),
+    "beside_head": PersonPlace("ear", (0.10, 0.07, 0.03)),
 }
 
 

@@ -45,7 +45,7 @@ class Places:
         """Find them on a person's skin."""
         self._rig = rig
         self._skin = np.unique(load_body_data().groups["body"])
-        self._trunk = self._without_arms()
+        self._triangles = rig.vertices[load_body_data().groups["body"]]
         right, left = rig.head("upperarm01.R"), rig.head("upperarm01.L")
         eyes = (rig.head("eye.R") + rig.head("eye.L")) / 2.0
         head = rig.tail("head")
@@ -76,7 +76,7 @@ class Places:
             "ear": rig.vertices[EARS["L"]],
             "cheek": self._hit(np.array([eyes[0] - 0.07, 0.0, eyes[2] - 0.42 * face]), (0.6, 0.8, 0.0)),
             "mouth_corner": self._hit(np.array([eyes[0] - 0.05, 0.21 * face, mouth]), (1.0, 0.0, 0.0)),
-            "shoulder": self._hit(left * [1.0, 0.72, 1.0], (1.0, 0.0, 0.0)),
+            "shoulder": self._hit(left * [1.0, 0.87, 1.0], (1.0, 0.0, 0.0)),
             "other_shoulder": self._hit(
                 np.array([left[0], -0.6 * half_shoulders, left[2] - 0.03 * trunk]), (1.0, 0.0, 0.0)
             ),
@@ -106,17 +106,11 @@ class Places:
         near = trunk & (skin[:, 2] > height) & (skin[:, 2] < height + 0.1)
         return float(np.abs(skin[near, 1]).max())
 
-    def _without_arms(self) -> FloatArray:
-        triangles = load_body_data().groups["body"]
-        kept = (arm_share(self._rig)[triangles] < 0.5).all(axis=1)
-        corners: FloatArray = self._rig.vertices[triangles[kept]]
-        return corners
-
     def _hit(self, start: FloatArray, direction: tuple[float, float, float]) -> FloatArray:
-        """Find the outermost skin of trunk and head from a place inside, in a direction."""
+        """Find the outermost skin from a place inside, in a direction that the arms are not in."""
         outside = start + _OUTSIDE * np.array(direction)
         ray = -np.array([direction], dtype=np.float32)
-        distance = float(RayCaster(self._trunk - outside).cast(ray).distance[0])
+        distance = float(RayCaster(self._triangles - outside).cast(ray).distance[0])
         found: FloatArray = outside - distance * np.array(direction)
         return found
 
