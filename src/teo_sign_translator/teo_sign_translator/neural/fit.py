@@ -93,6 +93,23 @@ def best_device() -> torch.device:
     return torch.device("cuda" if torch.cuda.is_available() else "cpu")
 
 
+def named_device(name: str | None) -> torch.device:
+    """The device of a name as PyTorch has it; the best one if None.
+
+    Raises:
+        TranslationError: "invalid_config" if this machine has no such device.
+    """
+    if name is None:
+        return best_device()
+    try:
+        torch.empty(0, device=(device := torch.device(name)))
+    except (RuntimeError, AssertionError) as error:  # the latter is how PyTorch says "built without CUDA"
+        raise TranslationError(
+            "invalid_config", f"expected a device of this machine such as cpu or cuda, got '{name}': {error}"
+        ) from error
+    return device
+
+
 def fit(
     train: Sequence[AlignedSentence],
     dev: Sequence[AlignedSentence],
