@@ -17,7 +17,7 @@ from rich.table import Table
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.neural.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.neural.fit import named_device
+from teo_sign_translator.neural.devices import named_device
 from teo_sign_translator.neural.training_run import TrainedModel, load_training_data, train_model
 from teo_sign_translator.neural.zoo import ZOO, network_config
 from teo_sign_translator.spanish_words import source_words

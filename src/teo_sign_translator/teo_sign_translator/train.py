@@ -13,7 +13,7 @@ from rich.console import Console
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.neural.config import TrainingConfig
-from teo_sign_translator.neural.fit import named_device
+from teo_sign_translator.neural.devices import named_device
 from teo_sign_translator.neural.training_run import load_training_data, train_model
 from teo_sign_translator.neural.zoo import POINTER, ZOO, network_config
 from teo_sign_translator.resources import models_directory

@@ -180,7 +180,6 @@ def _made_by(device: str) -> dict[str, str]:
         "torch": torch.__version__,
         "numpy": np.__version__,
         "device": device,
-        "threads": str(torch.get_num_threads()),
     }
 
 
