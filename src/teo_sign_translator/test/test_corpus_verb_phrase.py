@@ -84,3 +84,8 @@ def test_a_form_that_may_be_present_or_past_is_never_taught_as_past_without_a_ti
         P_V_shape="preterite",
     )  # fmt: skip
     assert made == ("Ayer trabajamos.", "AYER NOSOTROS TRABAJAR")
+
+
+def test_the_perfect_is_past_in_every_person(say):
+    made = say("statement", "plain", S="nosotros", P="intransitive", P_V="trabajar", P_V_shape="perfect")
+    assert made == ("Hemos trabajado.", "PASADO NOSOTROS TRABAJAR")

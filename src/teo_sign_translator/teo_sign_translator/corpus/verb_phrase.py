@@ -130,6 +130,7 @@ def marks_ambiguous(signs: Iterable[Sign], morphology: Morphology) -> bool:
     """Whether PASADO is said for a form that is the present too: "quedamos" needs a time word to be past."""
     return any(
         token.text.endswith("mos")
+        and token.text != "hemos"  # "hemos comido" is past
         and any(reading.tag == _WE_NOW and reading.exact for reading in morphology.readings(token.text))
         for sign in signs
         if sign.tense == "past"
