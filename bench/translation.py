@@ -2,8 +2,8 @@
 
 The 39 pairs of the paper as published, and typed without accents and marks; generated sentences of words and
 constructions that training never saw; everyday sentences written apart from the generator, some of them shown
-to this model once. A translation counts where it is the expected one gloss by gloss, or one of those accepted;
-spelled words count as the word that they spell.
+to this model once. A translation counts where it is the expected one gloss by gloss, or one that is accepted.
+Spelled words count as the word that they spell.
 """
 
 from __future__ import annotations
