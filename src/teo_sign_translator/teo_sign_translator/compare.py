@@ -17,6 +17,7 @@ from rich.table import Table
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.neural.config import NetworkConfig, TrainingConfig
+from teo_sign_translator.neural.devices import named_device
 from teo_sign_translator.neural.training_run import TrainedModel, load_training_data, train_model
 from teo_sign_translator.neural.zoo import ZOO, network_config
 from teo_sign_translator.spanish_words import source_words
@@ -33,16 +34,20 @@ def run(
     pairs: Annotated[int, typer.Option(min=1, help="Most training pairs, the same for all.")] = 40_000,
     epochs: Annotated[int, typer.Option(min=1, help="Passes over them.")] = TrainingConfig().epochs,
     seed: Annotated[int, typer.Option(help="Of weights, order, dropout and typing noise.")] = 2019,
+    device: Annotated[
+        str | None, typer.Option(help="Such as cpu or cuda; an accelerator if there is one.")
+    ] = None,
 ) -> None:
     """Train models on the same pairs; write a table (CSV, Markdown) and plots (PNG)."""
     console = Console()
+    where = named_device(device)
     read = partial(source_words, morphology=Morphology.load())
     networks = {name: network_config(name) for name in model or ZOO}
     config = TrainingConfig(seed=seed, epochs=epochs)
     data = load_training_data(corpus, read, pairs, seed)
     command = f"ros2 run teo_sign_translator compare --pairs {pairs} --epochs {epochs} --seed {seed}"
     trained = {
-        name: train_model(name, network, config, data, read, out, command, console)
+        name: train_model(name, network, config, data, read, out, command, console, where)
         for name, network in networks.items()
     }
     rows = comparison(networks, trained)

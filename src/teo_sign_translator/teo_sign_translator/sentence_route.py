@@ -23,6 +23,8 @@ from teo_sign_translator.spanish_words import SourceWord, words_of_clauses
 #: Translations that the model weighs against each other: a second one is there where the first loses a word;
 #: four find no more right ones among 900 held-out sentences than two.
 DEFAULT_BEAM_WIDTH = 2
+#: Likewise for a sentence that was taught and is typed so that another comes first ("cuantos anos tienes").
+_TAUGHT_BEAM_WIDTH = 16
 
 
 class _Sentence(NamedTuple):
@@ -98,7 +100,7 @@ class SentenceRoute:
         """Translate parts; those that lose words piece by piece, if that loses fewer."""
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            _as_taught(hypotheses, part.taught) or faithful(part.words, hypotheses, self._coverage)
+            self._as_taught(part, hypotheses) or faithful(part.words, hypotheses, self._coverage)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -113,6 +115,16 @@ class SentenceRoute:
             if sum(together.repaired) < sum(result[index].repaired):
                 result[index] = together
         return result
+
+    def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Faithful | None:
+        """The translation that was taught; if it is not among the first, looked for among more."""
+        if part.taught is None:
+            return None
+        found = _as_taught(hypotheses, part.taught)
+        if found is None and self._beam_width < _TAUGHT_BEAM_WIDTH:
+            more = self._model.translate_all([part.words], beam=_TAUGHT_BEAM_WIDTH)
+            found = _as_taught(more[0], part.taught)
+        return found
 
     def _sentences(self, clauses: Sequence[Clause]) -> list[_Sentence]:
         """The sentences of a text; two that were taught as one are one."""
@@ -160,10 +172,8 @@ def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
     return [sentence for sentence in sentences if sentence]
 
 
-def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern | None) -> Faithful | None:
+def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Faithful | None:
     """The translation that was taught, if the model thinks of it: what it leaves out is no loss."""
-    if taught is None:
-        return None
     for hypothesis in hypotheses:
         if len(hypothesis.glosses) == len(taught.glosses) and all(
             gloss.gloss == expected or expected in SLOTS

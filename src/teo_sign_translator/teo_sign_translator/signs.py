@@ -69,6 +69,15 @@ def read_signs(path: Path) -> frozenset[str]:
     return frozenset(signs)
 
 
+def listed_signs(file: str) -> frozenset[str] | None:
+    """The glosses of a file that a parameter names; None if it names none.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    return read_signs(Path(file)) if file else None
+
+
 class SignChooser:
     """Chooses signs: the gloss's own, its lemma's, a synonym's, else letters."""
 

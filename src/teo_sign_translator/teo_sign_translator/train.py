@@ -13,6 +13,7 @@ from rich.console import Console
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.neural.config import TrainingConfig
+from teo_sign_translator.neural.devices import named_device
 from teo_sign_translator.neural.training_run import load_training_data, train_model
 from teo_sign_translator.neural.zoo import POINTER, ZOO, network_config
 from teo_sign_translator.resources import models_directory
@@ -45,6 +46,9 @@ def run(
     pairs: Annotated[
         int | None, typer.Option(min=1, help="Most training pairs; all by default. Not for lstm256.")
     ] = None,
+    device: Annotated[
+        str | None, typer.Option(help="Such as cpu or cuda; an accelerator if there is one.")
+    ] = None,
 ) -> None:
     """Train a model and write its weights, with a card that says what made them and how good they are."""
     console = Console(stderr=True)
@@ -62,12 +66,13 @@ def run(
             console.print("not all examples are known: train for more epochs")
             raise typer.Exit(1)
         return
+    where = named_device(device)
     network = network_config(model)
     config = dataclasses.replace(TrainingConfig(seed=seed), **given)
     read = partial(source_words, morphology=Morphology.load())
     with console.status("reading the corpus"):
         data = load_training_data(corpus, read, pairs, seed)
-    trained = train_model(model, network, config, data, read, directory, command, console)
+    trained = train_model(model, network, config, data, read, directory, command, console, where)
     fit = trained.fit
     console.print(
         f"{directory / model}.safetensors: {fit.pairs} pairs ({fit.left_out} left out: a gloss that it "

@@ -6,7 +6,6 @@ import threading
 import traceback
 import uuid
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import rclpy
@@ -27,7 +26,7 @@ from teo_sign_translator.log_text import quoted, short
 from teo_sign_translator.messages import to_diagnostics, to_messages
 from teo_sign_translator.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
 from teo_sign_translator.sign_inventory import SignInventory
-from teo_sign_translator.signs import read_signs
+from teo_sign_translator.signs import listed_signs
 from teo_sign_translator.text_statistics import Statistics
 from teo_sign_translator.text_worker import TextWorker
 from teo_sign_translator.translator import Translator
@@ -89,7 +88,7 @@ class TranslatorNode(LifecycleNode):
         """Load the model; serve `translate` and say how things are."""
         try:
             translator = self._load({})
-            listed = _listed_signs(self._value("signs_file"))
+            listed = listed_signs(self._value("signs_file"))
         except TranslationError as error:
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
             return TransitionCallbackReturn.FAILURE
@@ -246,7 +245,7 @@ class TranslatorNode(LifecycleNode):
             if {"model", "beam_width"} & asked.keys():
                 self._next_translator = self._load(asked)
             if "signs_file" in asked:
-                _listed_signs(asked["signs_file"])
+                listed_signs(asked["signs_file"])
         except TranslationError as error:
             return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
         return SetParametersResult(successful=True)
@@ -263,7 +262,7 @@ class TranslatorNode(LifecycleNode):
         if "queue_size" in asked and self._worker is not None:
             self._worker.size = asked["queue_size"]
         if "signs_file" in asked and self._inventory is not None:
-            self._inventory.list(_listed_signs(asked["signs_file"]))
+            self._inventory.list(listed_signs(asked["signs_file"]))
 
     def _load(self, asked: dict[str, Any]) -> Translator:
         """A translator of the parameters' values, those asked for before those set."""
@@ -274,11 +273,6 @@ class TranslatorNode(LifecycleNode):
 
     def _value(self, name: str) -> Any:
         return self.get_parameter(name).value
-
-
-def _listed_signs(file: str) -> frozenset[str] | None:
-    """The glosses of a file; None if there is no file."""
-    return read_signs(Path(file)) if file else None
 
 
 def main(args: list[str] | None = None) -> None:

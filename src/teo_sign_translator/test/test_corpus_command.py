@@ -11,7 +11,7 @@ def test_the_command_writes_a_corpus_without_the_sentences_of_a_test(tmp_path, c
     assert "templates" in capsys.readouterr().err
     unwanted = [pair.spanish for pair in first if pair.rule != "paper"][:100]
     (tmp_path / "test.txt").write_text("\n".join(unwanted).upper(), encoding="utf-8")
-    run(out=tmp_path, pairs=300, seed=1, leave_out=tmp_path / "test.txt")
+    run(out=tmp_path, pairs=300, seed=1, leave_out=[tmp_path / "test.txt"])
     second = {pair.spanish for pair in read_pairs(tmp_path / FILE_NAME)}
     assert not second & set(unwanted)
 

@@ -61,9 +61,24 @@ def test_the_same_seed_gives_the_same_pairs_and_another_seed_others(generator):
     assert first != list(generator.pairs(250, seed=2))
 
 
-def test_every_sentence_occurs_once_and_every_split_has_its_share(pairs):
-    assert len({pair.spanish for pair in pairs}) == len(pairs) == 5000
+def test_every_sentence_occurs_once_but_set_phrases_and_every_split_has_its_share(generator, pairs):
+    assert len(pairs) == 5000
     assert set(Counter(pair.split for pair in pairs)) == set(SPLITS)
+    repeat = {
+        f"{family.name}.{rule.name}": rule.repeat
+        for family in generator.grammar.families
+        for rule in family.rules
+    }
+    seen = Counter((pair.spanish, ".".join(pair.rule.split(".")[:2])) for pair in pairs)
+    assert max(seen.values()) > 1
+    assert not [each for each, count in seen.items() if count > repeat[each[1]]]
+
+
+def test_what_is_repeated_is_repeated_in_training_alone(pairs):
+    train = {pair.spanish for pair in pairs if pair.split == "train"}
+    others = [pair.spanish for pair in pairs if pair.split != "train"]
+    assert len(set(others)) == len(others)
+    assert not train & set(others)
 
 
 def test_held_out_words_are_nowhere_in_train_but_in_every_sentence_that_tests_words(generator, pairs, train):

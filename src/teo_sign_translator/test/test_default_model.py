@@ -16,6 +16,11 @@ WAYS_OF_TYPING: dict[str, Callable[[str], str]] = {
     "without accents": lambda text: "".join(
         c for c in unicodedata.normalize("NFD", text) if unicodedata.category(c) != "Mn"
     ),
+    "without accents and marks": lambda text: re.sub(
+        r"[¿?¡!,.…]",
+        "",
+        "".join(c for c in unicodedata.normalize("NFD", text) if unicodedata.category(c) != "Mn"),
+    ),
     "without marks": lambda text: re.sub(r"[¿?¡!,.…]", "", text),
     "without opening marks": lambda text: re.sub("[¿¡]", "", text),
     "decomposed": lambda text: unicodedata.normalize("NFD", text),

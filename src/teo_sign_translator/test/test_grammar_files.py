@@ -85,7 +85,7 @@ def test_every_word_of_the_lists_is_in_the_lexicon(generator):
             "statement.plain",
         ),
         ("sentences.yaml", "        weight: 10\n", "        weight: -1\n", "statement.plain"),
-        ("phrases.yaml", 'lse: "{n} MUCHO=mucho"', 'lse: "{n} MUCHO=muchos"', "thing.much"),
+        ("phrases.yaml", 'lse: "{n} MUCHO=mucho"', 'lse: "{n} MUCHO=muchos"', "someone.many"),
         ("phrases.yaml", "este~n {n}", "esto~n {n}", "someone.this"),
         ("clauses.yaml", "$V.object det=$V.det", "$W.object det=$W.det", "vp.thing"),
         ("shapes.yaml", 'es: "^ */ind:pres", lse: "*"', 'es: "^ */ind:pres", lse: "* NO=no"', "present"),

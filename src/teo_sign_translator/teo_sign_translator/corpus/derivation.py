@@ -14,7 +14,13 @@ from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem
 from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tenses import Tenses
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
-from teo_sign_translator.corpus.verb_phrase import say_verb, tense_signs, verb_signs
+from teo_sign_translator.corpus.verb_phrase import (
+    marked_once,
+    marks_ambiguous,
+    say_verb,
+    tense_signs,
+    verb_signs,
+)
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
@@ -77,19 +83,19 @@ class Derivation:
         phrase = self._phrase(rule, {}, "", spread)
         stressed = frozenset(self.grammar.word_lists.get("stressed_a", ()))
         text, places = write(phrase.tokens, stressed)
-        lost = [sign.gloss for sign in phrase.signs if any(id(token) not in places for token in sign.sources)]
+        signs = marked_once(phrase.signs)
+        if marks_ambiguous(signs, self.words.morphology):
+            raise NoFillerError(f"{rule.where}: present or past")
+        lost = [sign.gloss for sign in signs if any(id(token) not in places for token in sign.sources)]
         if lost:
             raise TranslationError(
                 "invalid_grammar",
                 f"{rule.where}: expected the words of {lost} in '{text}': they are not said",
             )
-        alignment = tuple(
-            tuple(sorted({places[id(token)] for token in sign.sources})) for sign in phrase.signs
-        )
         return Sentence(
             text,
-            tuple(sign.gloss for sign in phrase.signs),
-            alignment,
+            tuple(sign.gloss for sign in signs),
+            tuple(tuple(sorted({places[id(token)] for token in sign.sources})) for sign in signs),
             frozenset(self._lemmas),
             tuple(token.text for token in phrase.tokens),
         )
@@ -223,7 +229,7 @@ class Derivation:
                     subject = slots[item.agree] if item.agree else None
                     self._say(rule, phrase, subject, slots, handed)
                 elif item.agree and phrase.verb and phrase.verb.said:
-                    _resolve(slots[item.agree], VERB, phrase.verb.said.finite)
+                    slots[item.agree].say(VERB, phrase.verb.said.finite)
                 tokens += phrase.tokens
         return tokens, literals
 
@@ -258,9 +264,9 @@ class Derivation:
         phrase.signs = verb_signs(verb.word.lemma, verb.shape, said)
         phrase.head = said.main
         for carrier, token in zip(carrying, said.clitics, strict=True):
-            _resolve(carrier, CLITIC, token)
+            carrier.say(CLITIC, token)
         if subject:
-            _resolve(subject, VERB, said.finite)
+            subject.say(VERB, said.finite)
 
     def _signs(
         self,
@@ -269,7 +275,8 @@ class Derivation:
         literals: Mapping[str, Token],
     ) -> list[Sign]:
         if item.tense:
-            return tense_signs(slots[item.tense].verb, slots.get(item.slot))
+            says = [phrase.features.get("says", "") for phrase in slots.values()]
+            return tense_signs(slots[item.tense].verb, slots.get(item.slot), says)
         if item.slot:
             phrase = slots[item.slot]
             twice = (
@@ -291,10 +298,3 @@ class Derivation:
             sign.sources.append(verb.said.finite)
             sign.pending = ""
         return [sign]
-
-
-def _resolve(phrase: Phrase, pending: str, token: Token) -> None:
-    for sign in phrase.signs:
-        if sign.pending == pending:
-            sign.sources.append(token)
-            sign.pending = ""

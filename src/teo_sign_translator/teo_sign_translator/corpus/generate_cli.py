@@ -26,7 +26,8 @@ def run(
     pairs: Annotated[int, typer.Option(min=100, help="How many, about.")] = 300_000,
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same pairs.")] = 1,
     leave_out: Annotated[
-        Path | None, typer.Option(help="File of sentences, one a line, that must not occur: of a test.")
+        list[Path] | None,
+        typer.Option(help="File of sentences, one a line, that must not occur: of a test. Repeatable."),
     ] = None,
 ) -> None:
     """Write sentence pairs of the grammar in data/grammar, and the paper's own, to DIR/pairs.tsv."""
@@ -35,7 +36,7 @@ def run(
     morphology = Morphology.load()
     generator = Generator.load(data_file("grammar"), morphology)
     own = list(own_pairs(morphology))
-    unwanted = leave_out.read_text(encoding="utf-8").splitlines() if leave_out else []
+    unwanted = [line for path in leave_out or () for line in path.read_text(encoding="utf-8").splitlines()]
     # The grammar would translate some of the paper's sentences otherwise than the paper does.
     made = generator.pairs(pairs, seed, [*unwanted, *(pair.spanish for pair in own)])
     every = chain(own, made)

@@ -1,4 +1,4 @@
-"""Makes corpora: distinct pairs by the hundred thousand, the same ones for the same seed."""
+"""Makes corpora: pairs by the hundred thousand, the same ones for the same seed."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Generator:
         return cls(grammar, words, frozenset(word.lower() for word in words.held_out))
 
     def pairs(self, count: int, seed: int, leave_out: Iterable[str] = ()) -> Iterator[Pair]:
-        """Yield pairs, all of them different sentences, split by split.
+        """Yield pairs, split by split: different sentences, but for the set phrases that train repeats.
 
         Args:
             count: About how many; a little fewer if the grammar has no more.
@@ -95,7 +95,7 @@ class Generator:
             spent: int | None = None
             while total < count and spent is None:
                 place = bisect(bounds, random.random() * bounds[-1])
-                sentence = self._new(derivation, left[place], seen, held=held)
+                sentence = self._new(derivation, left[place], seen, split, held=held)
                 if sentence is None:
                     spent = place
                     continue
@@ -108,13 +108,16 @@ class Generator:
             if spent is not None:
                 del left[spent], places[spent]
 
-    def _new(self, derivation: Derivation, template: Template, seen: _Seen, *, held: bool) -> Sentence | None:
+    def _new(
+        self, derivation: Derivation, template: Template, seen: _Seen, split: str, *, held: bool
+    ) -> Sentence | None:
         for _ in range(_EXHAUSTED_AFTER):
             try:
                 sentence = derivation.sentence(template.rule, template.spread)
             except NoFillerError:
                 continue
-            if sentence.spanish in seen or len(sentence.words) > _LONGEST or not sentence.glosses:
+            most = template.rule.repeat if split == "train" else 1
+            if seen.has(sentence.spanish, most) or len(sentence.words) > _LONGEST or not sentence.glosses:
                 continue
             if held != bool(sentence.lemmas & self.words.held_out):
                 continue
@@ -129,13 +132,14 @@ class _Seen:
 
     def __init__(self, unwanted: Iterable[str]) -> None:
         self._unwanted = frozenset(map(_bare, unwanted))
-        self._made: set[str] = set()
+        self._made: Counter[str] = Counter()
 
     def add(self, sentence: str) -> None:
-        self._made.add(sentence)
+        self._made[sentence] += 1
 
-    def __contains__(self, sentence: str) -> bool:
-        return sentence in self._made or (bool(self._unwanted) and _bare(sentence) in self._unwanted)
+    def has(self, sentence: str, most: int) -> bool:
+        """Whether a sentence has come as often as it may."""
+        return self._made[sentence] >= most or (bool(self._unwanted) and _bare(sentence) in self._unwanted)
 
 
 def _bare(sentence: str) -> str:

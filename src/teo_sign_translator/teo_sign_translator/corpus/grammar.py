@@ -60,6 +60,7 @@ class Rule:
         features: What it adds to the features of its head.
         head: Slot whose features (person, number, gender) it takes; empty for none.
         example: Of sentences; categories have none.
+        repeat: How often training may see the same sentence: set phrases are few, but said often.
     """
 
     name: str
@@ -72,6 +73,7 @@ class Rule:
     features: tuple[tuple[str, str], ...]
     head: str
     example: Example | None
+    repeat: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ from teo_sign_translator.corpus.patterns import (
 from teo_sign_translator.errors import TranslationError
 
 _SECTIONS = ("families", "categories", "shapes", "paradigms", "word_lists", "held_out")
-_RULE_KEYS = ("weight", "when", "pick", "es", "lse", "set", "head", "example")
+_RULE_KEYS = ("weight", "when", "pick", "es", "lse", "set", "head", "example", "repeat")
 _SHAPE_KEYS = ("weight", "mood", "time", "mark", "kind", "dated", "es", "lse")
 _MOODS = ("ind", "sub", "sub_past", "inf", "imp", "neg_imp", "ger")
 _TIMES = ("past", "present", "future")
@@ -145,6 +145,7 @@ def _rule(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> Rul
         features=tuple((key, str(value)) for key, value in _mapping(where, "set", body.get("set", {}))),
         head=head,
         example=_example(where, body["example"]) if "example" in body else None,
+        repeat=round(_number(where, body.get("repeat", 1))),
     )
 
 

@@ -32,11 +32,14 @@ class Sign:
         gloss: Upper case.
         sources: The words that it stands for.
         pending: What else will say it, once that is known: `patterns.VERB` or `CLITIC`.
+        tense: Time that it marks for all that follows: "past" or "future"; empty for other glosses. One
+            without a gloss marks that a time word has said so.
     """
 
     gloss: str
     sources: list[Token] = field(default_factory=list)
     pending: str = ""
+    tense: str = ""
 
 
 @dataclass(slots=True, eq=False)
@@ -56,6 +59,13 @@ class Phrase:
     signs: list[Sign]
     head: Token | None = None
     verb: SaidVerb | None = None
+
+    def say(self, pending: str, token: Token) -> None:
+        """Add a word to the signs that wait for it."""
+        for sign in self.signs:
+            if sign.pending == pending:
+                sign.sources.append(token)
+                sign.pending = ""
 
 
 @dataclass(slots=True, eq=False)

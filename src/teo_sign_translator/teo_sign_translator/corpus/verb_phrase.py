@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.corpus.enclitics import REFLEXIVES, attach, in_order
+from teo_sign_translator.corpus.enclitics import REFLEXIVES, in_order
 from teo_sign_translator.corpus.grammar import Shape
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
 from teo_sign_translator.corpus.words import WordLists
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.morphology.enclitics import attach_pronouns
 
 _TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
+#: First person plural of the present.
+_WE_NOW = "V:ind:pres:1p"
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
 
@@ -68,7 +72,7 @@ def say_verb(
             if part.tag.startswith(_FINITE):
                 tag += f":{person}"
             form = words.inflect(part.lemma or lemma, tag)
-            token = Token(attach(form, ordered) if part.enclitic else form)
+            token = Token(attach_pronouns(form, ordered) if part.enclitic and ordered else form)
             if part.enclitic:
                 carriers = [token] * len(ordered)
             if not part.lemma:
@@ -90,14 +94,48 @@ def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase) -> list[Sign]:
     return signs
 
 
-def tense_signs(verb: SaidVerb | None, time: Phrase | None) -> list[Sign]:
-    """The time expression, and before it the mark of tense unless the expression says it."""
+def tense_signs(verb: SaidVerb | None, time: Phrase | None, says: Collection[str]) -> list[Sign]:
+    """The time expression, and before it the mark of tense.
+
+    Args:
+        verb: Whose tense it is.
+        time: The expression, if there is one.
+        says: Times that words of the clause make clear ("any": whichever it is); then the mark has no gloss.
+    """
     said = time.signs if time else []
     gloss = _TENSE_SIGNS.get(verb.shape.time) if verb and verb.shape.mark else None
-    if verb is None or gloss is None or (time and time.features.get("says")):
+    if verb is None or gloss is None:
         return said
+    if "any" in says or verb.shape.time in says:
+        return [Sign("", tense=verb.shape.time), *said]
     sources = [verb.said.finite] if verb.said else []
-    return [Sign(gloss, sources), *said]
+    return [Sign(gloss, sources, tense=verb.shape.time), *said]
+
+
+def marked_once(signs: Sequence[Sign]) -> list[Sign]:
+    """Signs without the marks of a tense that is marked already.
+
+    LSE sets the time once, for all that follows.
+    """
+    kept: list[Sign] = []
+    marked = ""
+    for sign in signs:
+        if sign.gloss and not (sign.tense and sign.tense == marked):
+            kept.append(sign)
+        marked = sign.tense or marked
+    return kept
+
+
+def marks_ambiguous(signs: Iterable[Sign], morphology: Morphology) -> bool:
+    """Whether PASADO is said for a form that is the present too: "quedamos" needs a time word to be past."""
+    return any(
+        token.text.endswith("mos")
+        and token.text != "hemos"  # "hemos comido" is past
+        and any(reading.tag == _WE_NOW and reading.exact for reading in morphology.readings(token.text))
+        for sign in signs
+        if sign.tense == "past"
+        for token in sign.sources
+    )
 
 
 def _carriers(

@@ -16,6 +16,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.neural.batches import WordNumbers, batches
 from teo_sign_translator.neural.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.neural.decoding import SPARE
+from teo_sign_translator.neural.devices import best_device, one_thread
 from teo_sign_translator.neural.examples import (
     VARIANTS,
     AlignedSentence,
@@ -88,11 +89,6 @@ class Fit:
     device: str
 
 
-def best_device() -> torch.device:
-    """An accelerator if there is one, else the CPU."""
-    return torch.device("cuda" if torch.cuda.is_available() else "cpu")
-
-
 def fit(
     train: Sequence[AlignedSentence],
     dev: Sequence[AlignedSentence],
@@ -139,7 +135,7 @@ def fit(
     if not len(learned):
         raise TranslationError("invalid_config", "expected pairs whose glosses can be said, got none")
 
-    with _seeded(config.seed):
+    with _seeded(config.seed), one_thread():
         random = np.random.default_rng(config.seed)
         network = Network(network_config, lexis, config.dropout).to(device)
         optimiser = torch.optim.AdamW(network.parameters(), config.learning_rate, weight_decay=0.01)

@@ -91,6 +91,7 @@ def train_model(
     out: Path,
     command: str,
     console: Console,
+    device: torch.device | None = None,
 ) -> TrainedModel:
     """Train, write the files, load them again and score what was loaded.
 
@@ -103,6 +104,7 @@ def train_model(
         out: Folder of the files.
         command: Goes into the card.
         console: Shows the progress.
+        device: Where; an accelerator if there is one by default.
 
     Raises:
         TranslationError: "invalid_config", "invalid_data".
@@ -119,7 +121,9 @@ def train_model(
             if progress.step == progress.steps and progress.dev_loss is not None:
                 bar.console.print(f"{text}, dev loss {progress.dev_loss:.4f}", highlight=False)
 
-        fit = fitting.fit(data.train, dev, data.by_heart, read, network, config, on_progress=show)
+        fit = fitting.fit(
+            data.train, dev, data.by_heart, read, network, config, device=device, on_progress=show
+        )
     card = {
         "description": "Reads Spanish words with their readings, says LSE glosses; see neural/zoo.py.",
         "command": command,
@@ -176,7 +180,6 @@ def _made_by(device: str) -> dict[str, str]:
         "torch": torch.__version__,
         "numpy": np.__version__,
         "device": device,
-        "threads": str(torch.get_num_threads()),
     }
 
 
