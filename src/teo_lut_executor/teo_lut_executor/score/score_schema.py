@@ -60,7 +60,9 @@ class Circle(BaseModel):
     radius: float = Field(gt=0.0, le=20.0, description="[cm]")
     turns: float = Field(gt=0.0, le=6.0, description="How often round.")
     start: Direction = Field("up", description="Where on the circle it begins.")
-    clockwise: bool = Field(True, description="As seen from the front, the hand's own side, above.")
+    clockwise: bool = Field(
+        True, description="As the signer sees it; in plane side from the hand's own side, in top from above."
+    )
     time: Annotated[float, Field(gt=0.0, le=10.0)] = Field(description="Of the whole movement [s].")
 
 
