@@ -10,15 +10,15 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.body_layouts import as_body_25
-from teo_skeleton_retriever.body_size import BodySize
+from teo_skeleton_retriever.body_size import BodySize, widened
 from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.detected import Detected, detected
 from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
 from teo_skeleton_retriever.face_depth import face_depths
 from teo_skeleton_retriever.filtered import keypoints_of
 from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.hand_fit import HandFit, HandView, fit_hands
-from teo_skeleton_retriever.hand_joints import mediapipe_joints
+from teo_skeleton_retriever.hand_fit import BONES, HandFit, HandView, fit_hands
+from teo_skeleton_retriever.hand_joints import MEDIAPIPE_BONES, mediapipe_joints
 from teo_skeleton_retriever.keypoint_filter import FilterOutput, KeypointFilter
 from teo_skeleton_retriever.person_2d import Person2D
 from teo_skeleton_retriever.person_layout import (
@@ -42,7 +42,10 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus
 from teo_skeleton_retriever.skin import HAND_DEPTHS
 
+_SHOULDERS = [ROW["RShoulder"], ROW["LShoulder"]]
 _HEAD = [ROW[name] for name in ("Nose", "REye", "LEye")]
+_HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand away tells nothing of its shape
+_SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
 _ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
 
@@ -61,7 +64,7 @@ class PersonEstimator:
 
     def __init__(self, parameters: RetrieverParameters) -> None:
         self._parameters = parameters
-        self._size = BodySize()
+        self._size = BodySize(averaging=parameters.detector == "mediapipe")
         self._body = BodyDepth(parameters)
         self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
         self._filter = KeypointFilter(
@@ -111,18 +114,21 @@ class PersonEstimator:
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
-        across = np.hypot(ACROSS / near, PIXEL / frame.camera.fx)
+        doubt = np.zeros(N)
+        doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
+        across = np.hypot(np.hypot(ACROSS, doubt) / near, PIXEL / frame.camera.fx)
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
         )
         self._size.step(body.measured)
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
+        carried = np.where(_ON_HANDS & ~seen.seen, _CARRIED, 0.0)
         found = keypoints_of(
             output,
             seen,
             optimised=optimised,
-            bias=np.where((_ON_HANDS & ~seen.seen)[:, None], np.hypot(BIAS, _CARRIED), BIAS),
-            max_sigma=self._parameters.max_sigma,
+            bias=np.hypot(BIAS, np.column_stack([doubt + carried, carried])),
+            max_sigma=self._parameters.max_sigma * np.where(_ON_HANDS, _HAND_SHARE, 1.0),
             memory=self._confidence,
         )
         found = self._with_held_hands(found)
@@ -133,6 +139,7 @@ class PersonEstimator:
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
             keypoints[BODY] = unbiased(keypoints[BODY], MEDIAPIPE)
+            keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
         for rows, part in (
             (LEFT_HAND, person.left_hand),
             (RIGHT_HAND, person.right_hand),
@@ -159,9 +166,10 @@ class PersonEstimator:
             for side in sides
         ]
         if self._parameters.fit_hands:
-            fits = fit_hands(views, self._size.scale)
+            bones = MEDIAPIPE_BONES if self._parameters.detector == "mediapipe" else BONES
+            fits = fit_hands(views, self._size.hand_scale, bones)
         else:
-            fits = [_unfitted(view, self._size.scale) for view in views]
+            fits = [_unfitted(view, self._size.hand_scale) for view in views]
         found = {side: fit for side, fit in zip(sides, fits, strict=True) if fit is not None}
         if self._parameters.detector == "mediapipe":
             return {
