@@ -10,6 +10,7 @@ import limbs
 import planning
 import retriever_accuracy
 import retriever_node
+import retriever_robustness
 import robot_model
 import text_to_trajectory
 import translation
@@ -26,6 +27,7 @@ BENCHES = (
     limbs,
     retriever_accuracy,
     retriever_node,
+    retriever_robustness,
 )
 
 

@@ -54,6 +54,7 @@ class BodySize:
         """
         self._lengths = {limb: LimbLength(_FIRST if limb == "shoulders" else None) for limb in _LIMBS}
         self._power = _REGRESSION if averaging else 1.0
+        self._seen_scale = 1.0
 
     def step(self, points: FloatArray) -> None:
         """Take the joints of one image: only measured ones, as others would confirm the old estimate.
@@ -67,6 +68,10 @@ class BodySize:
             for a, b in pairs:
                 if measured[a] and measured[b]:
                     self._lengths[limb].step(points[a], points[b])
+        width, weight = self._lengths["shoulders"].value, self._lengths["shoulders"].weight
+        if width is not None:
+            ratio = width / _AVERAGE["shoulders"]
+            self._seen_scale = (ratio * weight + _ASSUMED_WIDTH) / (weight + _ASSUMED_WIDTH)
 
     @property
     def scale(self) -> float:
@@ -83,13 +88,6 @@ class BodySize:
     def widening(self) -> float:
         """How much wider the shoulders are than the detector sees them."""
         return self.scale / self._seen_scale
-
-    @property
-    def _seen_scale(self) -> float:
-        width, weight = self._lengths["shoulders"].value, self._lengths["shoulders"].weight
-        if width is None:
-            return 1.0
-        return (width / _AVERAGE["shoulders"] * weight + _ASSUMED_WIDTH) / (weight + _ASSUMED_WIDTH)
 
     def _as_seen(self, points: FloatArray) -> FloatArray:
         """Undo the widening of the shoulders."""

@@ -42,6 +42,9 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus
 from teo_skeleton_retriever.skin import HAND_DEPTHS
 
+_TRUNK = [ROW[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip")]
+_BEFORE_TRUNK = 1.0  # [m] a long arm and a lean forward reach no farther
+_BEHIND_TRUNK = 0.45  # [m] nor does an arm stretched back: what is farther is background beside a finger
 _SHOULDERS = [ROW["RShoulder"], ROW["LShoulder"]]
 _HEAD = [ROW[name] for name in ("Nose", "REye", "LEye")]
 _HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand away tells nothing of its shape
@@ -94,7 +97,7 @@ class PersonEstimator:
             distance=np.where(np.isfinite(before.depth), before.depth, distance),
             radius=RADIUS,
             gap=GAP,
-        )
+        ).between(*self._reach(before, distance))
         depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
         optimised = np.zeros(N, dtype=bool)
         fits = self._fit_hands(person, seen, surfaces, before)
@@ -133,6 +136,12 @@ class PersonEstimator:
         )
         found = self._with_held_hands(found)
         return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
+
+    def _reach(self, before: FilterOutput, distance: float) -> tuple[float, float]:
+        """Give the depths between which everything of the person is [m]."""
+        trunk = _middle(before.depth[_TRUNK])
+        middle = trunk if np.isfinite(trunk) else distance
+        return middle - _BEFORE_TRUNK, middle + _BEHIND_TRUNK
 
     def _seen(self, frame: Frame, person: Person2D) -> Detected:
         keypoints = np.zeros((N, 3))
