@@ -27,6 +27,7 @@ from teo_skeleton_retriever.person_layout import (
     ARMS,
     BIAS,
     BODY,
+    DRIFT,
     FACE,
     GAP,
     HANDS,
@@ -125,7 +126,8 @@ class PersonEstimator:
         )
         self._size.step(body.measured)
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
-        carried = np.where(_ON_HANDS & ~seen.seen, _CARRIED, 0.0)
+        away = np.minimum(output.age, self._parameters.hold_time)
+        carried = np.where(seen.seen, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
         found = keypoints_of(
             output,
             seen,
