@@ -127,7 +127,7 @@ class PersonEstimator:
         self._size.step(body.measured)
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
         away = np.minimum(output.age, self._parameters.hold_time)
-        carried = np.where(seen.seen, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
+        carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
         found = keypoints_of(
             output,
             seen,
