@@ -15,7 +15,7 @@ from teo_skeleton_retriever.body_layouts import as_body_25
 from teo_skeleton_retriever.compat.parameters import OriginalParameters
 from teo_skeleton_retriever.compat.retriever import OriginalRetriever
 from teo_skeleton_retriever.person_2d import Person2D
-from teo_skeleton_retriever.retriever import Frame, Keypoints3D, Retriever, RetrieverParameters
+from teo_skeleton_retriever.retriever import Frame, Retriever, RetrieverParameters, Skeleton
 from teo_skeleton_retriever.skeleton_std import FROM_BODY_25, SKELETON_STD
 
 BODY_ROW = BODY_25.index
@@ -74,12 +74,8 @@ def ours(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     for frame in frames:
         found = retriever.process(Frame(frame.stamp, see(frame), frame.depth(), frame.camera))
         signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
-        estimates.append(_of_parts(*_parts(signers[0])) if signers else _nothing())
+        estimates.append(estimate_of(signers[0]) if signers else nothing())
     return estimates
-
-
-def _parts(skeleton: object) -> tuple[Keypoints3D, ...]:
-    return tuple(getattr(skeleton, name) for name in ("body", "left_hand", "right_hand", "face"))
 
 
 def one_pixel(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
@@ -88,7 +84,7 @@ def one_pixel(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     for frame in frames:
         people = see(frame)
         if not people:
-            estimates.append(_nothing())
+            estimates.append(nothing())
             continue
         depth = frame.depth()
         person = people[0]
@@ -116,7 +112,7 @@ def original(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     estimates = []
     for frame in frames:
         found = retriever.step(frame.stamp, see(frame), frame.depth())
-        estimate = _nothing()
+        estimate = nothing()
         if found:
             skeleton = found[max(found)]
             for name, tag in FROM_BODY_25.items():
@@ -127,17 +123,20 @@ def original(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     return estimates
 
 
-def _of_parts(body: Keypoints3D, left: Keypoints3D, right: Keypoints3D, face: Keypoints3D) -> Estimate:
+def estimate_of(skeleton: Skeleton) -> Estimate:
+    """What a skeleton says."""
+    body, left, right = skeleton.body, skeleton.left_hand, skeleton.right_hand
     return Estimate(
         body.points,
         np.concatenate([left.points, right.points]),
-        face.points,
+        skeleton.face.points,
         np.concatenate([body.sigma, left.sigma, right.sigma]),
         np.concatenate([body.status, left.status, right.status]),
     )
 
 
-def _nothing() -> Estimate:
+def nothing() -> Estimate:
+    """What is said where nobody is found."""
     body, hands, face = (np.full((n, 3), np.nan) for n in (25, 42, 70))
     return Estimate(body, hands, face, *_untold())
 

@@ -53,6 +53,8 @@ TEST_TAKES: tuple[TakeSettings, ...] = tuple(
 _METHODS = {"ours": ours, "one pixel": one_pixel, "original": original}
 _DETECTIONS = {"MediaPipe": detected, "perfect": perfect}
 
+_SHARES = ("given", "in 2 sigma")
+
 Results = dict[tuple[str, str, str], Errors]
 """Errors by part, detector and method."""
 
@@ -84,12 +86,19 @@ def row(errors: Errors) -> dict[str, float]:
         "too far": float(errors.depth[known].mean() * 1e3),
         "given": float(known.mean()),
         "error/sigma": _spread(errors.ratio[known]),
+        "in 2 sigma": _covered(errors.ratio[known]),
     }
 
 
 def _spread(ratio: FloatArray) -> float:
     ratio = ratio[np.isfinite(ratio)]
     return float(np.sqrt(np.mean(ratio**2))) if len(ratio) else float("nan")
+
+
+def _covered(ratio: FloatArray) -> float:
+    """Share of the errors along an axis that are within two sigmas; 95 % if sigma is honest."""
+    ratio = ratio[np.isfinite(ratio)]
+    return float(np.mean(np.abs(ratio) < 2.0)) if len(ratio) else float("nan")
 
 
 def rows(results: Results) -> list[tuple[str, str, str, str, dict[str, float]]]:
@@ -165,7 +174,7 @@ def print_table(lines: Sequence[tuple[str, str, str, str, Mapping[str, float]]],
         if before not in (None, (part, detector)):
             table.add_section()
         before = (part, detector)
-        values = [f"{figures[c]:.0%}" if c == "given" else f"{figures[c]:.1f}" for c in columns]
+        values = [f"{figures[c]:.0%}" if c in _SHARES else f"{figures[c]:.1f}" for c in columns]
         table.add_row(part, what, detector, method, *values)
     console.print(table)
 

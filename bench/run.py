@@ -14,6 +14,7 @@ import planning
 import retargeting
 import retriever_accuracy
 import retriever_node
+import retriever_robustness
 import robot_model
 import text_to_trajectory
 import translation
@@ -33,6 +34,7 @@ BENCHES = (
     retargeting,
     retriever_accuracy,
     retriever_node,
+    retriever_robustness,
     camera_path,
 )
 

@@ -192,8 +192,10 @@ def _penalties(
     cost = (beyond / _FLEXION_SIGMA) ** 2
     cost += _HIDING * hidden[:, 1:].sum(axis=1)
     with np.errstate(invalid="ignore"):
-        behind = np.nan_to_num((points[..., 2] - arm.measured) / _BEHIND_SIGMA) ** 2
-        surprise = np.nan_to_num((points[..., 2] - arm.expected) / arm.expected_sigma) ** 2
+        behind = ((points[..., 2] - arm.measured) / _BEHIND_SIGMA) ** 2
+        surprise = ((points[..., 2] - arm.expected) / arm.expected_sigma) ** 2
+    behind[np.isnan(behind)] = 0.0
+    surprise[np.isnan(surprise)] = 0.0
     cost += np.where(hidden, behind, 0.0).sum(axis=1)
     cost += (surprise * _FREE / (surprise + _FREE))[:, 1:].sum(axis=1)
     total: FloatArray = cost

@@ -13,6 +13,7 @@ from teo_skeleton_retriever.body_25 import BODY_25
 from teo_skeleton_retriever.body_size import BodySize
 from teo_skeleton_retriever.depth_lookup import Surfaces
 from teo_skeleton_retriever.detected import Detected
+from teo_skeleton_retriever.detector_noise import across_by_confidence
 from teo_skeleton_retriever.filtered import points_of
 from teo_skeleton_retriever.keypoint_filter import FilterOutput
 from teo_skeleton_retriever.person_layout import ARMS, ROW
@@ -24,6 +25,8 @@ _LEGS = [[ROW[f"{side}{joint}"] for joint in ("Hip", "Knee", "Ankle")] for side 
 _TRUNK = np.array(
     [ROW[name] for name in ("Nose", "Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
 )
+_SHOULDERS = np.array([ROW[name] for name in ("Neck", "RShoulder", "LShoulder")])
+_HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
 _AXES = np.array(
     [
         (ROW[f"{side}{joint}"], ROW[f"{side}{before}"])
@@ -36,10 +39,14 @@ _AXES = np.array(
 _SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
 _HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
 _UNEVEN = 0.09  # [m] a chest's roundness and a raised shoulder are less, a hand before a shoulder more
+_BEFORE_HEAD = 0.12  # [m] of someone who turns or leans back shoulders are nearer than the eyes, hands more
+_BEHIND_HEAD = 0.12  # [m] from the eyes to the shoulders' joints; of rendered people it was 0.06 to 0.19
+_BEHIND_HEAD_SIGMA = 0.06  # [m] they lean and turn
 _EVEN_SIGMA = 0.03  # [m] how evenly shoulders lie about the neck
 _ACROSS = np.full(_N, 0.012)  # [m] how far the detector's keypoints are from the joints
 _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
+_SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
 _HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
 
 
@@ -100,12 +107,16 @@ class BodyDepth:
         """
         depth, sigma = self._measure(surfaces, before, size)
         rays, across = seen.rays.copy(), _ACROSS.copy()
+        if self._parameters.detector == "mediapipe":
+            across = across_by_confidence(across, seen.confidence)
+            # Beside the joint is another depth than at it.
+            sigma = np.hypot(sigma, _SLOPE * np.maximum(across - _ACROSS, 0.0))
         for side, wrist in wrists.items():
             row = ARMS[side][2]
             rays[row], across[row] = wrist.ray, _HAND_ACROSS
             depth[row], sigma[row] = wrist.depth, wrist.sigma
         _reject_hidden_trunk(depth, before)
-        replaced = _even_shoulders(depth, sigma)
+        replaced = _behind_the_head(depth, sigma) | _even_shoulders(depth, sigma)
         points = np.column_stack([rays, np.ones(_N)]) * depth[:, None]
         _reject_long_legs(depth, points, size)
         points[replaced] = np.nan
@@ -176,6 +187,22 @@ def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
         nearer = before.depth - depth > np.maximum(_HIDDEN, 4.0 * before.sigma[:, 2])
     rows = _TRUNK[nearer[_TRUNK]]
     depth[rows] = np.nan
+
+
+def _behind_the_head(depth: FloatArray, sigma: FloatArray) -> BoolArray:
+    """Put shoulders and neck that a hand hides, as they lie before the head, about where they are.
+
+    Returns:
+        Joints that were put there. Shape (25,).
+    """
+    replaced = np.zeros(_N, dtype=bool)
+    known = depth[_HEAD][np.isfinite(depth[_HEAD])]
+    if len(known):
+        head = float(np.median(known))
+        with np.errstate(invalid="ignore"):
+            hidden = _SHOULDERS[depth[_SHOULDERS] < head - _BEFORE_HEAD]
+        depth[hidden], sigma[hidden], replaced[hidden] = head + _BEHIND_HEAD, _BEHIND_HEAD_SIGMA, True
+    return replaced
 
 
 def _even_shoulders(depth: FloatArray, sigma: FloatArray) -> BoolArray:

@@ -57,6 +57,16 @@ class Surfaces(NamedTuple):
         """Keep some of the keypoints."""
         return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
 
+    def between(self, near: float, far: float) -> Surfaces:
+        """Forget what is nearer or farther [m]; nothing if both are NaN."""
+        with np.errstate(invalid="ignore"):
+            beyond = (self.depth < near) | (self.depth > far)
+        return Surfaces(
+            np.where(beyond, np.nan, self.depth),
+            np.where(beyond, np.nan, self.sigma),
+            np.where(beyond, 0.0, self.support),
+        )
+
     def nearest(self) -> DepthSamples:
         """Choose the nearest: keypoints lie on the body, and what is behind its contour is background."""
         return DepthSamples(self.depth[:, 0], self.sigma[:, 0], self.support[:, 0])

@@ -51,19 +51,21 @@ def face_depths(rays: FloatArray, surfaces: Surfaces, expected: float) -> FaceDe
     if usable.sum() < _LEAST:
         return unknown
     centre = np.nanmean(rays[usable], axis=0)
-    x, y = np.nan_to_num((rays - centre) * middle / 0.1).T  # about -1 to 1 on a face
+    seen: BoolArray = np.asarray(np.isfinite(rays).all(axis=1))
+    x, y = np.where(seen[:, None], (rays - centre) * middle / 0.1, 0.0).T  # about -1 to 1 on a face
     terms = np.column_stack([np.ones(n), x, y, x * x, x * y, y * y])
     fitted = np.full(n, middle)
     # What hides a part of a face is nearer than it.
-    weight = usable * (np.nan_to_num(nearest.depth) > middle - _BEFORE)
+    known = np.where(usable, nearest.depth, middle)
+    weight = usable * (known > middle - _BEFORE)
+    soft = 1e-3 * np.diag([0.0, 1.0, 1.0, 1.0, 1.0, 1.0])
     for _ in range(_ITERATIONS):
-        normal = (terms * weight[:, None]).T @ terms + 1e-3 * np.diag([0.0, 1.0, 1.0, 1.0, 1.0, 1.0])
-        fitted = terms @ np.linalg.solve(normal, terms.T @ (weight * np.nan_to_num(nearest.depth)))
-        misfit = np.nan_to_num(nearest.depth - fitted)
+        weighed = (terms * weight[:, None]).T
+        fitted = terms @ np.linalg.solve(weighed @ terms + soft, weighed @ known)
+        misfit = known - fitted
         weight = usable / (1.0 + (misfit / _OUTLIER) ** 2) ** 2
     measured = usable & (np.abs(misfit) < 2.0 * _OUTLIER)
     inside = np.abs(fitted - middle) < _HEAD
     depths = np.where(measured, nearest.depth, np.where(inside, fitted, middle))
     sigma = np.where(measured, np.hypot(nearest.sigma, 0.003), np.hypot(_SURFACE_SIGMA, _OUTLIER))
-    seen = np.isfinite(rays).all(axis=1)
     return FaceDepths(np.where(seen, depths, np.nan), np.where(seen, sigma, np.nan), measured)

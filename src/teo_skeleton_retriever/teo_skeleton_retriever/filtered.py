@@ -22,7 +22,7 @@ def keypoints_of(
     *,
     optimised: BoolArray,
     bias: FloatArray,
-    max_sigma: float,
+    max_sigma: FloatArray,
     memory: FloatArray,
 ) -> Keypoints3D:
     """Make keypoints of a filter's belief.
@@ -33,7 +33,7 @@ def keypoints_of(
         optimised: keypoints whose depth of this image follows from others. Shape (n,).
         bias: standard deviation across the ray and along it of what no averaging removes: how the detector
             and the skin differ from person to person [m]. Shape (n, 2).
-        max_sigma: a keypoint less certain than this is lost [m].
+        max_sigma: keypoints less certain than this are lost [m]. Shape (n,).
         memory: confidence that each was last seen with. Shape (n,).
     """
     points = points_of(output)

@@ -81,22 +81,24 @@ class HandFit(NamedTuple):
         return int(self.measured.sum()) >= _CERTAIN
 
 
-def fit_hands(hands: list[HandView], scale: float) -> list[HandFit | None]:
+def fit_hands(hands: list[HandView], scale: float, bones: FloatArray = BONES) -> list[HandFit | None]:
     """Find the depths of hands, all at once for the time it takes.
 
     Args:
         hands: in one image.
         scale: of the person against an average adult.
+        bones: lengths between the detector's keypoints, of an average adult [m]. Shape (20,).
 
     Returns:
         One for each hand; None if too little of it is seen to tell anything.
     """
     radius = HAND_DEPTHS * scale
-    starts = [_start(hand, radius, scale) for hand in hands]
+    bones = scale * bones
+    starts = [_start(hand, radius, bones) for hand in hands]
     usable = [(hand, start) for hand, start in zip(hands, starts, strict=True) if start is not None]
     if not usable:
         return [None] * len(hands)
-    fits = iter(_solve([hand for hand, _ in usable], [start for _, start in usable], radius, scale))
+    fits = iter(_solve([hand for hand, _ in usable], [start for _, start in usable], radius, bones))
     return [None if start is None else next(fits) for start in starts]
 
 
@@ -107,11 +109,11 @@ class _Start(NamedTuple):
     anchor: float
 
 
-def _start(hand: HandView, radius: FloatArray, scale: float) -> _Start | None:
+def _start(hand: HandView, radius: FloatArray, bones: FloatArray) -> _Start | None:
     seen = np.isfinite(hand.rays[:, 0])
     if seen.sum() < N // 2:
         return None
-    steps, sigma = _steps(hand, scale)
+    steps, sigma = _steps(hand, float(bones.sum()))
     offsets = np.append(0.0, np.cumsum(steps.reshape(5, 4), axis=1).ravel())
     wrist = _wrist_depth(hand, radius, offsets)
     if not np.isfinite(wrist):
@@ -119,7 +121,9 @@ def _start(hand: HandView, radius: FloatArray, scale: float) -> _Start | None:
     return _Start(wrist + offsets, steps, sigma, hand.wrist if np.isfinite(hand.wrist) else wrist)
 
 
-def _solve(hands: list[HandView], starts: list[_Start], radius: FloatArray, scale: float) -> list[HandFit]:
+def _solve(
+    hands: list[HandView], starts: list[_Start], radius: FloatArray, length: FloatArray
+) -> list[HandFit]:
     k = len(hands)
     bends = np.concatenate([np.stack([h.rays for h in hands]), np.ones((k, N, 1))], axis=2)
     seen = np.isfinite(bends[..., 0])
@@ -152,7 +156,7 @@ def _solve(hands: list[HandView], starts: list[_Start], radius: FloatArray, scal
         slope[:, bone_row, _PARENT] = -(unit * bends[:, _PARENT]).sum(axis=2)
         missed = np.concatenate(
             [
-                (lengths - scale * BONES) * bone_weight,
+                (lengths - length) * bone_weight,
                 (depths[:, _CHILD] - depths[:, _PARENT] - steps) * step_weight,
             ],
             axis=1,
@@ -182,12 +186,17 @@ def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
     return hidden
 
 
-def _steps(hand: HandView, scale: float) -> tuple[FloatArray, float]:
-    """Give the step in depth along each bone by the imagined shape, and their sigma [m]. Shape (20,)."""
+def _steps(hand: HandView, total: float) -> tuple[FloatArray, float]:
+    """Give the step in depth along each bone by the imagined shape, and their sigma [m]. Shape (20,).
+
+    Args:
+        hand: what is seen of it.
+        total: length of its bones [m].
+    """
     if hand.world is None:
         return np.zeros(N - 1), _FLAT_SIGMA
     bones = hand.world[_CHILD] - hand.world[_PARENT]
-    size = scale * float(BONES.sum()) / max(float(np.sqrt((bones**2).sum(axis=1)).sum()), 1e-6)
+    size = total / max(float(np.sqrt((bones**2).sum(axis=1)).sum()), 1e-6)
     # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
     towards = np.append(np.nanmean(hand.rays, axis=0), 1.0)
     steps: FloatArray = size * (bones @ _turned(towards / np.linalg.norm(towards)))

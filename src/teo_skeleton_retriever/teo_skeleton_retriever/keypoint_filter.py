@@ -130,8 +130,10 @@ class KeypointFilter:
 
     def _scale(self) -> FloatArray:
         """Metres per unit of each value, for speeds and accelerations in metres. Shape (n, 3)."""
-        depth = np.nan_to_num(self._state[0, :, 2], nan=1.0)
-        return np.stack([1.0 / depth, 1.0 / depth, np.ones_like(depth)], axis=1)
+        depth = self._state[0, :, 2]
+        scale = np.ones((len(depth), 3))
+        scale[:, :2] = 1.0 / np.where(np.isnan(depth), 1.0, depth)[:, None]
+        return scale
 
     def _advanced(self, time: float) -> tuple[FloatArray, FloatArray]:
         if self._ahead is None or self._ahead[0] != time:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,7 +49,9 @@ class LimbLength:
 
     def __init__(self, settings: LimbLengthSettings | None = None) -> None:
         self._settings = settings or LimbLengthSettings()
-        self._samples: deque[tuple[float, float]] = deque(maxlen=self._settings.window)
+        self._samples = np.zeros((self._settings.window, 2))  # lengths and weights, the oldest overwritten
+        self._count = 0  # of all lengths so far
+        self._weight = 0.0
         self._value: float | None = None
 
     def step(self, near: FloatArray, far: FloatArray) -> None:
@@ -65,9 +66,12 @@ class LimbLength:
         if not self._settings.shortest <= length <= self._settings.longest:
             return
         # A floor, so that an arm that only ever points at the camera is estimated too.
-        self._samples.append((length, (across / length) ** 4 + 0.001))
-        if len(self._samples) >= self._settings.min_samples:
-            self._value = _weighted_median(np.array(self._samples))
+        self._samples[self._count % len(self._samples)] = length, (across / length) ** 4 + 0.001
+        self._count += 1
+        recent = self._recent()
+        self._weight = float(recent[:, 1].sum())
+        if len(recent) >= self._settings.min_samples:
+            self._value = _weighted_median(recent)
 
     @property
     def value(self) -> float | None:
@@ -77,16 +81,20 @@ class LimbLength:
     @property
     def weight(self) -> float:
         """How many lengths the estimate rests on, seen across the view; others count for less."""
-        return sum(weight for _, weight in self._samples)
+        return self._weight
 
     @property
     def spread(self) -> float:
         """Robust standard deviation of the recent lengths [m]; NaN without an estimate."""
         if self._value is None:
             return math.nan
-        samples = np.array(self._samples)
+        samples = self._recent().copy()
         samples[:, 0] = np.abs(samples[:, 0] - self._value)
         return 1.4826 * _weighted_median(samples)
+
+    def _recent(self) -> FloatArray:
+        """The lengths that count, in no particular order, and their weights. Shape (n, 2)."""
+        return self._samples[: self._count]
 
     def too_long(self, length: float) -> bool:
         """Tell whether a measured length [m] is beyond belief; never before there is an estimate."""

@@ -10,15 +10,15 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.body_layouts import as_body_25
-from teo_skeleton_retriever.body_size import BodySize
+from teo_skeleton_retriever.body_size import BodySize, widened
 from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.detected import Detected, detected
 from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
 from teo_skeleton_retriever.face_depth import face_depths
 from teo_skeleton_retriever.filtered import keypoints_of
 from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.hand_fit import HandFit, HandView, fit_hands
-from teo_skeleton_retriever.hand_joints import mediapipe_joints
+from teo_skeleton_retriever.hand_fit import BONES, HandFit, HandView, fit_hands
+from teo_skeleton_retriever.hand_joints import MEDIAPIPE_BONES, mediapipe_joints
 from teo_skeleton_retriever.keypoint_filter import FilterOutput, KeypointFilter
 from teo_skeleton_retriever.person_2d import Person2D
 from teo_skeleton_retriever.person_layout import (
@@ -27,6 +27,7 @@ from teo_skeleton_retriever.person_layout import (
     ARMS,
     BIAS,
     BODY,
+    DRIFT,
     FACE,
     GAP,
     HANDS,
@@ -42,7 +43,13 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus
 from teo_skeleton_retriever.skin import HAND_DEPTHS
 
+_TRUNK = [ROW[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip")]
+_BEFORE_TRUNK = 1.0  # [m] a long arm and a lean forward reach no farther
+_BEHIND_TRUNK = 0.45  # [m] nor does an arm stretched back: what is farther is background beside a finger
+_SHOULDERS = [ROW["RShoulder"], ROW["LShoulder"]]
 _HEAD = [ROW[name] for name in ("Nose", "REye", "LEye")]
+_HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand away tells nothing of its shape
+_SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
 _ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
 
@@ -61,7 +68,7 @@ class PersonEstimator:
 
     def __init__(self, parameters: RetrieverParameters) -> None:
         self._parameters = parameters
-        self._size = BodySize()
+        self._size = BodySize(averaging=parameters.detector == "mediapipe")
         self._body = BodyDepth(parameters)
         self._lookup = DepthLookup(nearest=parameters.min_depth, farthest=parameters.max_depth)
         self._filter = KeypointFilter(
@@ -91,7 +98,7 @@ class PersonEstimator:
             distance=np.where(np.isfinite(before.depth), before.depth, distance),
             radius=RADIUS,
             gap=GAP,
-        )
+        ).between(*self._reach(before, distance))
         depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
         optimised = np.zeros(N, dtype=bool)
         fits = self._fit_hands(person, seen, surfaces, before)
@@ -111,28 +118,39 @@ class PersonEstimator:
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
-        across = np.hypot(ACROSS / near, PIXEL / frame.camera.fx)
+        doubt = np.zeros(N)
+        doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
+        across = np.hypot(np.hypot(ACROSS, doubt) / near, PIXEL / frame.camera.fx)
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
         )
         self._size.step(body.measured)
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
+        away = np.minimum(output.age, self._parameters.hold_time)
+        carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
         found = keypoints_of(
             output,
             seen,
             optimised=optimised,
-            bias=np.where((_ON_HANDS & ~seen.seen)[:, None], np.hypot(BIAS, _CARRIED), BIAS),
-            max_sigma=self._parameters.max_sigma,
+            bias=np.hypot(BIAS, np.column_stack([doubt + carried, carried])),
+            max_sigma=self._parameters.max_sigma * np.where(_ON_HANDS, _HAND_SHARE, 1.0),
             memory=self._confidence,
         )
         found = self._with_held_hands(found)
         return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
+
+    def _reach(self, before: FilterOutput, distance: float) -> tuple[float, float]:
+        """Give the depths between which everything of the person is [m]."""
+        trunk = _middle(before.depth[_TRUNK])
+        middle = trunk if np.isfinite(trunk) else distance
+        return middle - _BEFORE_TRUNK, middle + _BEHIND_TRUNK
 
     def _seen(self, frame: Frame, person: Person2D) -> Detected:
         keypoints = np.zeros((N, 3))
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
             keypoints[BODY] = unbiased(keypoints[BODY], MEDIAPIPE)
+            keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
         for rows, part in (
             (LEFT_HAND, person.left_hand),
             (RIGHT_HAND, person.right_hand),
@@ -159,9 +177,10 @@ class PersonEstimator:
             for side in sides
         ]
         if self._parameters.fit_hands:
-            fits = fit_hands(views, self._size.scale)
+            bones = MEDIAPIPE_BONES if self._parameters.detector == "mediapipe" else BONES
+            fits = fit_hands(views, self._size.hand_scale, bones)
         else:
-            fits = [_unfitted(view, self._size.scale) for view in views]
+            fits = [_unfitted(view, self._size.hand_scale) for view in views]
         found = {side: fit for side, fit in zip(sides, fits, strict=True) if fit is not None}
         if self._parameters.detector == "mediapipe":
             return {

@@ -43,6 +43,9 @@ ACROSS = _each(0.005, 0.004, 0.003)
 """[m] How the detector's keypoints jump across the ray from image to image."""
 PIXEL = _each(0.5, 0.5, 0.4)
 """[px] And no less than this."""
+DRIFT = _each(0.3, 1.2, 0.3, Elbow=0.8, Wrist=1.2)
+"""[m/s] How fast a keypoint that is not seen may get away from where it is thought to be: people sway, wrists
+are on their way to the next sign."""
 JUMP = _each(0.015, 0.012, 0.01)
 """[m] How far off where it is believed a keypoint may be seen all the time, for constant offsets."""
 BIAS: FloatArray = np.column_stack([_each(0.015, 0.009, 0.006), _each(0.015, 0.012, 0.008)])

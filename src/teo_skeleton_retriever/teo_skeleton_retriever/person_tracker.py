@@ -28,6 +28,8 @@ class TrackerSettings:
         newcomer_images: images in which someone must be seen to get an id; fewer let flickers of the
             detector become people.
         newcomer_time: within this time [s].
+        apart: two people are no nearer to each other than this [m]: half a chest's breadth. A detection that
+            seems to be nearer is somebody seen twice, or somebody of whom only who hides them is measured.
     """
 
     gate: float = 0.4
@@ -38,9 +40,17 @@ class TrackerSettings:
     velocity_memory: float = 0.7
     newcomer_images: int = 3
     newcomer_time: float = 1.0
+    apart: float = 0.2
 
     def __post_init__(self) -> None:
-        positive = (self.gate, self.memory, self.velocity_time, self.velocity_memory, self.newcomer_time)
+        positive = (
+            self.gate,
+            self.memory,
+            self.velocity_time,
+            self.velocity_memory,
+            self.newcomer_time,
+            self.apart,
+        )
         if not all(math.isfinite(value) and value > 0.0 for value in positive):
             raise TrackingError("bad_settings", f"expected finite times and lengths above 0, got {positive}")
         if not (0.0 <= self.gate_growth < math.inf and self.gate <= self.max_gate < math.inf):
@@ -101,7 +111,7 @@ class PersonTracker:
             time: of the image [s]. One before the last forgets everybody (ids are still not given again):
                 a bag was set back.
             positions: of the torso of each detection [m]; not finite where its depth is not known, which is
-                nobody. Shape (3,) each.
+                nobody. Shape (3,) each, or (k, 3) where it may be in several places, the likeliest first.
 
         Returns:
             The id of each detection, None while it is nobody or a newcomer on trial.
@@ -116,14 +126,20 @@ class PersonTracker:
         self._time = time
         self._forget(time)
         ids: list[int | None] = [None] * len(positions)
-        seen = {i: np.asarray(p, dtype=np.float64) for i, p in enumerate(positions) if np.isfinite(p).all()}
+        seen = {
+            i: np.atleast_2d(np.asarray(p, dtype=np.float64))
+            for i, p in enumerate(positions)
+            if np.isfinite(p).all()
+        }
         for i, person in self._match(time, seen, list(self._people.values())):
             ids[i] = person.person_id
             self._people[person.person_id] = self._moved(person, time, seen.pop(i))
         trials = dict(self._match(time, seen, self._newcomers))
         self._newcomers = [person for person in self._newcomers if person not in trials.values()]
-        for i, position in seen.items():
-            newcomer = self._moved(trials[i], time, position) if i in trials else _newcomer(time, position)
+        for i, places in seen.items():
+            if i not in trials and self._taken(time, places[0]):
+                continue
+            newcomer = self._moved(trials[i], time, places) if i in trials else _newcomer(time, places[0])
             ids[i] = self._admit(newcomer)
         return ids
 
@@ -145,7 +161,9 @@ class PersonTracker:
             return []
         rows = list(seen)
         expected = np.array([person.expected(time, self._settings.velocity_memory) for person in people])
-        distances = np.linalg.norm(np.array(list(seen.values()))[:, None] - expected[None], axis=2)
+        distances = np.array(
+            [np.linalg.norm(places[:, None] - expected[None], axis=2).min(axis=0) for places in seen.values()]
+        )
         hidden = np.array([time - person.last_seen for person in people])
         gates = np.minimum(self._settings.gate + self._settings.gate_growth * hidden, self._settings.max_gate)
         # Beyond its gate a pair costs more than all pairs within theirs together, so it is the last resort.
@@ -154,7 +172,16 @@ class PersonTracker:
         pairs = zip(*linear_sum_assignment(cost), strict=True)
         return [(rows[i], people[k]) for i, k in pairs if distances[i, k] <= gates[k]]
 
-    def _moved(self, person: TrackedPerson, time: float, position: FloatArray) -> TrackedPerson:
+    def _taken(self, time: float, place: FloatArray) -> bool:
+        """Tell whether somebody who is seen at this time is in this very place."""
+        return any(
+            person.last_seen == time and float(np.linalg.norm(place - person.position)) < self._settings.apart
+            for person in self._people.values()
+        )
+
+    def _moved(self, person: TrackedPerson, time: float, places: FloatArray) -> TrackedPerson:
+        expected = person.expected(time, self._settings.velocity_memory)
+        position = places[int(np.argmin(np.linalg.norm(places - expected, axis=1)))]
         elapsed = time - person.last_seen
         velocity = person.velocity
         if elapsed > 0.0:

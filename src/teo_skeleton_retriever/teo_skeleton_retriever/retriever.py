@@ -22,6 +22,7 @@ __all__ = ["Frame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverPara
 
 _TRUNK = [BODY_25.index[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
 _USUAL = 1.5  # [m] distance of a signer; only sets how much around a keypoint is looked at
+_TORN = 0.3  # [m] between the depths of a trunk's keypoints when something hides a part of it
 _LEAST_TRUNK = 2  # keypoints of the trunk that say where it is; with fewer everything that is seen is asked
 
 
@@ -52,11 +53,11 @@ class Retriever:
         if self._time is not None and frame.stamp < self._time:
             self._people = {}
         self._time = frame.stamp
-        positions = [self._position(frame, person) for person in frame.people]
+        positions = [self._positions(frame, person) for person in frame.people]
         ids = self._tracker.step(frame.stamp, positions)
         remembered = self._tracker.people
         self._people = {i: person for i, person in self._people.items() if i in remembered}
-        seen = {i: place for i, place in zip(ids, positions, strict=True) if i is not None}
+        seen = {i: remembered[i].position for i in ids if i is not None}
         signer = self._signer.step(frame.stamp, seen)
         people = {i: person for i, person in zip(ids, frame.people, strict=True) if i is not None}
         hold = self._parameters.hold_time
@@ -82,8 +83,11 @@ class Retriever:
         else:
             self._signer.lock(track_id)
 
-    def _position(self, frame: Frame, person: Person2D) -> FloatArray:
-        """Give about where a person's trunk is [m]; NaN if no depth tells. Shape (3,)."""
+    def _positions(self, frame: Frame, person: Person2D) -> FloatArray:
+        """Give about where a person's trunk may be, the likeliest first [m]; NaN if no depth tells.
+
+        Shape (k, 3).
+        """
         body = as_body_25(person.body)
         seen = detected(body, frame.camera, self._parameters.min_confidence)
         for rows in (_TRUNK, list(range(len(body)))):
@@ -93,9 +97,9 @@ class Retriever:
             depth = surfaces.nearest().depth
             known = np.isfinite(depth)
             if known.sum() >= (_LEAST_TRUNK if rows is _TRUNK else 1):
-                middle = float(np.median(depth[known]))
-                return np.append(seen.rays[rows][known].mean(axis=0), 1.0) * middle
-        return np.full(3, np.nan)
+                ray = np.append(seen.rays[rows][known].mean(axis=0), 1.0)
+                return np.outer(_middles(depth[known]), ray)
+        return np.full((1, 3), np.nan)
 
     def _skeleton(
         self, frame: Frame, person: Person2D, track_id: int, distance: float, *, is_signer: bool
@@ -111,6 +115,18 @@ class Retriever:
             face=parts.face,
             body_frame=_frame_of(parts.body.points),
         )
+
+
+def _middles(depths: FloatArray) -> list[float]:
+    """Give the depths at which a trunk may be [m]: of all keypoints, of the farther and of the nearer ones.
+
+    Who walks by behind somebody is seen in part, the rest is the depth of who is in front.
+    """
+    middles = [float(np.median(depths))]
+    between = float(depths.min() + depths.max()) / 2.0
+    if depths.max() - depths.min() > _TORN:
+        middles += [float(np.median(depths[depths > between])), float(np.median(depths[depths <= between]))]
+    return middles
 
 
 def _frame_of(body: FloatArray) -> BodyFrame | None:

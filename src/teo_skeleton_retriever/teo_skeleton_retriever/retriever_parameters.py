@@ -82,7 +82,8 @@ class RetrieverParameters:
         "m",
         0.01,
         10.0,
-        "A keypoint less certain than this is lost: beyond the length of a palm it tells nothing of a sign.",
+        "A keypoint less certain than this is lost, of a hand than 0.6 of it: beyond the length of a palm it "
+        "tells nothing of a sign.",
     )
     smoothing: float = _number(
         1.0,

@@ -15,7 +15,7 @@ from teo_skeleton_retriever.hand_21 import HAND_21
 BODY_DEPTH: dict[str, float] = {
     "Nose": -0.012,
     "Neck": 0.06,
-    **dict.fromkeys(("RShoulder", "LShoulder"), 0.06),
+    **dict.fromkeys(("RShoulder", "LShoulder"), 0.057),
     **dict.fromkeys(("RElbow", "LElbow"), 0.043),
     **dict.fromkeys(("RWrist", "LWrist"), 0.022),
     "MidHip": 0.15,

@@ -119,10 +119,25 @@ def test_no_image_gives_an_id_twice_and_new_ids_only_grow(images: list[list[tupl
     highest = [-1]
     for i, places in enumerate(images):
         ids = tracker.step(i / RATE, [np.array(place) for place in places])
-        assert None not in ids
-        assert len(set(ids)) == len(ids) == len(places)
-        highest.append(max([highest[-1], *(person_id for person_id in ids if person_id is not None)]))
+        given_ids = [person_id for person_id in ids if person_id is not None]
+        assert len(ids) == len(places)
+        assert len(set(given_ids)) == len(given_ids)
+        highest.append(max([highest[-1], *given_ids]))
     assert all(after - before <= 4 for before, after in pairwise(highest))
+
+
+def test_two_people_are_not_in_the_same_place() -> None:
+    """Somebody seen twice, or somebody of whom only who hides them is measured."""
+    places = [np.array([0.0, 0.0, 2.0]), np.array([0.1, 0.0, 2.1]), np.array([0.4, 0.0, 2.0])]
+    assert PersonTracker(AT_ONCE).step(0.0, places) == [0, None, 1]
+
+
+def test_of_several_places_where_a_person_may_be_that_where_they_are_expected_is_theirs() -> None:
+    tracker = PersonTracker(AT_ONCE)
+    tracker.step(0.0, [np.array([0.0, 0.0, 1.5]), np.array([0.3, 0.0, 2.5])])
+    torn = np.array([[0.2, 0.0, 1.6], [0.3, 0.0, 2.5]])
+    assert tracker.step(1 / RATE, [torn, np.array([0.0, 0.0, 1.5])]) == [1, 0]
+    assert tracker.people[1].position[2] == pytest.approx(2.5)
 
 
 @pytest.mark.parametrize("time", [math.nan, math.inf])

@@ -54,7 +54,10 @@ _SCORES = {
     "right_hand": f"{_RIGHT}hand_presence_score",
     "face": "facelandmarksfromposecpu__facelandmarkcpu__face_presence_score",
 }
-_STREAMS = (*_LANDMARKS.values(), *_SCORES.values())
+_SIDES = {"left_hand": f"{_LEFT}handedness", "right_hand": f"{_RIGHT}handedness"}
+_STREAMS = (*_LANDMARKS.values(), *_SCORES.values(), *_SIDES.values())
+_MIRRORED = {"left_hand": "Right", "right_hand": "Left"}
+"""What the network calls hands: it takes images for those of a mirror."""
 _DETECTION_NODE = "poselandmarkcpu__posedetectioncpu__TensorsToDetectionsCalculator"
 _TRACKING_NODE = (
     "poselandmarkcpu__poselandmarkbyroicpu__tensorstoposelandmarksandsegmentation__ThresholdingCalculator"
@@ -95,6 +98,8 @@ class HolisticLandmarks:
         left_hand_score: how sure it is that this is a hand, in [0, 1].
         right_hand_score: likewise.
         face_score: likewise.
+        left_hand_side: how sure it is that this is a left hand, in [0, 1].
+        right_hand_side: that it is a right one.
     """
 
     pose: FloatArray | None
@@ -106,6 +111,8 @@ class HolisticLandmarks:
     left_hand_score: float
     right_hand_score: float
     face_score: float
+    left_hand_side: float
+    right_hand_side: float
 
 
 @dataclass
@@ -246,6 +253,13 @@ def _landmarks(packets: Mapping[str, Packet | None]) -> HolisticLandmarks:
         packet = packets[_SCORES[part]]
         return 0.0 if packet is None else float(packet_getter.get_float(packet))
 
+    def side(part: str) -> float:
+        packet = packets[_SIDES[part]]
+        if packet is None:
+            return 0.0
+        best = packet_getter.get_proto(packet).classification[0]
+        return float(best.score if best.label == _MIRRORED[part] else 1.0 - best.score)
+
     return HolisticLandmarks(
         pose=table("pose"),
         left_hand=table("left_hand"),
@@ -256,6 +270,8 @@ def _landmarks(packets: Mapping[str, Packet | None]) -> HolisticLandmarks:
         left_hand_score=score("left_hand"),
         right_hand_score=score("right_hand"),
         face_score=score("face"),
+        left_hand_side=side("left_hand"),
+        right_hand_side=side("right_hand"),
     )
 
 

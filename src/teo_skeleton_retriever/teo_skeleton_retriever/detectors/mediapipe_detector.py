@@ -12,6 +12,7 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
 from teo_skeleton_retriever.detectors.double_hands import without_doubles
 from teo_skeleton_retriever.detectors.holistic_graph import HolisticGraph, HolisticLandmarks
+from teo_skeleton_retriever.detectors.own_hands import own_hands
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.mediapipe_holistic import person_from_holistic
 from teo_skeleton_retriever.person_2d import Person2D
@@ -95,12 +96,13 @@ def _person(landmarks: HolisticLandmarks, image: ImageArray) -> Person2D:
     pose = landmarks.pose
     assert pose is not None
     height, width = image.shape[:2]
+    left, right = own_hands(landmarks)
     person = person_from_holistic(
         width=width,
         height=height,
         pose=np.column_stack([pose[:, :2], pose[:, 3:].min(axis=1)]),
-        left_hand=_flat(landmarks.left_hand),
-        right_hand=_flat(landmarks.right_hand),
+        left_hand=_flat(landmarks.left_hand) if left else None,
+        right_hand=_flat(landmarks.right_hand) if right else None,
         face=_flat(landmarks.face),
         left_hand_confidence=landmarks.left_hand_score,
         right_hand_confidence=landmarks.right_hand_score,
@@ -108,7 +110,9 @@ def _person(landmarks: HolisticLandmarks, image: ImageArray) -> Person2D:
     )
     return without_doubles(
         replace(
-            person, left_hand_world=landmarks.left_hand_world, right_hand_world=landmarks.right_hand_world
+            person,
+            left_hand_world=landmarks.left_hand_world if left else None,
+            right_hand_world=landmarks.right_hand_world if right else None,
         )
     )
 
