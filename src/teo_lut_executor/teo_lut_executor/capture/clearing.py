@@ -28,6 +28,8 @@ _SETTLED = np.radians(2.0)
 """[rad] Hands that come from outside are where they belong when a pass turns no joint by more."""
 _SEEN_FROM = 0.06
 """[m] So far from each other parts are watched then: what a pass may bring them nearer."""
+_FAINT = 0.01
+"""Share of this that moves no hand by more than 1 cm."""
 _LESS, _AROUND = 0.3, 2
 """By how much less each time, and in how many frames before and after as well."""
 _STILL = 1e-4
@@ -99,21 +101,22 @@ def clear_arms(
         LutError: "self_collision" where no way off is found.
     """
     looks = best = _look(whole, arms)
-    shares, careful, moved = np.ones(len(arms)), False, np.inf
+    shares, careful, moved = np.ones(len(arms)), np.zeros(len(arms), bool), np.inf
     for turn in range(_PASSES):
-        if looks.short.max() <= 0.0 and (not careful or moved < _SETTLED):
+        if looks.short.max() <= 0.0 and (not careful.any() or moved < _SETTLED):
             break
         if turn == _OPENED:
-            arms = _opened(track.times, bounds, arms, looks.tight)
-            careful, moved = True, np.inf
+            around = _around(track.times, looks.tight)
+            arms = _opened(bounds, arms, around)
+            careful, moved = around > _FAINT, np.inf
             looks = _look(whole, arms, looks)
-        if turn >= _PUSHED or (careful and moved < _SETTLED):
+        if turn >= _PUSHED or (careful.any() and moved < _SETTLED):
             tight = looks.tight
             arms = _begun_anew(arms, tight)
             looks = _look(whole, arms, looks)
             shares = shares * np.where(maximum_filter1d(tight, 2 * _AROUND + 1), _LESS, 1.0)
-        near = looks.distances < (_SEEN_FROM if careful else 2.0 * WANTED)
-        within = _SEEN_FROM if careful else WATCHED
+        near = looks.distances < np.where(careful[looks.frames], _SEEN_FROM, 2.0 * WANTED)
+        within = _SEEN_FROM if careful.any() else WATCHED
         touches = whole.touches(looks.frames[near], arms, looks.shares[near], within=within)
         arms = refine_arms(
             problem,
@@ -122,7 +125,7 @@ def clear_arms(
             arms,
             touches=touches,
             shares=shares,
-            trusted=_CAREFUL if careful else TRUSTED,
+            trusted=_CAREFUL if careful.any() else TRUSTED,
         )
         moved = float(np.abs(arms - looks.arms).max())
         looks = _look(whole, arms, looks)
@@ -184,14 +187,18 @@ def _distances(
     )
 
 
-def _opened(times: Array, bounds: list[Bounds], arms: Array, tight: NDArray[np.bool_]) -> Array:
-    """The arms gone to where they are away from everything, and back, around what is tight."""
-    frame = float(np.median(np.diff(times))) if len(times) > 1 else 1.0
-    width = _OPENING / frame
-    around = maximum_filter1d(tight.astype(float), 2 * int(np.ceil(width)) + 1, mode="constant")
-    away = gaussian_filter1d(around, width, mode="nearest")[:, None]
+def _around(times: Array, tight: NDArray[np.bool_]) -> Array:
+    """1 where a motion is tight, falling to 0 before and after. Shape (T,)."""
+    width = _OPENING / float(np.median(np.diff(times))) if len(times) > 1 else 1.0
+    wide = maximum_filter1d(tight.astype(float), 2 * int(np.ceil(width)) + 1, mode="constant")
+    around: Array = gaussian_filter1d(wide, width, mode="nearest")
+    return around
+
+
+def _opened(bounds: list[Bounds], arms: Array, around: Array) -> Array:
+    """The arms gone, by a share in each frame, to where they are away from everything."""
     easy = np.concatenate([np.clip(EASY, *arm) for arm in bounds])
-    opened: Array = arms + away * (easy - arms)
+    opened: Array = arms + around[:, None] * (easy - arms)
     return opened
 
 
