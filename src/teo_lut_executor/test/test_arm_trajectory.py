@@ -10,6 +10,7 @@ from teo_lut_executor.capture.arm_problem import ArmProblem
 from teo_lut_executor.capture.arm_trajectory import refine_arms, solve_arms
 from teo_lut_executor.capture.hand_goals import HandGoals, PairGoals
 from teo_lut_executor.capture.hand_points import COUNT, MIRROR
+from teo_lut_executor.capture.touches import WANTED, Touches
 from teo_lut_executor.score.arm_solver import arm_bounds
 
 TIMES = np.arange(40) / 30.0
@@ -139,3 +140,30 @@ def test_a_fast_beat_keeps_its_height(chain):
     found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1])
     heights = [np.ptp(chain.poses(motion).place[10:30, 2]) for motion in (found, arms)]
     assert heights[0] > 0.9 * heights[1]
+
+
+def test_an_arm_whose_goal_jumps_takes_some_frames_for_it(chain):
+    arms = np.tile(ARMS[0], (len(TIMES), 1))
+    arms[20:] = np.radians([-30.0, -10.0, -20.0, -80.0, 70.0, 10.0])
+    jump = np.abs(np.diff(arms, axis=0)).max()
+    found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1])
+    steps = np.degrees(np.abs(np.diff(found, axis=0))).max()
+    assert np.degrees(jump) > 45.0
+    assert steps < 20.0  # 15 deg are free, at 30 frames a second
+    assert np.degrees(np.abs(found - arms)[[0, -1]]).max() < 6.0
+
+
+def test_touches_on_ways_are_pushed_apart_in_one_go(chain):
+    """Two frames, a distance half way that grows with the first joint of either: both give half of it."""
+    problem = ArmProblem(chain, (goals_of(chain, ARMS[:2]),), None)
+    start = solve_arms(problem, TIMES[:2], BOUNDS[:1])
+    touches = Touches(
+        frames=np.array([0]),
+        shares=np.array([0.5]),
+        distances=np.array([WANTED - 0.02]),
+        slopes=np.eye(1, 6) * 0.5,
+        positions=start.mean(axis=0)[None],
+    )
+    found = refine_arms(problem, TIMES[:2], BOUNDS[:1], start, touches=touches)
+    assert (found - start)[:, 0].mean() * 0.5 == pytest.approx(0.02, abs=0.002)
+    assert (found - start)[0, 0] == pytest.approx((found - start)[1, 0], abs=0.01)

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
 from teo_lut_executor.capture.dextra import HandPoints, thumb_clearances
-from teo_lut_executor.capture.dextra_table import DextraTable
+from teo_lut_executor.capture.dextra_table import DextraTable, dextra_table
 from teo_lut_executor.capture.finger_bends import finger_bends, in_palm, straight_bends
 from teo_lut_executor.capture.hand_flexion import follow_hand
 
@@ -129,3 +129,9 @@ def test_a_thumb_on_the_index_touches_it_and_nothing_goes_through_anything(table
     limits = joint_limits(RIGHT_HAND)
     assert (found.axes >= limits.lower - 1e-9).all()
     assert (found.axes <= limits.upper + 1e-9).all()
+
+
+def test_the_table_of_a_robot_is_worked_out_once(robot, table):
+    assert dextra_table(robot) is dextra_table(robot)
+    assert dextra_table(robot).thumb == pytest.approx(table.thumb)
+    assert dextra_table(Robot.load()) is not dextra_table(robot)

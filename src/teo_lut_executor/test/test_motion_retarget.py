@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -100,6 +101,17 @@ def test_limits_and_distance_are_kept(robot, both):
     assert both.clearance.min() >= 0.010
 
 
+def nearest_on_ways(robot, motion):
+    """Smallest distance between parts on the straight ways between frames, looked at every 2 deg [m]."""
+    least = np.inf
+    for first, second in pairwise(motion.positions):
+        for share in np.linspace(0.0, 1.0, 2 + int(np.degrees(np.abs(second - first).max()) / 2.0)):
+            row = first + share * (second - first)
+            pose = dict(zip(motion.joints, row.tolist(), strict=True))
+            least = min(least, robot.clearance(robot.configuration(pose)).distance)
+    return least
+
+
 @pytest.mark.parametrize("size", [0.5, 2.0])
 def test_a_person_of_another_size_gives_the_same_motion(robot, points, both, size):
     found = retarget_motion(robot, track_of(TIMES, [size * one for one in points]), handedness="both")
@@ -172,6 +184,19 @@ def test_hands_that_pass_through_each_other_on_teo_are_led_past(robot, points):
         body[:, row] += shift
     found = retarget_motion(robot, track_of(TIMES, (body, left, right, face)), handedness="both")
     assert found.clearance.min() >= 0.010
+    assert nearest_on_ways(robot, found) > 0.0
+
+
+@pytest.mark.parametrize(("start", "end"), [(1.3, 2.5), (3.5, 4.9)])
+def test_hands_that_meet_go_through_nothing_between_frames(robot, start, end):
+    """Fingers that interlock, and a fist onto a palm: the shipped recording."""
+    track = read_skeletons(SHIPPED, topic="/truth/skeletons")
+    found = retarget_motion(robot, track.between(start, end), handedness="both", person=measure_person(track))
+    assert nearest_on_ways(robot, found) > 0.0
+    arms = [index for index, joint in enumerate(found.joints) if joint in RIGHT_ARM + LEFT_ARM]
+    assert np.degrees(np.abs(np.diff(found.positions[:, arms], axis=0))).max() < 40.0  # 15 frames a second
+    # Off each other, and no farther away than a hand's length.
+    assert np.percentile(found.place_error, 90) < 0.18
 
 
 def test_a_head_that_turns_takes_part_and_reports_what_it_cannot(robot, points):

@@ -34,7 +34,7 @@ as a palm turned by 33 deg."""
 _POSTURE = np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25])
 """Pull towards an easy arm: moves a reachable hand by less than 1 deg. The wrist bends to the side, which a
 person's hardly does: 60 deg of it cost as much as a palm turned by 15 deg."""
-_EASY = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
+EASY = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
 
 
 class Quadratic(NamedTuple):
@@ -44,11 +44,14 @@ class Quadratic(NamedTuple):
         cost: Half the sum. Shape (n,).
         gradient: Shape (n, m).
         curvature: Gauss and Newton's. Shape (n, m, m).
+        coupling: The same of each frame's joints with the next frame's, shape (n, m, m), the last of no
+            meaning; None if frames have nothing to do with each other.
     """
 
     cost: Array
     gradient: Array
     curvature: Array
+    coupling: Array | None = None
 
 
 class ArmProblem:
@@ -119,7 +122,7 @@ class ArmProblem:
                 _FINGERS * (fingers - goals.fingers[frames]),
                 _UPPER_ARM * (upper_arm - goals.upper_arm[frames]),
                 _FORE_ARM * (fore_arm - goals.fore_arm[frames]),
-                _POSTURE * (positions - _EASY),
+                _POSTURE * (positions - EASY),
             ],
             axis=1,
         )

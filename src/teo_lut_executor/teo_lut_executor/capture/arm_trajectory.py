@@ -44,11 +44,19 @@ _SPEED = 0.04
 """[s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
 this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
 hardly matters it smooths more."""
-_STEPS, _ENOUGH = 25, 1e-4
+SWIFT = np.radians(450.0)
+"""[rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which
+is 15 deg from one of 30 images a second to the next."""
+HASTE = 20.0
+"""[1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
+70 deg, so that an arm that changes the valley takes some frames for it."""
+_STEPS, _ENOUGH = 40, 1e-4
 """The search ends after so many steps, or when no joint moves by this any more [rad]."""
 _DAMPING = 1e-4
 """At least this is added to the curvature, so that a step exists where a joint has no say."""
-_TRUSTED = np.radians(12.0)
+_MOST_DAMPING = 1e6
+"""Ten times what the price of touches bends the sum by: where no smaller step helps, none does."""
+TRUSTED = np.radians(12.0)
 """[rad] How far from where a distance was measured its slope is believed."""
 _ON_BOUND = 1e-9
 
@@ -68,7 +76,8 @@ def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array
     arms = []
     for hand, arm_bounds in enumerate(bounds):
         found, cost = _valleys(problem, hand, frames, arm_bounds)
-        path = cheapest_way(cost, found, _JUMP)
+        farthest = SWIFT * np.diff(times[frames])
+        path = cheapest_way(cost, found, _JUMP, farthest=farthest, haste=HASTE)
         arms.append(np.stack([np.interp(times, times[frames], joint) for joint in path.T], axis=1))
     return refine_arms(problem, times, bounds, np.concatenate(arms, axis=1))
 
@@ -81,6 +90,7 @@ def refine_arms(
     *,
     touches: Touches | None = None,
     shares: Array | None = None,
+    trusted: float = TRUSTED,
 ) -> Array:
     """Find the joints nearest to a motion at which what is wanted, speed and touches cost least.
 
@@ -91,11 +101,12 @@ def refine_arms(
         start: Shape (T, 6 or 12) [rad].
         touches: What must not touch; None if nothing can.
         shares: What is wanted counts by so much in each frame, 0 to 1; None if it counts in full. Shape (T,).
+        trusted: With touches, how far from the start each joint may go [rad].
     """
     lower, upper = (np.concatenate([arm[end] for arm in bounds]) for end in (0, 1))
     if touches is not None:
-        lower, upper = np.maximum(lower, start - _TRUSTED), np.minimum(upper, start + _TRUSTED)
-    ties = _ties(times)
+        lower, upper = np.maximum(lower, start - trusted), np.minimum(upper, start + trusted)
+    ties, farthest = _ties(times), _farthest(times)
 
     def worth(positions: Array) -> tuple[Quadratic, float]:
         here = problem.whole(positions)
@@ -105,19 +116,21 @@ def refine_arms(
             )
         if touches is not None:
             here = touches.added(here, positions)
-        speed = 0.5 * float((ties[:, None] * np.diff(positions, axis=0) ** 2).sum())
+        steps = np.diff(positions, axis=0)
+        hasty = np.maximum(np.abs(steps) - farthest, 0.0)
+        speed = 0.5 * float((ties * steps**2 + HASTE * hasty**2).sum())
         return here, float(here.cost.sum()) + speed
 
     positions = np.clip(start, lower, upper)
     here, cost = worth(positions)
     damping = _DAMPING
     for _ in range(_STEPS):
-        step = _newton_step(here, positions, ties, lower, upper, damping)
+        step = _newton_step(here, positions, ties, farthest, lower, upper, damping)
         moved = np.clip(positions + step, lower, upper)
         there, lower_cost = worth(moved)
         if lower_cost > cost:
             damping *= 10.0
-            if damping > 1e3:
+            if damping > _MOST_DAMPING:
                 break
             continue
         way = float(np.abs(moved - positions).max())
@@ -129,20 +142,35 @@ def refine_arms(
 
 
 def _ties(times: Array) -> Array:
-    """Price of the square of each step from frame to frame [1/rad^2]. Shape (T - 1,)."""
+    """Price of the square of each step from frame to frame [1/rad^2]. Shape (T - 1, 1)."""
     if len(times) < 2:
-        return np.empty(0)
-    steps = np.diff(times)
+        return np.empty((0, 1))
+    steps = np.diff(times)[:, None]
     ties: Array = _SPEED**2 / (steps * np.median(steps))
     return ties
 
 
+def _farthest(times: Array) -> Array:
+    """How far a joint turns from frame to frame without haste [rad]. Shape (T - 1, 1)."""
+    steps: Array = SWIFT * np.diff(times)[:, None]
+    return steps
+
+
 def _newton_step(
-    here: Quadratic, positions: Array, ties: Array, lower: Array, upper: Array, damping: float
+    here: Quadratic,
+    positions: Array,
+    ties: Array,
+    farthest: Array,
+    lower: Array,
+    upper: Array,
+    damping: float,
 ) -> Array:
     count, size = positions.shape
     gradient = here.gradient.copy()
-    pull = ties[:, None] * np.diff(positions, axis=0)
+    steps = np.diff(positions, axis=0)
+    hasty = np.abs(steps) > farthest
+    pull = ties * steps + HASTE * hasty * (steps - np.sign(steps) * farthest)
+    ties = ties + HASTE * hasty
     gradient[:-1] -= pull
     gradient[1:] += pull
     held = ((positions <= lower + _ON_BOUND) & (gradient > 0.0)) | (
@@ -150,17 +178,23 @@ def _newton_step(
     )
     free = ~held
     curvature = here.curvature * (free[:, :, None] & free[:, None])
-    diagonal = np.full(count, damping)
+    diagonal = np.full((count, size), damping)
     diagonal[:-1] += ties
     diagonal[1:] += ties
-    curvature[:, np.arange(size), np.arange(size)] += np.where(free, diagonal[:, None], 1.0)
-    # Upper form of a symmetric band matrix: row `size - k` holds what is k columns right of the diagonal.
-    band = np.zeros((size + 1, count * size))
+    curvature[:, np.arange(size), np.arange(size)] += np.where(free, diagonal, 1.0)
+    # Upper form of a symmetric band matrix: row `width - k` holds what is k columns right of the diagonal.
+    width = size if here.coupling is None else 2 * size - 1
+    band = np.zeros((width + 1, count * size))
     for row in range(size):
         for column in range(row, size):
-            band[size - (column - row), column::size] = curvature[:, row, column]
+            band[width - (column - row), column::size] = curvature[:, row, column]
+    if here.coupling is not None:
+        coupling = here.coupling[:-1] * (free[:-1, :, None] & free[1:, None])
+        for row in range(size):
+            for column in range(size):
+                band[width - (size + column - row), size + column :: size] = coupling[:, row, column]
     if count > 1:
-        band[0, size:] = np.where(free[:-1] & free[1:], -ties[:, None], 0.0).ravel()
+        band[width - size, size:] -= np.where(free[:-1] & free[1:], ties, 0.0).ravel()
     step: Array = solveh_banded(band, np.where(free, -gradient, 0.0).ravel(), check_finite=False)
     return step.reshape(count, size)
 

@@ -10,21 +10,28 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def cheapest_way(cost: Array, values: Array, price: float) -> Array:
+def cheapest_way(
+    cost: Array, values: Array, price: float, *, farthest: Array | None = None, haste: float = 0.0
+) -> Array:
     """One candidate at each moment, such that their costs and the ways between them are least together.
 
     Args:
         cost: Of c candidates at n moments. Shape (n, c).
         values: What they are. Shape (n, c, k).
         price: Of the square of the way from one moment to the next.
+        farthest: How far each of the k values goes from one moment to the next without haste; None for as
+            far as it likes. Shape (n - 1,).
+        haste: Price of the square of what is beyond.
 
     Returns:
         The values chosen. Shape (n, k).
     """
     total = cost[0]
     origins = []
-    for (before, now), own in zip(pairwise(values), cost[1:], strict=True):
-        through = total[None] + price * ((now[:, None] - before[None]) ** 2).sum(axis=2)
+    reach = np.full(len(cost) - 1, np.inf) if farthest is None else farthest
+    for (before, now), own, far in zip(pairwise(values), cost[1:], reach, strict=True):
+        way = np.abs(now[:, None] - before[None])
+        through = total[None] + (price * way**2 + haste * np.maximum(way - far, 0.0) ** 2).sum(axis=2)
         origins.append(through.argmin(axis=1))
         total = through.min(axis=1) + own
     index = int(total.argmin())

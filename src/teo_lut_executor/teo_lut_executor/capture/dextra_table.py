@@ -6,6 +6,8 @@ forward kinematics (`DextraHand`) on a fine grid and looked up.
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -73,6 +75,16 @@ class DextraTable:
             (1.0 - right) * self.thumb[row, column] + right * self.thumb[row, column + 1]
         ) + down * ((1.0 - right) * self.thumb[row + 1, column] + right * self.thumb[row + 1, column + 1])
         return points
+
+
+_tables: WeakKeyDictionary[Robot, DextraTable] = WeakKeyDictionary()
+
+
+def dextra_table(robot: Robot) -> DextraTable:
+    """The table of a robot, worked out once: it takes longer than bringing a second onto TEO."""
+    if robot not in _tables:
+        _tables[robot] = DextraTable(robot)
+    return _tables[robot]
 
 
 def _between(grid: Array, values: Array) -> tuple[NDArray[np.intp], Array]:

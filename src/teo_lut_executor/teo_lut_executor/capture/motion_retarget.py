@@ -15,7 +15,7 @@ from teo_lut_executor.capture.arm_trajectory import solve_arms
 from teo_lut_executor.capture.body_axes import filled
 from teo_lut_executor.capture.body_map import BodyMap
 from teo_lut_executor.capture.clearing import clear_arms
-from teo_lut_executor.capture.dextra_table import DextraTable
+from teo_lut_executor.capture.dextra_table import dextra_table
 from teo_lut_executor.capture.hand_flexion import HandMotion, follow_hand
 from teo_lut_executor.capture.hand_goals import HandGoals, hand_goals, pair_goals
 from teo_lut_executor.capture.hand_points import MIRROR, teo_hand_points
@@ -87,7 +87,7 @@ def retarget_motion(
             a posture without touching itself.
     """
     sides = _SIDES[handedness]
-    chain, table = ArmChain(robot), DextraTable(robot)
+    chain, table = ArmChain(robot), dextra_table(robot)
     hands = {side: _hand(track, side) for side in sides}
     person = person or measure_person(track)
     head = follow_head(robot, head_pose(track, person.head_shape), person)

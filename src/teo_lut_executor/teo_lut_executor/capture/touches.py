@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.clearance import Clearance, Contact
 from teo_description.robot import Robot
-from teo_lut_executor.capture.arm_chain import ArmChain
+from teo_lut_executor.capture.arm_chain import WRIST, ArmChain
 from teo_lut_executor.capture.arm_problem import JOINTS, Quadratic
 from teo_lut_executor.capture.hand_points import MIRROR
 from teo_lut_executor.score.arm_solver import mirrored
@@ -22,10 +22,15 @@ WANTED = 0.014
 LEAST = 0.010
 """[m] Parts are never nearer than this: a touch is shown by a gap that nobody sees, and that curves between
 knots do not close."""
-_WATCHED = 0.030
+WATCHED = 0.030
 """[m] Parts nearer than this are watched, so that what is pushed off one is not pushed into another."""
 _PRICE = 200.0
 """[1/m] A millimetre too near costs as much as a hand 2 cm off its place."""
+
+_TIP = np.array([0.12, 0.0, 0.0])
+"""[m] Tip of a stretched finger, from the palm's middle along the hand."""
+_FINGER = 0.10
+"""[m] From its knuckle to its tip."""
 
 _ARM = {"right": RIGHT_ARM, "left": LEFT_ARM}
 _HAND = {"right": RIGHT_HAND, "left": LEFT_HAND}
@@ -36,13 +41,15 @@ class Touches:
     """Distances of parts of the robot, each about the arms at which it was measured.
 
     Attributes:
-        frames: In which frame. Shape (k,).
+        frames: In which frame, or after which. Shape (k,).
+        shares: Of the straight way from that frame to the next that is behind, 0 to 1. Shape (k,).
         distances: Measured [m]. Shape (k,).
         slopes: How each changes with the arms' joints [m/rad]. Shape (k, m).
         positions: The arms then [rad]. Shape (k, m).
     """
 
     frames: NDArray[np.intp]
+    shares: Array
     distances: Array
     slopes: Array
     positions: Array
@@ -51,14 +58,27 @@ class Touches:
         """A sum of squares with the price of what is too near at positions, shape (T, m) [rad]."""
         if not len(self.frames):
             return here
-        moved = (self.slopes * (positions[self.frames] - self.positions)).sum(axis=1)
-        short = _PRICE * np.maximum(WANTED - self.distances - moved, 0.0)
-        slopes = -_PRICE * self.slopes * (short > 0.0)[:, None]
+        moved = (self.slopes * (between(positions, self.frames, self.shares) - self.positions)).sum(axis=1)
+        short = WANTED - self.distances - moved
+        near = short > 0.0
+        frames, shares = self.frames[near], self.shares[near]
+        short, slopes = _PRICE * short[near], -_PRICE * self.slopes[near]
+        bent = slopes[:, :, None] * slopes[:, None]
         cost, gradient, curvature = here.cost.copy(), here.gradient.copy(), here.curvature.copy()
-        np.add.at(cost, self.frames, 0.5 * short**2)
-        np.add.at(gradient, self.frames, short[:, None] * slopes)
-        np.add.at(curvature, self.frames, slopes[:, :, None] * slopes[:, None])
-        return Quadratic(cost, gradient, curvature)
+        coupling = np.zeros_like(curvature)
+        np.add.at(cost, frames, 0.5 * short**2)
+        for of, share in ((frames, 1.0 - shares), (np.minimum(frames + 1, len(positions) - 1), shares)):
+            np.add.at(gradient, of, (share * short)[:, None] * slopes)
+            np.add.at(curvature, of, (share**2)[:, None, None] * bent)
+        np.add.at(coupling, frames, (shares * (1.0 - shares))[:, None, None] * bent)
+        return Quadratic(cost, gradient, curvature, coupling)
+
+
+def between(rows: Array, frames: NDArray[np.intp], shares: Array) -> Array:
+    """Rows on the straight ways from frames to the next. Shapes (T, m), (k,), (k,) and (k, m)."""
+    first, second = rows[frames], rows[np.minimum(frames + 1, len(rows) - 1)]
+    found: Array = first + shares[:, None] * (second - first)
+    return found
 
 
 class WholeRobot:
@@ -88,32 +108,65 @@ class WholeRobot:
         self._others = others
         self._home_trunk = robot.placement(robot.configuration({}), "FrontalTrunk_link")
 
-    def pose(self, frame: int, arms: Array) -> dict[str, float]:
-        """All joints by name [rad]; `arms` are those of one frame, left ones as in a mirror."""
-        pose = {name: float(values[frame]) for name, values in self._others.items()}
+    def pose(self, frame: int, arms: Array, share: float = 0.0) -> dict[str, float]:
+        """All joints by name [rad].
+
+        Args:
+            frame: The frame.
+            arms: Those of one posture, left ones as in a mirror. Shape (m,) [rad].
+            share: Of the way from the frame to the next that is behind.
+        """
+        pose = {name: _on_way(values, frame, share).item() for name, values in self._others.items()}
         for index, (side, hand) in enumerate(zip(self._sides, self._hands, strict=True)):
             arm = arms[JOINTS * index : JOINTS * (index + 1)]
             pose |= zip(_ARM[side], (mirrored(arm) if side == "left" else arm).tolist(), strict=True)
-            pose |= zip(_HAND[side], hand[frame].tolist(), strict=True)
+            pose |= zip(_HAND[side], _on_way(hand, frame, share).tolist(), strict=True)
         return pose
 
-    def clearance(self, frame: int, arms: Array) -> Clearance:
-        """Smallest distance between parts that must not touch, in a frame."""
-        return self._robot.clearance(self._robot.configuration(self.pose(frame, arms)))
+    def ways(self, arms: Array) -> Array:
+        """How far the hands move from each frame to the next, added up [m]; arms as in `touches`."""
+        total = np.zeros(len(arms) - 1)
+        for index, hand in enumerate(self._hands):
+            poses = self._chain.poses(arms[:, JOINTS * index : JOINTS * (index + 1)])
+            tips = poses.points(np.broadcast_to(_TIP, poses.place.shape))
+            moved = [np.linalg.norm(np.diff(one, axis=0), axis=1) for one in (tips, poses.origins[:, WRIST])]
+            bent = _FINGER * np.abs(np.diff(hand, axis=0)).max(axis=1)
+            total += np.maximum(*moved) + bent
+        return total
 
-    def touches(self, frames: NDArray[np.intp], arms: Array) -> Touches:
-        """What is near in some frames. `arms` are those of all frames, shape (T, m) [rad]."""
+    def clearance(self, frame: int, arms: Array, share: float = 0.0) -> Clearance:
+        """Smallest distance between parts that must not touch; arguments as for `pose`."""
+        return self._robot.clearance(self._robot.configuration(self.pose(frame, arms, share)))
+
+    def touches(
+        self,
+        frames: NDArray[np.intp],
+        arms: Array,
+        shares: Array | None = None,
+        *,
+        within: float = WATCHED,
+    ) -> Touches:
+        """What is near in some frames, or on the straight ways from them to the next.
+
+        Args:
+            frames: The frames. Shape (k,).
+            arms: Of all frames. Shape (T, m) [rad].
+            shares: Of the ways that are behind; none in the frames themselves. Shape (k,).
+            within: Parts nearer than this are told of [m].
+        """
+        shares = np.zeros(len(frames)) if shares is None else shares
         found: list[tuple[int, Contact]] = []
         homes = []
-        for frame in frames.tolist():
-            q = self._robot.configuration(self.pose(frame, arms[frame]))
-            near = self._robot.contacts(q, _WATCHED)
+        looked = between(arms, frames, shares)
+        for index, (frame, share) in enumerate(zip(frames.tolist(), shares.tolist(), strict=True)):
+            q = self._robot.configuration(self.pose(frame, looked[index], share))
+            near = self._robot.contacts(q, within)
             if near:
                 home = self._home_trunk @ np.linalg.inv(self._robot.placement(q, "FrontalTrunk_link"))
                 homes += [home] * len(near)
-                found += [(frame, contact) for contact in near]
-        where = np.array([frame for frame, _ in found], dtype=np.intp)
-        positions = arms[where]
+                found += [(index, contact) for contact in near]
+        where = np.array([index for index, _ in found], dtype=np.intp)
+        positions = looked[where]
         slopes = np.zeros_like(positions)
         if found:
             turns = np.array(homes)
@@ -127,7 +180,13 @@ class WholeRobot:
                 placed = np.einsum("kij,kj->ki", turns[:, :3, :3], np.array(points)) + turns[:, :3, 3]
                 slopes += sign * self._approach(links, placed, normals, positions)
         distances = np.array([contact.distance for _, contact in found])
-        return Touches(frames=where, distances=distances, slopes=slopes, positions=positions)
+        return Touches(
+            frames=frames[where],
+            shares=shares[where],
+            distances=distances,
+            slopes=slopes,
+            positions=positions,
+        )
 
     def _approach(self, links: list[str], points: Array, normals: Array, positions: Array) -> Array:
         """How points of links move along normals with the arms' joints [m/rad]. Shape (k, m)."""
@@ -140,6 +199,11 @@ class WholeRobot:
             carried = np.array([_carried(link, side) for link in links])
             slopes[:, own] = moving * (np.arange(JOINTS) < carried[:, None])
         return slopes
+
+
+def _on_way(values: Array, frame: int, share: float) -> Array:
+    first: Array = np.asarray(values[frame])
+    return first if share == 0.0 else first + share * (values[frame + 1] - first)
 
 
 def _carried(link: str, side: str) -> int:
