@@ -1,8 +1,8 @@
 """How well and how fast Spanish is translated: our models, the trivial baseline and a peer, side by side.
 
 The 39 pairs of the paper as published, and typed without accents and marks; generated sentences of words and
-constructions that training never saw; everyday sentences written apart from the generator, some of them shown
-to this model once. A translation counts where it is the expected one gloss by gloss, or one that is accepted.
+constructions that training never saw; everyday sentences written apart from the generator, some of them
+looked at once. A translation counts where it is the expected one gloss by gloss, or one that is accepted.
 Spelled words count as the word that they spell.
 """
 
@@ -97,7 +97,7 @@ def _everyday(systems: dict[str, System]) -> Iterable[Figure]:
     for name, what in (
         ("everyday", "everyday sentences"),
         ("earlier", "more, written when the grammar was finished, and known since"),
-        ("unseen", "more, shown to this model once"),
+        ("unseen", "more, looked at once"),
     ):
         sentences = _lines(f"{name}.txt")
         good = [{_plain(wanted) for wanted in accepted(pattern)} for pattern in _lines(f"{name}.glosses")]
