@@ -221,9 +221,9 @@ def test_half_the_strength_is_half_the_way(lut: Lut) -> None:
     assert np.degrees(np.abs(plan.positions[:, YAW]).max()) == pytest.approx(6.0, abs=0.05)
 
 
-@pytest.mark.parametrize("gloss", ["DOMINGO", "VERANO"])
-def test_a_head_that_would_touch_a_hand_stays_as_the_sign_has_it(lut: Lut, robot: Robot, gloss: str) -> None:
-    planner, tokens = Planner(lut, robot=robot), parse_printed(f"{gloss} CASA")
+def test_a_head_that_would_touch_a_hand_stays_as_the_sign_has_it(lut: Lut, robot: Robot) -> None:
+    # The hand of VERANO is so near to the forehead that a head bowed by 9 deg would touch it.
+    planner, tokens = Planner(lut, robot=robot), parse_printed("VERANO CASA")
     plan, without = (planner.plan(tokens, form=form) for form in (YES_NO, STATEMENT))
     assert plan.nearest is not None and plan.nearest.distance >= 0.0
     # Seen by somebody else: every point, not only those that the planner looks at.
