@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from drawn_maps import draw, person
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_skeleton_retriever.detectors.paf_limbs import find_limbs
@@ -98,30 +98,35 @@ def test_fields_that_are_not_numbers_join_nobody() -> None:
     assert decode(maps, np.full_like(fields, np.nan)) == ()
 
 
+ANGLES = st.floats(-np.pi, np.pi)
+
+
 @pytest.mark.parametrize("model", PAF_MODELS, ids=lambda model: model.layout.name)
 @given(
-    x=st.floats(120, 530),
-    y=st.floats(70, 110),
-    height=st.floats(180, 290),
-    arms=st.lists(st.tuples(st.floats(-0.35, 0.35), st.floats(-0.3, 0.3)), min_size=4, max_size=4),
+    x=st.floats(165, 490),
+    lower=st.floats(0, 1),
+    height=st.floats(180, 270),
+    # In heights: shorter ones point at us and have no direction in the image.
+    upper_arms=st.lists(st.tuples(st.floats(0.09, 0.17), ANGLES), min_size=2, max_size=2),
+    forearms=st.lists(st.tuples(st.floats(0.09, 0.3), ANGLES), min_size=2, max_size=2),
 )
 @settings(max_examples=25, deadline=None)
 def test_one_person_is_found_whole_however_the_arms_are_held(
-    model: PafModel, x: float, y: float, height: float, arms: list[tuple[float, float]]
+    model: PafModel,
+    x: float,
+    lower: float,
+    height: float,
+    upper_arms: list[tuple[float, float]],
+    forearms: list[tuple[float, float]],
 ) -> None:
-    elbows = {
-        name: (0.11 * side + dx / 2, dy / 2)
-        for name, side, (dx, dy) in zip(("RElbow", "LElbow"), (-1, 1), arms, strict=False)
-    }
-    wrists = {
-        name: (elbow[0] + dx, elbow[1] + dy)
-        for name, elbow, (dx, dy) in zip(("RWrist", "LWrist"), elbows.values(), arms[2:], strict=True)
-    }
-    limbs = [np.hypot(dx * scale, dy * scale) for (dx, dy), scale in zip(arms, (0.5, 0.5, 1, 1), strict=True)]
-    # A forearm that points at us has no direction in the image.
-    assume(min(limbs) * height >= 16.0)
-    parts = person(x, y, height, model, **elbows, **wrists)
-    assume(((parts > 0.0) & (parts < np.array(SIZE) - 1.0)).all())  # in the image
+    places: dict[str, tuple[float, float] | None] = {}
+    for side, shoulder, upper, fore in zip("RL", (-0.11, 0.11), upper_arms, forearms, strict=True):
+        elbow = np.array([shoulder, 0.0]) + upper[0] * np.array([np.cos(upper[1]), np.sin(upper[1])])
+        wrist = elbow + fore[0] * np.array([np.cos(fore[1]), np.sin(fore[1])])
+        places |= {f"{side}Elbow": tuple(elbow), f"{side}Wrist": tuple(wrist)}
+    # Between arms that are stretched up and the feet all of the person is in the image.
+    y = 0.48 * height + lower * (SIZE[1] - 2 - (0.48 + 0.85) * height)
+    parts = person(x, y, height, model, **places)
     found = decode(*draw([parts], SIZE, model), model=model)
     # A part beside its neighbour's field may catch it; the drawn arms are one person's all the same.
     assert_same_people(found, [parts], near=CROSSING)
