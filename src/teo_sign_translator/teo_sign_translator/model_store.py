@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError
 
 from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.model_card import read_card
 from teo_sign_translator.neural.zoo import POINTER
 from teo_sign_translator.resources import models_directory
 from teo_sign_translator.seq2seq import LstmModel
@@ -70,14 +71,7 @@ def load_card(name: str, directory: Path | None = None) -> dict[str, Any]:
     Raises:
         TranslationError: "invalid_model" if it cannot be read or has another schema.
     """
-    path = (directory or models_directory()) / f"{name}.json"
-    try:
-        card = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise TranslationError("invalid_model", f"{path}: expected a model card in JSON: {error}") from error
-    if not isinstance(card, dict) or card.get("schema") != _SCHEMA:
-        raise TranslationError("invalid_model", f"{path}: expected a model card of schema {_SCHEMA}")
-    return card
+    return read_card((directory or models_directory()) / f"{name}.json", _SCHEMA)
 
 
 def save_model(

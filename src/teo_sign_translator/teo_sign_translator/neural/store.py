@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError
 
 from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.model_card import read_card
 from teo_sign_translator.neural.array_model import ArrayModel
 from teo_sign_translator.neural.config import NetworkConfig
 from teo_sign_translator.neural.decoding import ZooModel
@@ -73,14 +74,7 @@ def load_sentence_card(name: str, directory: Path | None = None) -> dict[str, An
     Raises:
         TranslationError: "invalid_model" if it cannot be read or has another schema.
     """
-    path = (directory or models_directory()) / f"{name}.json"
-    try:
-        card = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise TranslationError("invalid_model", f"{path}: expected a model card in JSON: {error}") from error
-    if not isinstance(card, dict) or card.get("schema") != SCHEMA:
-        raise TranslationError("invalid_model", f"{path}: expected a model card of schema {SCHEMA}")
-    return card
+    return read_card((directory or models_directory()) / f"{name}.json", SCHEMA)
 
 
 def save_sentence_model(
