@@ -17,7 +17,7 @@ from made_bags import SIGN, signing, write_bag
 from made_tracks import lose
 
 from teo_description.robot import Robot
-from teo_lut_executor.capture.bag_capture import Job, Settings, capture_bags, is_captured
+from teo_lut_executor.capture.bag_capture import Job, Settings, capture_bags, check_free, is_captured
 from teo_lut_executor.capture.take import Cut
 from teo_lut_executor.lut import Lut
 from teo_lut_executor.lut_error import LutError
@@ -54,6 +54,12 @@ def test_a_bag_becomes_an_entry_with_a_picture(robot: Robot, settings: Settings,
     assert below.std() > 5.0
     film = cv2.VideoCapture(str(tmp_path / "pictures" / "SIGNO.mp4"))
     assert film.get(cv2.CAP_PROP_FRAME_COUNT) >= 0.6 * film.get(cv2.CAP_PROP_FPS)
+
+
+def test_a_table_that_cannot_be_looked_at_is_refused_at_once(tmp_path: Path) -> None:
+    with pytest.raises(LutError) as caught:
+        check_free("SIGNO", Settings(table=tmp_path / ("x" * 300)))  # longer than file systems allow
+    assert caught.value.code == "not_written"
 
 
 def test_the_same_recordings_are_known_again_others_are_not(

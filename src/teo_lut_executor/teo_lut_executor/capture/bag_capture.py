@@ -151,7 +151,7 @@ def check_free(gloss: str, settings: Settings) -> None:
     """Say that a gloss is taken, or none, before minutes are spent on it.
 
     Raises:
-        LutError: "exists" or "bad_gloss".
+        LutError: "exists", "bad_gloss", or "not_written" if the table cannot be looked at.
     """
     try:
         TypeAdapter(Gloss).validate_python(gloss_key(gloss))
@@ -159,7 +159,13 @@ def check_free(gloss: str, settings: Settings) -> None:
         reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
         raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
     path = settings.table / f"{gloss_key(gloss)}.json"
-    if path.exists() and not settings.replace:
+    try:
+        taken = path.exists()
+    except OSError as error:
+        raise LutError(
+            "not_written", f"{settings.table}: expected a place to write to, got: {error}"
+        ) from error
+    if taken and not settings.replace:
         raise LutError(
             "exists",
             f"{path.name}: expected a gloss that {settings.table} does not hold, got {gloss!r}: --replace "
