@@ -8,11 +8,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-import rclpy
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -29,6 +27,8 @@ from teo_lut_executor.capture_parameters import CAPTURE_PARAMETERS
 from teo_lut_executor.lut import default_lut_directory
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.sign_schema import STANDINGS
+from teo_node_tools.parameter_row import declare_parameters
+from teo_node_tools.run_node import run_node
 
 _STEP_RATE = 10.0  # [Hz] at which the countdown is looked at
 _CAPTURING, _IDLE = "capturing", "idle"
@@ -47,8 +47,7 @@ class CaptureNode(Node):
             parameter_overrides: Parameters beside those of the command line.
         """
         super().__init__("capture", context=context, parameter_overrides=list(parameter_overrides))
-        for row in CAPTURE_PARAMETERS:
-            self.declare_parameter(row.name, row.default, row.descriptor())
+        declare_parameters(self, CAPTURE_PARAMETERS)
         self.add_on_set_parameters_callback(self._check_parameters)
         self._robot = Robot.load()  # used by the worker alone
         self._worker = ThreadPoolExecutor(1)
@@ -184,19 +183,9 @@ class CaptureNode(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
 
-def main(args: list[str] | None = None) -> None:
-    """Run the node until it is told to stop."""
-    rclpy.init(args=args)
-    node: CaptureNode | None = None
-    try:
-        node = CaptureNode()
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
+def main(arguments: list[str] | None = None) -> None:
+    """Run the node until it is told to end."""
+    run_node(CaptureNode, arguments)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from teo_lut_executor.capture.live_take import LONGEST_WAIT
-from teo_lut_executor.executor_parameters import ParameterRow
 from teo_lut_executor.sign_schema import STANDINGS
+from teo_node_tools.parameter_row import ParameterRow
 
 CAPTURE_PARAMETERS = (
     ParameterRow(

@@ -11,7 +11,6 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -55,6 +54,8 @@ from teo_lut_executor.plan_error import PlanError
 from teo_lut_executor.planner import Planner
 from teo_lut_executor.sentence_goals import SentenceGoals, never_called
 from teo_lut_executor.sign_services import get_sign, list_signs
+from teo_node_tools.parameter_row import declare_parameters
+from teo_node_tools.run_node import run_node
 
 # Sentences of a whole text can wait here while one is planned.
 _TOKENS_DEPTH = 100
@@ -81,8 +82,7 @@ class ExecutorNode(Node):
             PlanError: The parameters do not go together.
         """
         super().__init__("executor", context=context, parameter_overrides=list(parameter_overrides))
-        for row in PARAMETERS:
-            self.declare_parameter(row.name, row.default, row.descriptor())
+        declare_parameters(self, PARAMETERS)
         self._live_lut = LiveLut(Lut.open(self._value("lut_directory") or None))
         self._robot = Robot.load()
         self._planner = self._make_planner(self._values())
@@ -253,22 +253,13 @@ class ExecutorNode(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
 
-def main(args: list[str] | None = None) -> None:
-    """Run the node until it is told to stop."""
-    rclpy.init(args=args)
-    node: ExecutorNode | None = None
+def main(arguments: list[str] | None = None) -> None:
+    """Run the node until it is told to end."""
     try:
-        node = ExecutorNode()
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+        run_node(ExecutorNode, arguments)
     except (LutError, PlanError) as error:
         rclpy.logging.get_logger("executor").fatal(f"[{error.code}] {error}")
         raise SystemExit(1) from None
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from dataclasses import fields
 
 from teo_lut_executor.lexicon import DEFAULT_STANDING
 from teo_lut_executor.motion_limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
@@ -14,35 +12,9 @@ from teo_lut_executor.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DE
 from teo_lut_executor.queue_settings import QueueSettings
 from teo_lut_executor.sign_schema import STANDINGS, Standing
 from teo_lut_executor.signing_style import SigningStyle
+from teo_node_tools.parameter_row import ParameterRow
 
 Value = str | int | float
-
-
-@dataclass(frozen=True, kw_only=True)
-class ParameterRow:
-    """One parameter as ROS shows it."""
-
-    name: str
-    default: Value
-    description: str
-    """Meaning, with the unit."""
-    low: float | None = None
-    high: float | None = None
-    """Range, both ends included; None for text."""
-    read_only: bool = False
-
-    def descriptor(self) -> ParameterDescriptor:
-        """What ROS checks a value against."""
-        descriptor = ParameterDescriptor(description=self.description, read_only=self.read_only)
-        if self.low is not None and self.high is not None:
-            if isinstance(self.default, int):
-                whole = IntegerRange(from_value=int(self.low), to_value=int(self.high), step=1)
-                descriptor.integer_range = [whole]
-            else:
-                real = FloatingPointRange(from_value=float(self.low), to_value=float(self.high), step=0.0)
-                descriptor.floating_point_range = [real]
-        return descriptor
-
 
 _STYLE = SigningStyle()
 _QUEUE = QueueSettings()

@@ -8,11 +8,9 @@ import uuid
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -21,6 +19,8 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence
 from teo_sign_msgs.srv import Translate
 
+from teo_node_tools.parameter_row import declare_parameters
+from teo_node_tools.run_node import run_node
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.log_text import quoted, short
 from teo_sign_translator.messages import to_diagnostics, to_messages
@@ -68,8 +68,7 @@ class TranslatorNode(LifecycleNode):
             parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
         """
         super().__init__("translator", context=context, parameter_overrides=list(parameter_overrides))
-        for parameter in PARAMETERS:
-            self.declare_parameter(parameter.name, parameter.default, parameter.descriptor())
+        declare_parameters(self, PARAMETERS)
         self._translator: Translator | None = None
         self._next_translator: Translator | None = None
         self._inventory: SignInventory | None = None
@@ -275,21 +274,17 @@ class TranslatorNode(LifecycleNode):
         return self.get_parameter(name).value
 
 
-def main(args: list[str] | None = None) -> None:
-    """Run the node until it is told to stop."""
-    rclpy.init(args=args)
-    node: TranslatorNode | None = None
-    try:
-        node = TranslatorNode()
-        if node.get_parameter("autostart").value and not node.start():
-            raise SystemExit(1)
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
+def _started_node() -> TranslatorNode:
+    node = TranslatorNode()
+    if node.get_parameter("autostart").value and not node.start():
+        node.destroy_node()
+        raise SystemExit(1)  # the log has said why
+    return node
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the node until it is told to end."""
+    run_node(_started_node, arguments)
 
 
 if __name__ == "__main__":

@@ -8,9 +8,7 @@ from array import array
 from typing import Any
 
 import numpy as np
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -20,6 +18,8 @@ from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
+from teo_node_tools.parameter_row import declare_parameters
+from teo_node_tools.run_node import run_node
 from teo_sim_driver import dextra
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import Refusal, TrajectoryError
@@ -44,8 +44,7 @@ class DriverNode(Node):
     def __init__(self, **node_arguments: Any) -> None:
         """Stand at HOME. The arguments are those of `rclpy.node.Node`, after its name."""
         super().__init__("teo_sim_driver", **node_arguments)
-        for row in PARAMETERS:
-            self.declare_parameter(row.name, row.default, row.descriptor())
+        declare_parameters(self, PARAMETERS)
         self._rate = self.get_parameter("update_rate").value
         self._follower = JointFollower(
             limits=joint_limits(COMMANDED_JOINTS),
@@ -184,14 +183,4 @@ def _doubles(values: FloatArray) -> array[float]:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    rclpy.init(args=arguments)
-    node = None
-    try:
-        node = DriverNode()
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
+    run_node(DriverNode, arguments)

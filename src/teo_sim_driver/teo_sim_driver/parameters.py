@@ -2,39 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
-
+from teo_node_tools.parameter_row import ParameterRow
 from teo_sim_driver.joint_follower import DEFAULT_STOP_DECELERATION
 from teo_sim_driver.rules import Rules
-
-
-@dataclass(frozen=True, kw_only=True)
-class ParameterRow:
-    """One parameter as ROS shows it."""
-
-    name: str
-    default: bool | int | float
-    description: str
-    """Meaning, with the unit."""
-    low: float | None = None
-    high: float | None = None
-    """Range, both ends included; None for booleans."""
-    read_only: bool = False
-
-    def descriptor(self) -> ParameterDescriptor:
-        """What ROS checks a value against."""
-        descriptor = ParameterDescriptor(description=self.description, read_only=self.read_only)
-        if self.low is not None and self.high is not None:
-            if isinstance(self.default, int):
-                whole = IntegerRange(from_value=int(self.low), to_value=int(self.high), step=1)
-                descriptor.integer_range = [whole]
-            else:
-                real = FloatingPointRange(from_value=float(self.low), to_value=float(self.high), step=0.0)
-                descriptor.floating_point_range = [real]
-        return descriptor
-
 
 _RULES = Rules()
 

@@ -4,52 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
-
+from teo_node_tools.parameter_row import ParameterRow, Value
 from teo_skeleton_retriever.detectors import DETECTORS
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
-
-Value = bool | int | float | str | tuple[str, ...]
 
 DEFAULT_SLOP = 0.017
 """[s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart."""
 _DETECTOR = "detector"
 TRANSPORTS_COLOR = ("auto", "raw", "compressed")
 TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
-
-
-@dataclass(frozen=True, kw_only=True)
-class ParameterRow:
-    """One parameter as ROS shows it."""
-
-    name: str
-    default: Value
-    description: str
-    """Meaning, with the unit."""
-    low: float | None = None
-    high: float | None = None
-    """Range, both ends included; None for switches and text."""
-    choices: tuple[str, ...] = ()
-    """Allowed words; empty unless it is a choice."""
-    read_only: bool = False
-
-    def descriptor(self) -> ParameterDescriptor:
-        """What ROS checks a value against; choices it only shows."""
-        descriptor = ParameterDescriptor(description=self.description, read_only=self.read_only)
-        if self.choices:
-            descriptor.additional_constraints = f"one of {', '.join(map(repr, self.choices))}"
-        if self.low is not None and self.high is not None:
-            if isinstance(self.default, int):
-                whole = IntegerRange(from_value=int(self.low), to_value=int(self.high), step=1)
-                descriptor.integer_range = [whole]
-            else:
-                real = FloatingPointRange(from_value=float(self.low), to_value=float(self.high), step=0.0)
-                descriptor.floating_point_range = [real]
-        return descriptor
 
 
 _NODE = (

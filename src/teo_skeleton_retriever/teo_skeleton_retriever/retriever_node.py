@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 import rclpy
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -22,6 +21,8 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
+from teo_node_tools.parameter_row import declare_parameters
+from teo_node_tools.run_node import run_node
 from teo_skeleton_retriever.camera_topics import CAMERA_INFO, COLOR, DEPTH
 from teo_skeleton_retriever.detectors import Detector, make_detector
 from teo_skeleton_retriever.diagnostics_publisher import DiagnosticsPublisher
@@ -91,8 +92,7 @@ class RetrieverNode(Node):
             RetrieverError: the parameters do not go together, or the detector cannot be made.
         """
         super().__init__("skeleton_retriever", **node_arguments)
-        for row in PARAMETERS:
-            self.declare_parameter(row.name, row.default, row.descriptor())
+        declare_parameters(self, PARAMETERS)
         values = self._values()
         check_choices(values)
         if detector is None:
@@ -280,20 +280,11 @@ class RetrieverNode(Node):
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    rclpy.init(args=arguments)
-    node = None
     try:
-        node = RetrieverNode()
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+        run_node(RetrieverNode, arguments)
     except RetrieverError as error:
         rclpy.logging.get_logger("skeleton_retriever").fatal(str(error))
         raise SystemExit(1) from None
-    finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

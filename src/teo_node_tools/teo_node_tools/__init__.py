@@ -1,0 +1,1 @@
+"""What every node does alike: show its parameters, and run until it is told to end."""

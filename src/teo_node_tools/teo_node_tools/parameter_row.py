@@ -1,0 +1,51 @@
+"""A node's parameters as rows of a table: default, meaning and range in one place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+
+if TYPE_CHECKING:  # tools that only show parameters need no rclpy
+    from rclpy.node import Node
+
+Value = bool | int | float | str | tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ParameterRow:
+    """One parameter as ROS shows it."""
+
+    name: str
+    default: Value
+    """Its type is the parameter's."""
+    description: str
+    """Meaning, with the unit."""
+    low: float | None = None
+    high: float | None = None
+    """Range, both ends included; None for switches and text."""
+    choices: tuple[str, ...] = ()
+    """Allowed words, for people to read: ROS does not check them. Empty unless it is a choice."""
+    read_only: bool = False
+
+    def descriptor(self) -> ParameterDescriptor:
+        """What ROS checks a value against, and shows."""
+        descriptor = ParameterDescriptor(description=self.description, read_only=self.read_only)
+        if self.choices:
+            descriptor.additional_constraints = f"one of {', '.join(map(repr, self.choices))}"
+        if self.low is not None and self.high is not None:
+            if isinstance(self.default, int):
+                whole = IntegerRange(from_value=int(self.low), to_value=int(self.high), step=1)
+                descriptor.integer_range = [whole]
+            else:
+                real = FloatingPointRange(from_value=float(self.low), to_value=float(self.high), step=0.0)
+                descriptor.floating_point_range = [real]
+        return descriptor
+
+
+def declare_parameters(node: Node, rows: Iterable[ParameterRow]) -> None:
+    """Declare every row on the node."""
+    for row in rows:
+        node.declare_parameter(row.name, row.default, row.descriptor())

@@ -1,0 +1,33 @@
+"""A node's life as a process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+
+
+def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> None:
+    """Make a node and run it until it is told to end (SIGINT, SIGTERM, a shutdown of its context).
+
+    Args:
+        make_node: Makes the node, once ROS is there. What it raises passes through, with ROS ended.
+        arguments: Of the command line; None for the process's own.
+    """
+    rclpy.init(args=arguments)
+    node: Node | None = None
+    try:
+        node = make_node()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    except rclpy_implementation.RCLError:
+        if rclpy.ok():
+            raise  # else it was told to end before it had begun to spin
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
