@@ -1,4 +1,4 @@
-"""Measure everything, one bench after the other, and print one table."""
+"""Measure everything, one bench after the other, and print a table of each."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ import robot_model
 import text_to_trajectory
 import translation
 from rich.console import Console
+from rich.progress import track
 from rich.table import Table
 
 BENCHES = (
@@ -40,19 +41,25 @@ BENCHES = (
 
 
 def main() -> None:
-    """Print the figures, each under the bench that made it."""
+    """Print each bench's figures when it has them, and at the end which ones failed."""
     console = Console()
-    table = Table(
-        "bench", "what", "measured", title=f"{platform.machine()}, Python {platform.python_version()}"
-    )
-    for bench in BENCHES:
+    console.print(f"{platform.machine()}, Python {platform.python_version()}")
+    failed: list[str] = []
+    for bench in track(BENCHES, "benches", console=console):
         name = bench.__name__
-        with console.status(f"bench/{name}.py"):
+        try:
             figures = bench.measure()
+        except Exception:  # an hour of other figures must not be lost
+            console.print_exception()
+            failed.append(name)
+            continue
+        table = Table("what", "measured", title=f"bench/{name}.py", title_justify="left")
         for figure in figures:
-            table.add_row(name, figure.what, figure.value)
-        table.add_section()
-    console.print(table)
+            table.add_row(figure.what, figure.value)
+        console.print(table)
+    if failed:
+        console.print(f"failed: {', '.join(failed)}")
+        raise SystemExit(1)
 
 
 if __name__ == "__main__":
