@@ -14,7 +14,6 @@ import resource
 import subprocess
 import sys
 import time
-import unicodedata
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -22,10 +21,11 @@ from pathlib import Path
 from gloss_baselines import lemmas_in_spanish_order, spoken_to_signed
 from report import Figure, percentiles
 
-from teo_sign_translator.accepted import accepted
+from teo_sign_translator.accepted import accepts, plain_gloss
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.neural.examples import without_accents
 from teo_sign_translator.neural.scores import score
 from teo_sign_translator.pairs import gloss_name, paper_pairs
 from teo_sign_translator.resources import data_file
@@ -39,8 +39,6 @@ HELD_OUT = 1000
 _GENERATED = 30_000
 """Pairs to generate: some hundreds of each part are among them."""
 _TIMED = 500
-_SHORT = 3
-"""Letters of words that accents tell apart: TÚ and TU, SÍ and SI."""
 _EVERYDAY = Path(__file__).parents[1] / "test" / "data"
 
 
@@ -100,12 +98,10 @@ def _everyday(systems: dict[str, System]) -> Iterable[Figure]:
         ("unseen", "more, looked at once"),
     ):
         sentences = _lines(f"{name}.txt")
-        good = [{_plain(wanted) for wanted in accepted(pattern)} for pattern in _lines(f"{name}.glosses")]
+        patterns = _lines(f"{name}.glosses")
         right = {
-            name: sum(
-                _plain(system(sentence)) in fine for sentence, fine in zip(sentences, good, strict=True)
-            )
-            for name, system in systems.items()
+            each: sum(map(accepts, patterns, map(system, sentences), strict=True))
+            for each, system in systems.items()
         }
         yield Figure(f"{len(sentences)} {what}: accepted", _row(right))
 
@@ -123,19 +119,11 @@ def _same(got: Glosses, wanted: Glosses) -> bool:
 
 
 def _plain(words: Glosses) -> Glosses:
-    """Spelled words as what they spell. LSE spells without accents: longer words are compared so."""
-    joined = (word.replace("-", "").upper() for word in words)
-    return tuple(word if len(word) <= _SHORT else _unaccented(word) for word in joined)
-
-
-def _unaccented(word: str) -> str:
-    decomposed = unicodedata.normalize("NFD", word)
-    kept = (c for c in decomposed if not unicodedata.combining(c) or c == "\N{COMBINING TILDE}")
-    return unicodedata.normalize("NFC", "".join(kept))
+    return tuple(map(plain_gloss, words))
 
 
 def _carelessly(sentence: str) -> str:
-    return "".join(c for c in _unaccented(sentence.lower()) if c.isalnum() or c == " ")
+    return "".join(c for c in without_accents(sentence.lower()) if c.isalnum() or c == " ")
 
 
 def _speed() -> list[Figure]:
