@@ -1,8 +1,7 @@
 """How well and how fast Spanish is translated: our models, the trivial baseline and a peer, side by side.
 
 The 39 pairs of the paper as published, and typed without accents and marks; generated sentences of words and
-constructions that training never saw; everyday sentences written apart from the generator, some of them
-looked at once. A translation counts where it is the expected one gloss by gloss, or one that is accepted.
+constructions that training never saw; sentences written apart from the generator (test/data/README.md). A translation counts where it is the expected one gloss by gloss, or one that is accepted.
 Spelled words count as the word that they spell.
 """
 
@@ -39,7 +38,7 @@ HELD_OUT = 1000
 _GENERATED = 30_000
 """Pairs to generate: some hundreds of each part are among them."""
 _TIMED = 500
-_EVERYDAY = Path(__file__).parents[1] / "test" / "data"
+_SENTENCES = Path(__file__).parents[1] / "test" / "data"
 
 
 def measure() -> list[Figure]:
@@ -92,22 +91,17 @@ def _held_out(systems: dict[str, System]) -> Iterable[Figure]:
 
 
 def _everyday(systems: dict[str, System]) -> Iterable[Figure]:
-    for name, what in (
-        ("everyday", "everyday sentences"),
-        ("earlier", "more, written when the grammar was finished, and known since"),
-        ("unseen", "more, looked at once"),
-    ):
-        sentences = _lines(f"{name}.txt")
-        patterns = _lines(f"{name}.glosses")
+    for file in sorted(_SENTENCES.glob("*.txt")):
+        sentences, patterns = _lines(file.name), _lines(f"{file.stem}.glosses")
         right = {
-            each: sum(map(accepts, patterns, map(system, sentences), strict=True))
-            for each, system in systems.items()
+            name: sum(map(accepts, patterns, map(system, sentences), strict=True))
+            for name, system in systems.items()
         }
-        yield Figure(f"{len(sentences)} {what}: accepted", _row(right))
+        yield Figure(f"{len(sentences)} {file.stem} sentences: accepted", _row(right))
 
 
 def _lines(file: str) -> list[str]:
-    return (_EVERYDAY / file).read_text(encoding="utf-8").splitlines()
+    return (_SENTENCES / file).read_text(encoding="utf-8").splitlines()
 
 
 def _row(values: Mapping[str, object]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from teo_sign_translator.corpus.choosers import Chooser
@@ -124,6 +124,8 @@ class Derivation:
         if taken.get("clitic") == "dative":
             taken["clitic"] = "les" if taken.get("number") == "p" else "le"
         verb = next((phrase.verb for phrase in slots.values() if phrase.verb), None)
+        if verb and verb.said:
+            taken.pop("clitic", None)  # said with the verb of this clause, not with that of another
         return Phrase(taken, tokens, signs, head.head if head else (tokens[0] if tokens else None), verb)
 
     def _arguments(
@@ -282,7 +284,13 @@ class Derivation:
             twice = (
                 item.twice and phrase.features.get("number") == "p" and "plural_only" not in phrase.features
             )
-            return [*phrase.signs, *phrase.signs] if twice else phrase.signs
+            also = slots[item.also].head if item.also else None
+            signs = (
+                [replace(sign, sources=[*sign.sources, also]) for sign in phrase.signs]
+                if also
+                else phrase.signs
+            )
+            return [*signs, *signs] if twice else signs
         sign = Sign(item.gloss)
         for source in item.sources:
             if source in (VERB, CLITIC):
