@@ -3,11 +3,11 @@
 Spanish: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
 `un~n` the paradigm word "un" agreeing with slot n.
 
-LSE: `{X}` the glosses of slot X, `{n*}` the same twice where slot n is plural, `{n+V}` the same, which the head
-of slot V says too ("da miedo": MIEDO), `{T/V}` the time expression T
-and, unless it says the tense, PASADO or FUTURO by verb V; `{/V}` the latter alone. `GLOSS` is a gloss that no
-word says, `GLOSS=word+word` one that those words of the Spanish side say (`word#2` the second of them, `{X}`
-the head of a slot), `GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a clitic pronoun says.
+LSE: `{X}` the glosses of slot X, `{n*}` the same twice where slot n is plural, `{n+V}` the same, which the
+head of slot V says too ("da miedo": MIEDO), `{T/V}` the time expression T and, unless it says the tense,
+PASADO or FUTURO by verb V; `{/V}` the latter alone. `GLOSS` is a gloss that no word says, `GLOSS=word+word`
+one that those words of the Spanish side say (`word#2` the second of them, `{X}` the head of a slot),
+`GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a clitic pronoun says.
 """
 
 from __future__ import annotations
