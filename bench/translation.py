@@ -1,8 +1,7 @@
 """How well and how fast Spanish is translated: our models, the trivial baseline and a peer, side by side.
 
 The 39 pairs of the paper as published, and typed without accents and marks; generated sentences of words and
-constructions that training never saw; everyday sentences written apart from the generator, some of them
-looked at once. A translation counts where it is the expected one gloss by gloss, or one that is accepted.
+constructions that training never saw; sentences written apart from the generator (test/data/README.md). A translation counts where it is the expected one gloss by gloss, or one that is accepted.
 Spelled words count as the word that they spell.
 """
 
@@ -14,7 +13,6 @@ import resource
 import subprocess
 import sys
 import time
-import unicodedata
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -22,10 +20,11 @@ from pathlib import Path
 from gloss_baselines import lemmas_in_spanish_order, spoken_to_signed
 from report import Figure, percentiles
 
-from teo_sign_translator.accepted import accepted
+from teo_sign_translator.accepted import accepts, plain_gloss
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.neural.examples import without_accents
 from teo_sign_translator.neural.scores import score
 from teo_sign_translator.pairs import gloss_name, paper_pairs
 from teo_sign_translator.resources import data_file
@@ -39,9 +38,7 @@ HELD_OUT = 1000
 _GENERATED = 30_000
 """Pairs to generate: some hundreds of each part are among them."""
 _TIMED = 500
-_SHORT = 3
-"""Letters of words that accents tell apart: TÚ and TU, SÍ and SI."""
-_EVERYDAY = Path(__file__).parents[1] / "test" / "data"
+_SENTENCES = Path(__file__).parents[1] / "test" / "data"
 
 
 def measure() -> list[Figure]:
@@ -94,24 +91,17 @@ def _held_out(systems: dict[str, System]) -> Iterable[Figure]:
 
 
 def _everyday(systems: dict[str, System]) -> Iterable[Figure]:
-    for name, what in (
-        ("everyday", "everyday sentences"),
-        ("earlier", "more, written when the grammar was finished, and known since"),
-        ("unseen", "more, looked at once"),
-    ):
-        sentences = _lines(f"{name}.txt")
-        good = [{_plain(wanted) for wanted in accepted(pattern)} for pattern in _lines(f"{name}.glosses")]
+    for file in sorted(_SENTENCES.glob("*.txt")):
+        sentences, patterns = _lines(file.name), _lines(f"{file.stem}.glosses")
         right = {
-            name: sum(
-                _plain(system(sentence)) in fine for sentence, fine in zip(sentences, good, strict=True)
-            )
+            name: sum(map(accepts, patterns, map(system, sentences), strict=True))
             for name, system in systems.items()
         }
-        yield Figure(f"{len(sentences)} {what}: accepted", _row(right))
+        yield Figure(f"{len(sentences)} {file.stem} sentences: accepted", _row(right))
 
 
 def _lines(file: str) -> list[str]:
-    return (_EVERYDAY / file).read_text(encoding="utf-8").splitlines()
+    return (_SENTENCES / file).read_text(encoding="utf-8").splitlines()
 
 
 def _row(values: Mapping[str, object]) -> str:
@@ -123,19 +113,11 @@ def _same(got: Glosses, wanted: Glosses) -> bool:
 
 
 def _plain(words: Glosses) -> Glosses:
-    """Spelled words as what they spell. LSE spells without accents: longer words are compared so."""
-    joined = (word.replace("-", "").upper() for word in words)
-    return tuple(word if len(word) <= _SHORT else _unaccented(word) for word in joined)
-
-
-def _unaccented(word: str) -> str:
-    decomposed = unicodedata.normalize("NFD", word)
-    kept = (c for c in decomposed if not unicodedata.combining(c) or c == "\N{COMBINING TILDE}")
-    return unicodedata.normalize("NFC", "".join(kept))
+    return tuple(map(plain_gloss, words))
 
 
 def _carelessly(sentence: str) -> str:
-    return "".join(c for c in _unaccented(sentence.lower()) if c.isalnum() or c == " ")
+    return "".join(c for c in without_accents(sentence.lower()) if c.isalnum() or c == " ")
 
 
 def _speed() -> list[Figure]:

@@ -6,35 +6,40 @@ stand; brackets round what may be left out; `||` between whole translations.
 
 from __future__ import annotations
 
-from itertools import product
-from math import prod
+import re
+import unicodedata
+from collections.abc import Sequence
 
 from teo_sign_translator.errors import TranslationError
 
-# A line that stands for more translations than this is a slip of the pen; the longest of ours has 56.
-_MOST = 1000
+#: Letters of words that accents tell apart: TÚ and TU, SÍ and SI.
+_SHORT = 3
 
 
-def accepted(pattern: str) -> frozenset[tuple[str, ...]]:
-    """All translations that a pattern stands for, each as its glosses.
+def accepts(pattern: str, glosses: Sequence[str]) -> bool:
+    """Whether glosses are a translation that a pattern stands for, by their `plain_gloss`.
 
     Raises:
-        TranslationError: "invalid_data" if the pattern is empty, a bracket is not closed in its own word, or
-            it stands for too many translations.
+        TranslationError: "invalid_data" if the pattern is empty or a bracket is not closed in its own word.
     """
-    translations: set[tuple[str, ...]] = set()
-    for alternative in pattern.split("||"):
-        choices = [_choices(word, pattern) for word in alternative.split()]
-        if not choices:
-            raise TranslationError("invalid_data", f"expected glosses on both sides of ||, got '{pattern}'")
-        if prod(map(len, choices)) > _MOST:
-            raise TranslationError("invalid_data", f"expected at most {_MOST} translations, got '{pattern}'")
-        translations |= {tuple(filter(None, picked)) for picked in product(*choices)}
-    return frozenset(translations)
+    alternatives = [alternative.split() for alternative in pattern.split("||")]
+    if not all(alternatives):
+        raise TranslationError("invalid_data", f"expected glosses on both sides of ||, got '{pattern}'")
+    wanted = "|".join("".join(_place(word, pattern) for word in words) for words in alternatives)
+    return bool(re.fullmatch(wanted, "".join(f"{plain_gloss(gloss)} " for gloss in glosses)))
 
 
-def _choices(word: str, pattern: str) -> list[str]:
-    """What may stand in one place; the empty string for nothing."""
+def plain_gloss(gloss: str) -> str:
+    """A gloss as it is compared: a spelled word is what it spells, and POR_FAVOR may be written POR-FAVOR.
+
+    LSE spells without accents, so longer words are compared without; Ñ stays.
+    """
+    word = gloss.replace("-", "").replace("_", "").upper()
+    return word if len(word) <= _SHORT else _unaccented(word)
+
+
+def _place(word: str, pattern: str) -> str:
+    """What may stand in one place, as a regular expression."""
     optional = word.startswith("(") and word.endswith(")")
     glosses = word.strip("()").split("/")
     brackets = word.count("(") + word.count(")")
@@ -42,4 +47,11 @@ def _choices(word: str, pattern: str) -> list[str]:
         raise TranslationError(
             "invalid_data", f"expected a gloss like (A/B) or A/B, got '{word}' in '{pattern}'"
         )
-    return [*glosses, ""] if optional else glosses
+    choice = "|".join(re.escape(plain_gloss(gloss)) for gloss in glosses)
+    return f"(?:(?:{choice}) ){'?' if optional else ''}"
+
+
+def _unaccented(word: str) -> str:
+    decomposed = unicodedata.normalize("NFD", word)
+    kept = (c for c in decomposed if not unicodedata.combining(c) or c == "\N{COMBINING TILDE}")
+    return unicodedata.normalize("NFC", "".join(kept))

@@ -14,6 +14,10 @@ from teo_sign_translator.numerals import ACCENTED_NUMBER_WORDS, NUMBER_WORDS, ma
 
 _LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
 _PAUSES = ",;:()[]{}–—―"
+#: Laughter as it is typed, slips included: jajaja, jajja, jejeje, haha, xD.
+_LAUGHTER = re.compile(r"a?j[aj]*ja[aj]*|j[ej]*je[ej]*|j[ij]*ji[ij]*|h[ah]*ha[ah]*|xd+", re.IGNORECASE)
+_SHORTEST_LAUGHTER = 4
+_LAUGH = "risa"
 
 
 class WordKind(Enum):
@@ -136,7 +140,10 @@ class _Reader:
             return self._expression(index, found)
         if _is_letter(character):
             after = _word_end(text, after)
-            self._add(Word((text[index:after],), WordKind.LETTERS), index)
+            if _is_laughter(text[index:after]):
+                self._laugh(index, after)
+            else:
+                self._add(Word((text[index:after],), WordKind.LETTERS), index)
         elif character in "-−" and _is_minus(text, index):
             self._add(Word((character,), WordKind.LETTERS, stands_for="menos"), index)
         elif character in "?!":
@@ -183,6 +190,13 @@ class _Reader:
         return bool(self._words) and (
             self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
         )
+
+    def _laugh(self, start: int, stop: int) -> None:
+        """Laughter is a sentence of its own: it says nothing of what stands beside it."""
+        if self._words:
+            self._close("", closes=True, stop=start)
+        self._add(Word((self._text[start:stop],), WordKind.LETTERS, stands_for=_LAUGH), start)
+        self._close("", closes=True, stop=stop)
 
     def _points(self, start: int, stop: int) -> None:
         """One point or several: the end of the sentence, a pause, or part of an abbreviation or address."""
@@ -232,6 +246,12 @@ def _word_end(text: str, index: int) -> int:
         if index == len(text) or unicodedata.category(text[index])[0] != "M":
             return index
         index += 1
+
+
+def _is_laughter(word: str) -> bool:
+    return _LAUGHTER.fullmatch(word) is not None and (
+        len(word) >= _SHORTEST_LAUGHTER or word.lower().startswith("xd")
+    )
 
 
 def _is_minus(text: str, index: int) -> bool:

@@ -216,7 +216,7 @@ def test_the_question_word_is_last(train):
         and pair.spanish.endswith("?")
         and "qué tal" not in pair.spanish.lower()
     ]
-    assert len(questions) > 800
+    assert len(questions) > 500
     assert not [pair for pair in questions if pair.glosses[-1] not in QUESTION_GLOSSES]
 
 
@@ -233,7 +233,7 @@ def test_negation_comes_last_in_statements(train):
 
 
 def test_time_comes_first_and_replaces_the_mark_of_tense(train):
-    timed = [pair for pair in train if pair.rule.startswith(("statement.time_", "yes_no.when."))]
+    timed = [pair for pair in train if pair.rule.startswith(("statement.", "yes_no.when."))]
     for spanish, gloss in (("ayer", "AYER"), ("anoche", "ANOCHE"), ("hoy", "HOY")):
         found = [pair for pair in timed if spanish in pair.spanish.lower().strip("¿?.").split()]
         assert found

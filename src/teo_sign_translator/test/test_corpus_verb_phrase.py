@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from teo_sign_translator.corpus.choosers import ExampleChooser
-from teo_sign_translator.corpus.derivation import Derivation, NoFillerError
+from teo_sign_translator.corpus.derivation import Derivation
+from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.tokens import Sign
 from teo_sign_translator.corpus.verb_phrase import marked_once
@@ -89,3 +90,25 @@ def test_a_form_that_may_be_present_or_past_is_never_taught_as_past_without_a_ti
 def test_the_perfect_is_past_in_every_person(say):
     made = say("statement", "plain", S="nosotros", P="intransitive", P_V="trabajar", P_V_shape="perfect")
     assert made == ("Hemos trabajado.", "PASADO NOSOTROS TRABAJAR")
+
+
+def test_a_time_word_beside_a_present_marks_what_follows(say):
+    made = say(
+        "in_case", "if_then", T="tomorrow", D="rain", D_V="llover", P="intransitive", P_V="trabajar",
+        P_V_shape="future",
+    )  # fmt: skip
+    assert made == ("Si mañana llueve, trabajaré.", "SI MAÑANA LLOVER YO TRABAJAR")
+
+
+def test_the_pronoun_of_a_clause_stays_in_it(say):
+    made = say("saying", "think", V="creer", C="liking", C_E="me", C_V="gustar", C_O_n="fútbol")
+    assert made == ("Creo que me gusta el fútbol.", "YO CREER YO FÚTBOL GUSTAR")
+
+
+def test_a_noun_says_what_the_light_verb_beside_it_says(generator):
+    family = next(each for each in generator.grammar.families if each.name == "felt")
+    rule = next(each for each in family.rules if each.name == "gives_it")
+    fixed = {"n": "miedo"}
+    made = Derivation(generator.grammar, generator.words, ExampleChooser(fixed)).sentence(rule, {})
+    assert (made.spanish, made.glosses) == ("Me da miedo.", ("YO", "MIEDO"))
+    assert made.alignment == ((0,), (1, 2))

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.neural.batches import WordNumbers, batches
 from teo_sign_translator.neural.by_heart import ByHeart, by_heart_pairs, key, ways_of_typing
 from teo_sign_translator.neural.examples import (
     ExampleReader,
@@ -17,6 +18,8 @@ from teo_sign_translator.neural.examples import (
     spans,
     without_accents,
 )
+from teo_sign_translator.neural.fit import make_lexis
+from teo_sign_translator.neural.lexis import UNKNOWN_TAG
 from teo_sign_translator.neural.noise import Typing, copies, typed, typed_sayably, unsayable
 from teo_sign_translator.pairs import gloss_name, paper_pairs, training_pairs
 from teo_sign_translator.spanish_words import source_words
@@ -194,3 +197,17 @@ def test_no_sentence_is_known_by_heart_in_two_ways() -> None:
 def test_ways_of_typing_go_from_as_written_to_bare_letters() -> None:
     assert ways_of_typing("¿Qué tal?") == ("¿Qué tal?", "¿Que tal?", "Qué tal", "que tal")
     assert key("¡¿Qué   TAL?!") == key("que tal")
+
+
+def test_hidden_nouns_may_be_words_of_which_nothing_is_known() -> None:
+    pairs, table = examples()
+    lexis = make_lexis(pairs, table, 0, copy=True)
+    numbers = WordNumbers.of(table, lexis, pairs)
+    unknown = lexis.tag_index[UNKNOWN_TAG]
+    tags = [
+        tag
+        for seed in range(200)
+        for batch in batches(pairs, table, numbers, 8, random=np.random.default_rng(seed), rare_word=1e9)
+        for tag in batch.tags[..., 0].ravel().tolist()
+    ]
+    assert tags.count(unknown) == pytest.approx(100, abs=40)  # "pan" alone: half of 200 times

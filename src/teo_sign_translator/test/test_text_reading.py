@@ -77,6 +77,23 @@ def test_reading_finds_clauses_and_words(text: str, words: list[list[str]]) -> N
 
 
 @pytest.mark.parametrize(
+    "laugh", ["jajaja", "jajja", "JAJAJAJA", "jeje", "jijiji", "ajajaja", "haha", "xD", "xdd"]
+)
+def test_laughter_is_a_sentence_of_its_own(laugh: str) -> None:
+    sentences = [
+        [word.lower for word in clause.words] for clause in read(f"qué gracioso {laugh} adiós").clauses
+    ]
+    assert sentences == [["qué", "gracioso"], ["risa"], ["adiós"]]
+    assert [clause.closes for clause in read(f"{laugh}, vale").clauses] == [True, True]
+
+
+@pytest.mark.parametrize("word", ["ja", "hijo", "haya", "jej", "ajá", "x", "Jan"])
+def test_what_only_looks_like_laughter_is_read_as_it_is_typed(word: str) -> None:
+    (clause,) = read(word).clauses
+    assert [each.lower for each in clause.words] == [word.lower()]
+
+
+@pytest.mark.parametrize(
     ("text", "ends"),
     [
         ("Hola, adiós.", [(",", False), (".", True)]),

@@ -1,4 +1,4 @@
-"""Makes sentences: fills the slots of a rule, then says both of its sides."""
+"""Makes sentences: fills the slots of a rule, and of the rules that fill them."""
 
 from __future__ import annotations
 
@@ -8,28 +8,18 @@ from typing import NamedTuple
 
 from teo_sign_translator.corpus.choosers import Chooser
 from teo_sign_translator.corpus.features import fits, looked_up
-from teo_sign_translator.corpus.fillers import can_be_in_words, number_phrase, word_phrase
+from teo_sign_translator.corpus.fillers import NoFillerError, can_be_in_words, number_phrase, word_phrase
 from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule, Slot
-from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem
+from teo_sign_translator.corpus.sides import Sides
 from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tenses import Tenses
-from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
-from teo_sign_translator.corpus.verb_phrase import (
-    marked_once,
-    marks_ambiguous,
-    say_verb,
-    tense_signs,
-    verb_signs,
-)
+from teo_sign_translator.corpus.tokens import Phrase, SaidVerb
+from teo_sign_translator.corpus.verb_phrase import marked_once, marks_ambiguous
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
 #: Handed down to all that is inside, unless the rule says otherwise.
 _INHERITED = ("mood", "shapes", "who", "time", "pol", "says", "self")
-
-
-class NoFillerError(Exception):
-    """Nothing fits a slot this time; another try may succeed."""
 
 
 class Sentence(NamedTuple):
@@ -114,8 +104,7 @@ class Derivation:
             else:
                 chosen = self._alternative(slot.category, arguments, place, spread.get(slot.name), rule)
                 slots[slot.name] = self._phrase(chosen, arguments, place, {})
-        tokens, literals = self._spanish(rule, slots, features)
-        signs = [sign for item in rule.glosses for sign in self._signs(item, slots, literals)]
+        tokens, signs = Sides(rule, slots, features, self.words, self.grammar.paradigms).said()
         head = slots.get(rule.head)
         taken = {**(head.features if head else {})}
         for key, value in rule.features:
@@ -124,6 +113,8 @@ class Derivation:
         if taken.get("clitic") == "dative":
             taken["clitic"] = "les" if taken.get("number") == "p" else "le"
         verb = next((phrase.verb for phrase in slots.values() if phrase.verb), None)
+        if verb and verb.said:
+            taken.pop("clitic", None)  # said with the verb of this clause, not with that of another
         return Phrase(taken, tokens, signs, head.head if head else (tokens[0] if tokens else None), verb)
 
     def _arguments(
@@ -199,102 +190,3 @@ class Derivation:
         shape = self.chooser.shape(path, shapes)
         features = {**word.features, "lemma": word.lemma, "tense": shape.time, "shape": shape.name}
         return Phrase(features, [], [], verb=SaidVerb(word, shape))
-
-    def _spanish(
-        self,
-        rule: Rule,
-        slots: Mapping[str, Phrase],
-        handed: Mapping[str, str],
-    ) -> tuple[list[Token], dict[str, Token]]:
-        tokens: list[Token] = []
-        literals: dict[str, Token] = {}
-        for item in rule.spanish:
-            if item.word:
-                token = Token(item.word)
-                if item.agree:
-                    features = slots[item.agree].features
-                    column = ("ms", "fs", "mp", "fp").index(
-                        features.get("gender", "m")[0] + features.get("number", "s")
-                    )
-                    token = Token(self.grammar.paradigms[item.word][column], column == 1)
-                again = 2
-                key = item.word
-                while key in literals:
-                    key, again = f"{item.word}#{again}", again + 1
-                literals[key] = token
-                tokens.append(token)
-            else:
-                phrase = slots[item.slot]
-                if phrase.verb and not phrase.verb.said:
-                    subject = slots[item.agree] if item.agree else None
-                    self._say(rule, phrase, subject, slots, handed)
-                elif item.agree and phrase.verb and phrase.verb.said:
-                    slots[item.agree].say(VERB, phrase.verb.said.finite)
-                tokens += phrase.tokens
-        return tokens, literals
-
-    def _say(
-        self,
-        rule: Rule,
-        phrase: Phrase,
-        subject: Phrase | None,
-        slots: Mapping[str, Phrase],
-        handed: Mapping[str, str],
-    ) -> None:
-        verb = phrase.verb
-        assert verb is not None
-        features = subject.features if subject else handed
-        person = features.get("person", "3") + features.get("number", "s")
-        carrying = [each for each in slots.values() if "clitic" in each.features]
-        try:
-            said = say_verb(
-                self.words,
-                verb.word.lemma,
-                verb.shape,
-                person,
-                [each.features["clitic"] for each in carrying],
-                pronominal=bool(verb.word.features.get("pronominal")),
-            )
-        except TranslationError as error:
-            if verb.shape.mood == "imp":
-                raise NoFillerError(str(error)) from error
-            raise TranslationError(error.code, f"{rule.where}: {error}") from error
-        verb.said = said
-        phrase.tokens = said.tokens
-        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said)
-        phrase.head = said.main
-        for carrier, token in zip(carrying, said.clitics, strict=True):
-            carrier.say(CLITIC, token)
-        if subject:
-            subject.say(VERB, said.finite)
-
-    def _signs(
-        self,
-        item: GlossItem,
-        slots: Mapping[str, Phrase],
-        literals: Mapping[str, Token],
-    ) -> list[Sign]:
-        if item.tense:
-            says = [phrase.features.get("says", "") for phrase in slots.values()]
-            return tense_signs(slots[item.tense].verb, slots.get(item.slot), says)
-        if item.slot:
-            phrase = slots[item.slot]
-            twice = (
-                item.twice and phrase.features.get("number") == "p" and "plural_only" not in phrase.features
-            )
-            return [*phrase.signs, *phrase.signs] if twice else phrase.signs
-        sign = Sign(item.gloss)
-        for source in item.sources:
-            if source in (VERB, CLITIC):
-                sign.pending = source
-            elif source.startswith("{"):
-                head = slots[source.strip("{}")].head
-                if head is not None:
-                    sign.sources.append(head)
-            else:
-                sign.sources.append(literals[source])
-        verb = next((phrase.verb for phrase in slots.values() if phrase.verb), None)
-        if sign.pending == VERB and verb and verb.said:
-            sign.sources.append(verb.said.finite)
-            sign.pending = ""
-        return [sign]

@@ -12,6 +12,10 @@ from teo_sign_translator.corpus.words import Word, WordLists
 _AGREEING_HUNDREDS = 200
 
 
+class NoFillerError(Exception):
+    """Nothing fits a slot this time; another try may succeed."""
+
+
 def word_phrase(words: WordLists, category: str, word: Word, arguments: Mapping[str, str]) -> Phrase:
     """A noun in its number, an adjective that agrees, a name or an adverb.
 

@@ -11,7 +11,8 @@ from pathlib import Path
 from random import Random
 
 from teo_sign_translator.corpus.choosers import RandomChooser
-from teo_sign_translator.corpus.derivation import Derivation, NoFillerError, Sentence
+from teo_sign_translator.corpus.derivation import Derivation, Sentence
+from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule
 from teo_sign_translator.corpus.grammar_file import load_grammar
 from teo_sign_translator.corpus.pairs_file import Pair

@@ -185,7 +185,7 @@ def _check_sides(
     counted = Counter(item.word for item in spanish)
     words = {f"{word}#{n}" if n > 1 else word for word, count in counted.items() for n in range(1, count + 1)}
     for gloss in glosses:
-        for slot in (gloss.slot, gloss.tense):
+        for slot in (gloss.slot, gloss.also, gloss.tense):
             if slot and slot not in names:
                 _fail(where, f"slots {sorted(names)} in 'lse', got '{slot}'")
         for source in gloss.sources:

@@ -3,10 +3,11 @@
 Spanish: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
 `un~n` the paradigm word "un" agreeing with slot n.
 
-LSE: `{X}` the glosses of slot X, `{n*}` the same twice where slot n is plural, `{T/V}` the time expression T
-and, unless it says the tense, PASADO or FUTURO by verb V; `{/V}` the latter alone. `GLOSS` is a gloss that no
-word says, `GLOSS=word+word` one that those words of the Spanish side say (`word#2` the second of them, `{X}`
-the head of a slot), `GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a clitic pronoun says.
+LSE: `{X}` the glosses of slot X, `{n*}` the same twice where slot n is plural, `{n+V}` the same, which the
+head of slot V says too ("da miedo": MIEDO), `{T/V}` the time expression T and, unless it says the tense,
+PASADO or FUTURO by verb V; `{/V}` the latter alone. `GLOSS` is a gloss that no word says, `GLOSS=word+word`
+one that those words of the Spanish side say (`word#2` the second of them, `{X}` the head of a slot),
+`GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a clitic pronoun says.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from teo_sign_translator.errors import TranslationError
 _SLOT = re.compile(r"\{(?P<slot>\w+)(?::(?P<agree>\w+))?\}")
 _AGREEING = re.compile(r"(?P<word>\w+)~(?P<agree>\w+)")
 _LITERAL = re.compile(r"\w+|[¿?¡!,.:]")
-_GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?P<twice>\*?)\}")
+_GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?P<twice>\*?)(?:\+(?P<also>\w+))?\}")
 _TENSE = re.compile(r"\{(?P<time>\w*)/(?P<verb>\w+)\}")
 _GLOSS = re.compile(r"(?P<gloss>[A-ZÁÉÍÓÚÜÑ0-9_]+)(?:=(?P<sources>\S+))?")
 
@@ -49,6 +50,7 @@ class GlossItem:
     Attributes:
         slot: Name of the slot; of the time slot for a tense; else empty.
         twice: Whether the slot's glosses are said twice where it is plural.
+        also: Slot whose head says the glosses too; empty for none.
         tense: Verb slot whose tense is said; else empty.
         gloss: The gloss; empty for slot and tense.
         sources: Words of the Spanish side, `{slot}`s, `VERB` or `CLITIC`.
@@ -56,6 +58,7 @@ class GlossItem:
 
     slot: str = ""
     twice: bool = False
+    also: str = ""
     tense: str = ""
     gloss: str = ""
     sources: tuple[str, ...] = ()
@@ -92,7 +95,7 @@ def parse_glosses(text: str) -> tuple[GlossItem, ...]:
     items: list[GlossItem] = []
     for written in text.split():
         if match := _GLOSS_SLOT.fullmatch(written):
-            items.append(GlossItem(slot=match["slot"], twice=bool(match["twice"])))
+            items.append(GlossItem(match["slot"], bool(match["twice"]), match["also"] or ""))
         elif match := _TENSE.fullmatch(written):
             items.append(GlossItem(slot=match["time"], tense=match["verb"]))
         elif match := _GLOSS.fullmatch(written):

@@ -105,7 +105,8 @@ def tense_signs(verb: SaidVerb | None, time: Phrase | None, says: Collection[str
     said = time.signs if time else []
     gloss = _TENSE_SIGNS.get(verb.shape.time) if verb and verb.shape.mark else None
     if verb is None or gloss is None:
-        return said
+        clear = time.features.get("says", "") if time else ""  # "si mañana hace sol": what follows is to come
+        return [Sign("", tense=clear), *said] if clear in _TENSE_SIGNS else said
     if "any" in says or verb.shape.time in says:
         return [Sign("", tense=verb.shape.time), *said]
     sources = [verb.said.finite] if verb.said else []

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_sign_translator.neural.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable
-from teo_sign_translator.neural.lexis import END_INDEX, READINGS, START_INDEX, Lexis
+from teo_sign_translator.neural.lexis import END_INDEX, READINGS, START_INDEX, UNKNOWN_TAG, Lexis
 from teo_sign_translator.neural.noise import copies
 
 #: Places of "unknown" in the lists of forms and lemmas.
@@ -58,6 +58,8 @@ class WordNumbers:
         glosses: Place of each of the table's glosses in the closed list, -1 if it is not in it.
         form_counts: Occurrences of each form in the training pairs. Shape (forms,).
         lemma_counts: Of each lemma. Shape (lemmas,).
+        nouns: Which tags are those of nouns. Shape (tags,).
+        unknown_tag: Place of the tag of a word of which nothing is known.
     """
 
     forms: Ints
@@ -67,6 +69,8 @@ class WordNumbers:
     glosses: Ints
     form_counts: Ints
     lemma_counts: Ints
+    nouns: NDArray[np.bool_]
+    unknown_tag: int
 
     @classmethod
     def of(cls, table: WordTable, lexis: Lexis, examples: Examples) -> WordNumbers:
@@ -91,6 +95,8 @@ class WordNumbers:
             np.array([lexis.gloss_index.get(gloss, -1) for gloss in table.glosses], np.int64),
             np.bincount(forms, occurrences, len(lexis.forms)).astype(np.int64),
             np.bincount(lemmas.ravel(), np.repeat(occurrences, READINGS), len(lexis.lemmas)).astype(np.int64),
+            np.array([key.startswith("N:") for key in lexis.tags]),
+            lexis.tag_index[UNKNOWN_TAG],
         )
 
 
@@ -142,9 +148,9 @@ def _batch(
     rows[:, 0] = ROOT_ROW
     rows[:, 1 : 1 + length] = examples.words.reshape(count, length)
     width = rows.shape[1]
-    forms, lemmas = numbers.forms[rows], numbers.lemmas[rows]
+    forms, lemmas, tags = numbers.forms[rows], numbers.lemmas[rows], numbers.tags[rows]
     if random is not None and rare_word > 0:
-        forms, lemmas = _hide(forms, lemmas, numbers, random, rare_word)
+        forms, lemmas, tags = _hide(forms, lemmas, tags, numbers, random, rare_word)
 
     gloss_counts = np.diff(examples.gloss_start)
     steps = int(gloss_counts.max(initial=0)) + 1
@@ -172,15 +178,23 @@ def _batch(
     said_copy[:, 1:] = ways.argmax(axis=2)[:, :-1]
     weight = (np.arange(steps) <= gloss_counts[:, None]).astype(np.float32)
     return Batch(
-        forms, numbers.capitals[rows], lemmas, numbers.tags[rows],
+        forms, numbers.capitals[rows], lemmas, tags,
         said, said_copy, target, ways, looks, weight,
     )  # fmt: skip
 
 
 def _hide(
-    forms: Ints, lemmas: Ints, numbers: WordNumbers, random: np.random.Generator, rare_word: float
-) -> tuple[Ints, Ints]:
-    """Show rare words as unknown: the form, and sometimes its lemmas with it."""
+    forms: Ints,
+    lemmas: Ints,
+    tags: Ints,
+    numbers: WordNumbers,
+    random: np.random.Generator,
+    rare_word: float,
+) -> tuple[Ints, Ints, Ints]:
+    """Show rare words as unknown: the form, and sometimes its lemmas with it.
+
+    Half of the nouns that are hidden are tagged as a word of which nothing is known ("whatsapp"), too.
+    """
     draw = random.random(forms.shape)
     form_odds = rare_word / (rare_word + numbers.form_counts)
     lemma_odds = rare_word / (rare_word + numbers.lemma_counts)
@@ -188,7 +202,11 @@ def _hide(
     # The commonest reading decides, or a word would be hidden because it may also be something rare.
     together = np.where(lemmas > 0, lemma_odds[lemmas], 1.0).min(axis=-1)
     hide = (draw < together) & (lemmas[..., 0] > 0)
+    untag = hide & (draw < together / 2) & (lemmas[..., 1] == 0) & numbers.nouns[tags[..., 0]]
+    tags = tags.copy()
+    tags[untag, 0] = numbers.unknown_tag
     return (
         np.where(draw < form_odds[forms], _UNKNOWN_FORM, forms),
         np.where(hide[..., None] & (lemmas > 0), _UNKNOWN_LEMMA, lemmas),
+        tags,
     )

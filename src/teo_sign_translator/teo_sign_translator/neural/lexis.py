@@ -20,6 +20,8 @@ READINGS = 4
 #: First entries of the lists. ROOT stands before the sentence: what no word says is aligned with it. BLANK
 #: stands behind it in the equal-length layout, where glosses that outnumber the words find room.
 UNKNOWN, ROOT, BLANK = "<unknown>", "<root>", "<blank>"
+#: Tag key of a word of which nothing is known; in every list of tags.
+UNKNOWN_TAG = "X:guessed"
 #: Place of "no reading" in the lists of lemmas and tags.
 NONE = "<none>"
 #: First glosses of every closed list of glosses.
@@ -91,6 +93,7 @@ class Lexis:
         cls, forms: Sequence[str], lemmas: Sequence[str], tags: Sequence[str], glosses: Sequence[str]
     ) -> Lexis:
         """Lists with the fixed entries first; the parts are those of the tags."""
+        tags = list(dict.fromkeys((*tags, UNKNOWN_TAG)))
         parts = sorted({part for key in tags for part in tag_parts(key)})
         return cls(
             (*_FORMS, *forms), (*_LEMMAS, *lemmas), (*_TAGS, *tags), tuple(parts), (*_GLOSSES, *glosses)

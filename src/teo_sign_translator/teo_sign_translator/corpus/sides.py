@@ -1,0 +1,126 @@
+"""Says the two sides of a rule whose slots are filled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from teo_sign_translator.corpus.fillers import NoFillerError
+from teo_sign_translator.corpus.grammar import Rule
+from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem, SpanishItem
+from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
+from teo_sign_translator.corpus.verb_phrase import say_verb, tense_signs, verb_signs
+from teo_sign_translator.corpus.words import WordLists
+from teo_sign_translator.errors import TranslationError
+
+_COLUMNS = ("ms", "fs", "mp", "fp")
+
+
+@dataclass
+class Sides:
+    """A rule on the way to be said.
+
+    Attributes:
+        rule: Whose sides.
+        slots: What fills its slots; the verbs among it are said here.
+        handed: Features handed down to the rule: the person of a verb without a subject of its own.
+        words: Inflects.
+        paradigms: Forms of agreeing words, in the order masculine and feminine singular, then plural.
+    """
+
+    rule: Rule
+    slots: Mapping[str, Phrase]
+    handed: Mapping[str, str]
+    words: WordLists
+    paradigms: Mapping[str, tuple[str, str, str, str]]
+    _literals: dict[str, Token] = field(default_factory=dict)
+
+    def said(self) -> tuple[list[Token], list[Sign]]:
+        """The Spanish words, then the glosses.
+
+        Raises:
+            NoFillerError: If a verb has no such imperative.
+            TranslationError: "no_form" if it has no other form that it should have.
+        """
+        tokens = [token for item in self.rule.spanish for token in self._tokens(item)]
+        return tokens, [sign for item in self.rule.glosses for sign in self._signs(item)]
+
+    def _tokens(self, item: SpanishItem) -> list[Token]:
+        if item.word:
+            return [self._literal(item)]
+        phrase = self.slots[item.slot]
+        subject = self.slots[item.agree] if item.agree else None
+        if phrase.verb and not phrase.verb.said:
+            self._say(phrase, phrase.verb, subject)
+        elif subject and phrase.verb and phrase.verb.said:
+            subject.say(VERB, phrase.verb.said.finite)
+        return phrase.tokens
+
+    def _literal(self, item: SpanishItem) -> Token:
+        token = Token(item.word)
+        if item.agree:
+            features = self.slots[item.agree].features
+            column = _COLUMNS.index(features.get("gender", "m")[0] + features.get("number", "s"))
+            token = Token(self.paradigms[item.word][column], _COLUMNS[column] == "fs")
+        key, again = item.word, 2
+        while key in self._literals:
+            key, again = f"{item.word}#{again}", again + 1
+        self._literals[key] = token
+        return token
+
+    def _say(self, phrase: Phrase, verb: SaidVerb, subject: Phrase | None) -> None:
+        features = subject.features if subject else self.handed
+        carrying = [each for each in self.slots.values() if "clitic" in each.features]
+        try:
+            said = say_verb(
+                self.words,
+                verb.word.lemma,
+                verb.shape,
+                features.get("person", "3") + features.get("number", "s"),
+                [each.features["clitic"] for each in carrying],
+                pronominal=bool(verb.word.features.get("pronominal")),
+            )
+        except TranslationError as error:
+            if verb.shape.mood == "imp":
+                raise NoFillerError(str(error)) from error
+            raise TranslationError(error.code, f"{self.rule.where}: {error}") from error
+        verb.said = said
+        phrase.tokens = said.tokens
+        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said)
+        phrase.head = said.main
+        for carrier, token in zip(carrying, said.clitics, strict=True):
+            carrier.say(CLITIC, token)
+        if subject:
+            subject.say(VERB, said.finite)
+
+    def _signs(self, item: GlossItem) -> list[Sign]:
+        if item.tense:
+            says = [phrase.features.get("says", "") for phrase in self.slots.values()]
+            return tense_signs(self.slots[item.tense].verb, self.slots.get(item.slot), says)
+        return self._of_slot(item) if item.slot else [self._gloss(item)]
+
+    def _of_slot(self, item: GlossItem) -> list[Sign]:
+        phrase = self.slots[item.slot]
+        signs = phrase.signs
+        also = self.slots[item.also].head if item.also else None
+        if also:
+            signs = [replace(sign, sources=[*sign.sources, also]) for sign in signs]
+        several = phrase.features.get("number") == "p" and "plural_only" not in phrase.features
+        return [*signs, *signs] if item.twice and several else signs
+
+    def _gloss(self, item: GlossItem) -> Sign:
+        sign = Sign(item.gloss)
+        for source in item.sources:
+            if source in (VERB, CLITIC):
+                sign.pending = source
+            elif source.startswith("{"):
+                head = self.slots[source.strip("{}")].head
+                if head is not None:
+                    sign.sources.append(head)
+            else:
+                sign.sources.append(self._literals[source])
+        verb = next((phrase.verb for phrase in self.slots.values() if phrase.verb), None)
+        if sign.pending == VERB and verb and verb.said:
+            sign.sources.append(verb.said.finite)
+            sign.pending = ""
+        return sign
