@@ -2,7 +2,7 @@
 
 MediaPipe's world landmarks tell how fingers bend against the palm, but neither how the hand is turned nor how
 large it is: on rendered hands the step in depth along a bone of the palm was off by 27 mm (root mean square),
-that along a finger's bone by 15 mm, but by 12 mm once the shape lay on the true palm. So only the directions of
+that along a finger's bone by 15 mm, but by 12 mm once the shape lay on the true palm. So only directions of
 bones are taken from it; their lengths are the person's, and the whole is turned to where the depths are.
 """
 
