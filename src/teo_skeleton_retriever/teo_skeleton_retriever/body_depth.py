@@ -18,7 +18,7 @@ from teo_skeleton_retriever.filtered import points_of
 from teo_skeleton_retriever.keypoint_filter import FilterOutput
 from teo_skeleton_retriever.person_layout import ARMS, ROW
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.skin import BODY_DEPTHS, along_ray
+from teo_skeleton_retriever.skin import BODY_CAPS, BODY_DEPTHS, along_ray
 
 _N = len(BODY_25)
 _LEGS = [[ROW[f"{side}{joint}"] for joint in ("Hip", "Knee", "Ankle")] for side in ("R", "L")]
@@ -27,14 +27,14 @@ _TRUNK = np.array(
 )
 _SHOULDERS = np.array([ROW[name] for name in ("Neck", "RShoulder", "LShoulder")])
 _HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
-_AXES = np.array(
+_LIMBS = np.array(
     [
-        (ROW[f"{side}{joint}"], ROW[f"{side}{before}"])
+        (ROW[f"{side}{joint}"], ROW[f"{side}{other}"])
         for side in ("R", "L")
-        for joint, before in (("Elbow", "Shoulder"), ("Wrist", "Elbow"), ("Knee", "Hip"), ("Ankle", "Knee"))
+        for joint, other in (("Shoulder", "Elbow"), ("Elbow", "Shoulder"), ("Knee", "Hip"), ("Ankle", "Knee"))
     ]
 )
-"""Joints that lie on a limb, and where that limb begins."""
+"""Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on."""
 
 _SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
 _HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
@@ -144,9 +144,9 @@ class BodyDepth:
             return np.zeros(_N), np.zeros(_N)
         radius = BODY_DEPTHS * size.scale
         points = points_of(before)
-        axis = np.full((_N, 3), np.nan)
-        axis[_AXES[:, 0]] = points[_AXES[:, 0]] - points[_AXES[:, 1]]
-        behind = along_ray(radius, axis, points)
+        limb = np.full((_N, 3), np.nan)
+        limb[_LIMBS[:, 0]] = points[_LIMBS[:, 1]] - points[_LIMBS[:, 0]]
+        behind = along_ray(radius, limb, points, BODY_CAPS)
         return behind, behind - radius
 
     def _solve_arm(

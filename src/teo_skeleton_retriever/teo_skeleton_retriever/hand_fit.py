@@ -4,7 +4,7 @@ Every keypoint lies on its viewing ray; its depth minimises the sum of
 - its misfit to the measured surface (robust: fingers hide each other, pixels beside a finger see the chest),
 - the misfit of each bone to its length, which grows with the person,
 - the misfit of each bone's step in depth to the shape that the detector imagines (MediaPipe's world
-  landmarks), scaled to the hand,
+  landmarks), of the size of the hand and turned to where its depths are (`hand_shape`),
 - the misfit of the wrist to where it is by the arm, which counts where nothing is measured.
 """
 
@@ -16,12 +16,18 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.depth_lookup import Surfaces
-from teo_skeleton_retriever.hand_21 import HAND_21
+from teo_skeleton_retriever.hand_shape import (
+    CHILD,
+    PALM_BONES,
+    PARENT,
+    RIGID,
+    N,
+    imagined_bones,
+    laid,
+    turned,
+)
 from teo_skeleton_retriever.skin import HAND_DEPTHS
 
-N = len(HAND_21)
-_CHILD = np.arange(1, N)
-_PARENT = np.array([0 if i % 4 == 1 else i - 1 for i in range(1, N)])
 BONES: FloatArray = np.array(
     [
         *(0.040, 0.042, 0.032, 0.026),  # thumb
@@ -34,14 +40,20 @@ BONES: FloatArray = np.array(
 """[m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
 the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""
 
-_BONE_SIGMA = 0.006  # [m] people's proportions differ, and a pixel is 2 to 3 mm
-_SHAPE_SIGMA = 0.012  # [m] the detector's imagination of a bone's step in depth
-_FLAT_SIGMA = 0.03  # [m] without it: a hand is about across the view
+_BONE_SIGMA = 0.008  # [m] people's proportions differ, and a pixel is 2 to 3 mm
+_STEP_SIGMA = np.where(PALM_BONES, 0.010, 0.012)
+"""[m] Of a bone's step in depth by the imagined shape, once that is turned. Shape (20,)"""
+_RELIEF = np.tile([1.0, 1.0, 0.7, 0.4], 5)
+"""How much of the imagined step in depth there is, from a finger's first bone to its last: where its end
+points is hardly more than a guess, which is best made small."""
+_FLAT_SIGMA = 0.03  # [m] without an imagined shape: a hand is about across the view
 _DATA_SIGMA = 0.006  # [m] how far the skin of a finger differs from a tube
 _OUTLIER = 0.02  # [m] beyond it a measured surface is another's: two fingers' thickness
-_NARROWING = (0.12, 0.06, 0.03, 0.02)
-"""[m] The same, from step to step of the solution: from half a hand, so that a shape imagined wrongly is put
-right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
+_NARROWING = (0.06, 0.03, 0.03)
+"""[m] The same, from step to step of the solution: from three fingers, so that a shape imagined wrongly is
+put right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
+_HAND = 0.2  # [m] a hand's length: what is measured farther from where it is imagined is not the hand
+_UNMEASURED = 0.1  # how a keypoint that is not measured counts against one that is, for how a hand is turned
 _ANCHOR_SIGMA = 0.03  # [m] of the wrist's depth by the arm, as far as the hand is concerned
 _EXPECTED_SIGMA = 0.1  # [m] how far a hand moves in depth from image to image, and more
 _IMAGINED = 2.0  # errors over sigma of what follows from the shape alone, on rendered people
@@ -104,21 +116,41 @@ def fit_hands(hands: list[HandView], scale: float, bones: FloatArray = BONES) ->
 
 class _Start(NamedTuple):
     depths: FloatArray
-    steps: FloatArray
-    step_sigma: float
+    """where the joints may be [m]. Shape (21,)"""
+    trust: FloatArray
+    """how each of them counts. Shape (21,)"""
+    bones: FloatArray
+    """as imagined [m]; zero if they are not. Shape (20, 3)"""
+    step_sigma: FloatArray
+    """of the bones' steps in depth [m]. Shape (20,)"""
     anchor: float
+    """depth of the wrist [m]"""
 
 
-def _start(hand: HandView, radius: FloatArray, bones: FloatArray) -> _Start | None:
+def _start(hand: HandView, radius: FloatArray, lengths: FloatArray) -> _Start | None:
     seen = np.isfinite(hand.rays[:, 0])
     if seen.sum() < N // 2:
         return None
-    steps, sigma = _steps(hand, float(bones.sum()))
+    bones, step_sigma = np.zeros((N - 1, 3)), np.full(N - 1, _FLAT_SIGMA)
+    if hand.world is not None:
+        bones, step_sigma = imagined_bones(hand.world, lengths), _STEP_SIGMA
+    # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
+    towards = np.append(np.nanmean(hand.rays, axis=0), 1.0)
+    steps = bones @ _turned_axis(towards / np.linalg.norm(towards))
     offsets = np.append(0.0, np.cumsum(steps.reshape(5, 4), axis=1).ravel())
     wrist = _wrist_depth(hand, radius, offsets)
     if not np.isfinite(wrist):
         return None
-    return _Start(wrist + offsets, steps, sigma, hand.wrist if np.isfinite(hand.wrist) else wrist)
+    imagined = wrist + offsets
+    measured = hand.surfaces.closest(imagined - radius).depth + radius
+    near = np.abs(measured - imagined) < _HAND
+    return _Start(
+        np.where(near, measured, imagined),
+        seen * np.where(near, 1.0, _UNMEASURED),
+        bones,
+        step_sigma,
+        hand.wrist if np.isfinite(hand.wrist) else wrist,
+    )
 
 
 def _solve(
@@ -128,17 +160,19 @@ def _solve(
     bends = np.concatenate([np.stack([h.rays for h in hands]), np.ones((k, N, 1))], axis=2)
     seen = np.isfinite(bends[..., 0])
     bends = np.where(seen[..., None], bends, 0.0)
-    depths = np.stack([start.depths for start in starts])
-    steps = np.stack([start.steps for start in starts])
-    step_weight = np.array([1.0 / start.step_sigma for start in starts])[:, None]
-    bone_weight = np.where(seen[:, _CHILD] & seen[:, _PARENT], 1.0 / _BONE_SIGMA, 0.0)
+    imagined = np.stack([start.bones for start in starts])
+    step_weight = 1.0 / np.stack([start.step_sigma for start in starts])
+    bone_weight = np.where(seen[:, CHILD] & seen[:, PARENT], 1.0 / _BONE_SIGMA, 0.0)
     slope = np.zeros((k, 2 * (N - 1), N))  # of the misfits of bones, then of steps
-    bone_row, step_row = _CHILD - 1, _CHILD + N - 2
-    slope[:, step_row, _CHILD], slope[:, step_row, _PARENT] = step_weight, -step_weight
+    bone_row, step_row = CHILD - 1, CHILD + N - 2
+    slope[:, step_row, CHILD], slope[:, step_row, PARENT] = step_weight, -step_weight
     surfaces = Surfaces(
         *(np.concatenate(arrays) for arrays in zip(*(h.surfaces for h in hands), strict=True))
     )
     anchor = np.array([start.anchor for start in starts])
+    depths = laid(
+        imagined, bends, np.stack([start.depths for start in starts]), np.stack([s.trust for s in starts])
+    )
     normal, weight = np.zeros((k, N, N)), np.zeros((k, N))
     diagonal = np.arange(N)
     for outlier in _NARROWING:
@@ -149,23 +183,26 @@ def _solve(
         certain = 1.0 / (np.where(known, chosen.sigma.reshape(k, N), 1.0) ** 2 + _DATA_SIGMA**2)
         weight = np.where(known & seen, certain, 0.0) / (1.0 + (off / outlier) ** 2) ** 2
         weight[_hidden(bends, depths)] = 0.0
-        bones = bends[:, _CHILD] * depths[:, _CHILD, None] - bends[:, _PARENT] * depths[:, _PARENT, None]
+        bones = bends[:, CHILD] * depths[:, CHILD, None] - bends[:, PARENT] * depths[:, PARENT, None]
+        trust = seen * (_UNMEASURED + weight * _DATA_SIGMA**2)
+        trust = np.minimum(trust[:, CHILD], trust[:, PARENT]) * RIGID[CHILD]
+        steps = _RELIEF * turned(imagined, bones, trust)[..., 2]
         lengths = np.sqrt((bones * bones).sum(axis=2)) + 1e-9
         unit = bones * (bone_weight / lengths)[..., None]
-        slope[:, bone_row, _CHILD] = (unit * bends[:, _CHILD]).sum(axis=2)
-        slope[:, bone_row, _PARENT] = -(unit * bends[:, _PARENT]).sum(axis=2)
+        slope[:, bone_row, CHILD] = (unit * bends[:, CHILD]).sum(axis=2)
+        slope[:, bone_row, PARENT] = -(unit * bends[:, PARENT]).sum(axis=2)
         missed = np.concatenate(
             [
                 (lengths - length) * bone_weight,
-                (depths[:, _CHILD] - depths[:, _PARENT] - steps) * step_weight,
+                (depths[:, CHILD] - depths[:, PARENT] - steps) * step_weight,
             ],
             axis=1,
         )
-        turned = slope.transpose(0, 2, 1)
-        normal = turned @ slope
+        down = slope.transpose(0, 2, 1)
+        normal = down @ slope
         normal[:, diagonal, diagonal] += weight
         normal[:, 0, 0] += 1.0 / _ANCHOR_SIGMA**2
-        right = weight * off - (turned @ missed[..., None])[..., 0]
+        right = weight * off - (down @ missed[..., None])[..., 0]
         right[:, 0] += (anchor - depths[:, 0]) / _ANCHOR_SIGMA**2
         depths = depths + np.linalg.solve(normal, right[..., None])[..., 0]
     sigma = np.sqrt(np.linalg.inv(normal)[:, diagonal, diagonal])
@@ -179,31 +216,14 @@ def _solve(
 def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
     """Tell which keypoints are behind another part of their hand, which is seen there. Shape (k, 21)."""
     points = bends * depths[..., None]
-    parts = np.concatenate([points, (points[:, _CHILD] + points[:, _PARENT]) / 2.0], axis=1)
+    parts = np.concatenate([points, (points[:, CHILD] + points[:, PARENT]) / 2.0], axis=1)
     away = parts[:, None, :, :] - points[:, :, None, :]
     beside = away[..., 0] ** 2 + away[..., 1] ** 2 < _FINGER**2
     hidden: BoolArray = np.asarray((beside & (away[..., 2] < -_FINGER)).any(axis=2))
     return hidden
 
 
-def _steps(hand: HandView, total: float) -> tuple[FloatArray, float]:
-    """Give the step in depth along each bone by the imagined shape, and their sigma [m]. Shape (20,).
-
-    Args:
-        hand: what is seen of it.
-        total: length of its bones [m].
-    """
-    if hand.world is None:
-        return np.zeros(N - 1), _FLAT_SIGMA
-    bones = hand.world[_CHILD] - hand.world[_PARENT]
-    size = total / max(float(np.sqrt((bones**2).sum(axis=1)).sum()), 1e-6)
-    # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
-    towards = np.append(np.nanmean(hand.rays, axis=0), 1.0)
-    steps: FloatArray = size * (bones @ _turned(towards / np.linalg.norm(towards)))
-    return steps, _SHAPE_SIGMA
-
-
-def _turned(direction: FloatArray) -> FloatArray:
+def _turned_axis(direction: FloatArray) -> FloatArray:
     """Give what the shortest rotation that brings the optical axis to a direction makes of z. Shape (3,)."""
     return np.array([-direction[0], -direction[1], direction[2]])
 

@@ -52,17 +52,25 @@ class KeypointFilter:
     """Filters the keypoints of one part of one person."""
 
     def __init__(
-        self, n: int, *, acceleration: float | FloatArray, hold_time: float, smoothing: float
+        self,
+        n: int,
+        *,
+        acceleration: float | FloatArray,
+        speed: float | FloatArray = 0.0,
+        hold_time: float,
+        smoothing: float,
     ) -> None:
         """Build a filter of n keypoints that were never seen.
 
         Args:
             n: number of keypoints.
             acceleration: usual standard deviation of their acceleration [m/s^2], one or each. Shape (n,).
+            speed: which they do not exceed [m/s], one or each: a stroke's begin is no outlier. Shape (n,).
             hold_time: a keypoint not seen for longer is forgotten [s].
             smoothing: 1 is the best estimate, 0 none, more is smoother and later.
         """
         self._acceleration = np.broadcast_to(np.asarray(acceleration, dtype=np.float64), (n,))[:, None]
+        self._speed = np.broadcast_to(np.asarray(speed, dtype=np.float64), (n,))
         self._hold_time = hold_time
         self._smoothing = smoothing
         self._state = np.full((2, n, 3), np.nan)  # values, then velocities
@@ -95,8 +103,10 @@ class KeypointFilter:
             across: standard deviation of each across the ray [m]. Shape (n,).
         """
         state, covariance = self._advanced(time)
+        elapsed = 0.0 if self._time is None else time - self._time
         with np.errstate(invalid="ignore"):
             gate = _GATE * np.hypot(np.sqrt(covariance[0, :, :2]), (across * self._scale()[:, 0])[:, None])
+            gate += (self._speed * elapsed * self._scale()[:, 0])[:, None]
             doubtful = (np.abs(rays - state[0, :, :2]) > gate).any(axis=1)
         self._doubts[0] = np.where(doubtful, self._doubts[0] + 1, 0)
         jumped = self._doubts[0] > _PATIENCE
@@ -121,7 +131,9 @@ class KeypointFilter:
         self._time = time
         forgotten = time - self._seen > self._hold_time
         self._state[:, forgotten] = np.nan
-        values = np.where(self._outliers(values, sigma)[:, None] & [False, False, True], np.nan, values)
+        values = np.where(
+            self._outliers(values, sigma, elapsed)[:, None] & [False, False, True], np.nan, values
+        )
         self._correct(values, sigma, elapsed)
         self._begin(values, sigma)
         self._seen[np.isfinite(values[:, :2]).all(axis=1) & self.known] = time
@@ -159,10 +171,10 @@ class KeypointFilter:
         )
         return np.stack([value + moved * velocity, left * velocity]), covariance
 
-    def _outliers(self, values: FloatArray, sigma: FloatArray) -> BoolArray:
+    def _outliers(self, values: FloatArray, sigma: FloatArray, elapsed: float) -> BoolArray:
         """Tell which depths are not to be believed yet. Shape (n,)."""
         with np.errstate(invalid="ignore"):
-            off = np.abs(values[:, 2] - self._state[0, :, 2])
+            off = np.abs(values[:, 2] - self._state[0, :, 2]) - self._speed * elapsed
             doubtful = off > _GATE * np.sqrt(self._covariance[0, :, 2] + sigma[:, 2] ** 2)
         self._doubts[1] = np.where(doubtful, self._doubts[1] + 1, 0)
         jumped = self._doubts[1] > _PATIENCE

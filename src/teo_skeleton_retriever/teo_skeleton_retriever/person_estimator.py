@@ -37,6 +37,7 @@ from teo_skeleton_retriever.person_layout import (
     RADIUS,
     RIGHT_HAND,
     ROW,
+    SPEED,
     N,
 )
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
@@ -74,6 +75,7 @@ class PersonEstimator:
         self._filter = KeypointFilter(
             N,
             acceleration=ACCELERATION,
+            speed=SPEED,
             hold_time=parameters.hold_time,
             smoothing=parameters.smoothing,
         )

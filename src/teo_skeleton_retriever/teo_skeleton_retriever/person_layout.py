@@ -39,6 +39,8 @@ GAP = _each(0.06, 0.03, 0.05)
 finger to the other hand, from a hand to the face."""
 ACCELERATION = _each(5.0, 25.0, 6.0, Elbow=12.0, Wrist=25.0)
 """[m/s^2] Usual standard deviation: a stroke of a sign is 0.3 m in 0.2 s, a nod 5 cm in 0.2 s."""
+SPEED = _each(1.0, 5.0, 1.0, Elbow=3.0, Wrist=5.0)
+"""[m/s] Which nobody exceeds: fast strokes of signs were seen at 2 to 3 m/s, a nod at 0.5 m/s."""
 ACROSS = _each(0.005, 0.004, 0.003)
 """[m] How the detector's keypoints jump across the ray from image to image."""
 PIXEL = _each(0.5, 0.5, 0.4)

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from capsule_person import imagined_shape, pose
+from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.depth_lookup import Surfaces
 from teo_skeleton_retriever.hand_fit import HandFit, HandView, fit_hands
@@ -54,6 +55,15 @@ def test_a_hand_across_the_view_is_sure_of_its_depth() -> None:
 @pytest.mark.parametrize("hand", [HAND, BENT])
 def test_the_shape_evens_out_noise(hand: np.ndarray) -> None:
     assert np.mean([error(fit(view(hand, noise=0.01, seed=i)), hand) for i in range(10)]) < 0.0075
+
+
+@pytest.mark.parametrize("hand", [HAND, BENT])
+@pytest.mark.parametrize("tilt", [(0.9, 0.0, 0.0), (-0.9, 0.0, 0.0), (0.0, 0.9, 0.0), (0.0, -0.9, 0.0)])
+def test_a_shape_imagined_leaning_the_wrong_way_does_not_outweigh_what_is_measured(
+    hand: np.ndarray, tilt: tuple[float, float, float]
+) -> None:
+    leaning = imagined_shape(hand) @ Rotation.from_rotvec(tilt).as_matrix()
+    assert error(fit(view(hand, world=leaning)), hand) < 0.006
 
 
 def test_fingers_without_depth_follow_from_the_shape() -> None:

@@ -94,6 +94,17 @@ def test_a_single_jump_sideways_is_not_believed_three_in_a_row_are() -> None:
     assert filter_.believable(1.0, np.array([[0.1, -0.2]]), across)[0]
 
 
+def test_a_stroke_that_begins_within_what_arms_can_do_is_believed_at_once() -> None:
+    """3 m/s from rest, sideways and in depth; twice the greatest speed is not believed."""
+    for speed, expected in ((3.0, True), (10.0, False)):
+        filter_ = KeypointFilter(1, acceleration=25.0, speed=5.0, hold_time=0.3, smoothing=1.0)
+        play(filter_, still(30, 1))
+        moved = np.array([[0.1 + speed / RATE / 1.5, -0.2, 1.5 + speed / RATE]])
+        across = np.array([0.005])
+        assert filter_.believable(1.0, moved[:, :2], across)[0] == expected
+        assert filter_.step(1.0, moved, SIGMA[None]).fresh[0] == expected
+
+
 def test_a_keypoint_seen_without_depth_moves_in_the_image() -> None:
     filter_ = make()
     play(filter_, still(20, 1))
