@@ -47,15 +47,14 @@ def seen_by_whole(images: Iterable[NDArray[np.uint8]]) -> list[dict[str, FloatAr
     ]
 
 
-def test_pose_and_hands_are_those_of_the_whole_graph_and_the_face_is_nearly(images: Images) -> None:
-    for ours, whole in zip(seen_by_ours(images), seen_by_whole(images), strict=True):
-        for part in ("pose", "left_hand", "right_hand"):
-            # To a tenth of a pixel: ours projects with the image's size, which rounds otherwise.
-            np.testing.assert_allclose(getattr(ours, part)[:, :2], whole[part][:, :2], atol=0.1 / 640.0)
-        assert ours.face is not None
-        assert whole["face"] is not None
-        off = np.linalg.norm((ours.face - whole["face"])[:, :2] * [640.0, 480.0], axis=1)
-        assert off.mean() < 1.0  # [px] followed a bit longer before it is looked for anew
+def test_it_finds_what_the_whole_graph_finds(images: Images) -> None:
+    for i, (ours, whole) in enumerate(zip(seen_by_ours(images), seen_by_whole(images), strict=True)):
+        for part in PARTS:
+            off = (getattr(ours, part)[:, :2] - whole[part][:, :2]) * [640.0, 480.0]  # [px]
+            # Ours rounds otherwise in the seventh digit, as it projects with the image's size; from image to
+            # image the crops, which follow from what was found before, drift apart a little.
+            assert np.abs(off).max() < (0.1 if i == 0 else 2.0)
+            assert np.linalg.norm(off, axis=1).mean() < 1.0
 
 
 @pytest.mark.parametrize("step", [30, 200])
