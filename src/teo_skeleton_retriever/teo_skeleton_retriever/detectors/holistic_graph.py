@@ -12,30 +12,14 @@ import threading
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
-from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
-import mediapipe
 import numpy as np
-from mediapipe.calculators.tensor.tensors_to_detections_calculator_pb2 import (
-    TensorsToDetectionsCalculatorOptions,
-)
-from mediapipe.calculators.util.thresholding_calculator_pb2 import ThresholdingCalculatorOptions
-from mediapipe.framework import calculator_pb2
-from mediapipe.framework.tool.switch_container_pb2 import SwitchContainerOptions
-from mediapipe.python import (
-    CalculatorGraph,
-    ImageFormat,
-    Packet,
-    ValidatedGraphConfig,
-    packet_creator,
-    packet_getter,
-    resource_util,
-)
+from mediapipe.python import CalculatorGraph, ImageFormat, Packet, packet_creator, packet_getter
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray
+from teo_skeleton_retriever.detectors.holistic_configuration import holistic_configuration
 from teo_skeleton_retriever.detectors.native_output import silenced
 from teo_skeleton_retriever.errors import DetectorError
 
@@ -58,25 +42,6 @@ _SIDES = {"left_hand": f"{_LEFT}handedness", "right_hand": f"{_RIGHT}handedness"
 _STREAMS = (*_LANDMARKS.values(), *_SCORES.values(), *_SIDES.values())
 _MIRRORED = {"left_hand": "Right", "right_hand": "Left"}
 """What the network calls hands: it takes images for those of a mirror."""
-_DETECTION_NODE = "poselandmarkcpu__posedetectioncpu__TensorsToDetectionsCalculator"
-_TRACKING_NODE = (
-    "poselandmarkcpu__poselandmarkbyroicpu__tensorstoposelandmarksandsegmentation__ThresholdingCalculator"
-)
-_HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
-_SIDE_INPUTS = MappingProxyType(
-    {
-        # The only pose model that comes with the package; the two others would be downloaded.
-        "model_complexity": 1,
-        # A filter over the pose makes the hands' crops trail: at 1.5 m/s the pose's wrist comes 0.2 frames
-        # late with twice the error, and the hand is lost in 3 of 60 frames; without it in none.
-        "smooth_landmarks": False,
-        "use_prev_landmarks": True,
-        # Gives the pupils, and finer eyes and lips, for 2 ms.
-        "refine_face_landmarks": True,
-        "enable_segmentation": False,
-        "smooth_segmentation": False,
-    }
-)
 _FRAME_US = 33_333
 """Between two images on the graph's clock. It only orders them: nothing in the graph depends on time without
 the filter."""
@@ -173,14 +138,18 @@ class HolisticGraph:
         self._results = _Results()
         self._closed = False
         self._time_us = 0
-        self._graph = CalculatorGraph(
-            graph_config=_configuration(min_detection_confidence, min_tracking_confidence, lite_hands)
+        configuration, side_packets = holistic_configuration(
+            _STREAMS,
+            min_detection_confidence=min_detection_confidence,
+            min_tracking_confidence=min_tracking_confidence,
+            lite_hands=lite_hands,
         )
+        self._graph = CalculatorGraph(graph_config=configuration)
         for stream in _STREAMS:
             # With bounds, a stream also says that it has nothing for an image.
             self._graph.observe_output_stream(stream, self._results.on_packet, True)
         with silenced():  # each model announces itself as it is loaded
-            self._graph.start_run({name: _side_packet(value) for name, value in _SIDE_INPUTS.items()})
+            self._graph.start_run(side_packets)
             self._graph.wait_until_idle()
 
     def process(self, image: ImageArray) -> HolisticLandmarks:
@@ -214,34 +183,6 @@ class HolisticGraph:
             with suppress(RuntimeError):  # a graph that has failed says so once more
                 self._graph.wait_until_idle()
                 self._graph.close()
-
-
-def _configuration(min_detection_confidence: float, min_tracking_confidence: float, lite_hands: bool) -> Any:
-    """Read the packaged graph and set what may be set."""
-    folder = Path(mediapipe.__file__).parent
-    resource_util.set_resource_dir(str(folder.parent))  # the models' paths in the graph start above
-    packaged = ValidatedGraphConfig()
-    packaged.initialize(
-        binary_graph_path=str(folder / "modules/holistic_landmark/holistic_landmark_cpu.binarypb")
-    )
-    configuration = calculator_pb2.CalculatorGraphConfig()
-    configuration.ParseFromString(packaged.binary_config)
-    for node in configuration.node:
-        if node.name == _DETECTION_NODE:
-            options = node.options.Extensions[TensorsToDetectionsCalculatorOptions.ext]
-            options.min_score_thresh = min_detection_confidence
-        elif node.name == _TRACKING_NODE:
-            node.options.Extensions[ThresholdingCalculatorOptions.ext].threshold = min_tracking_confidence
-        elif _HAND_MODEL_SWITCH in node.name and node.calculator.startswith("Switch"):
-            node.options.Extensions[SwitchContainerOptions.ext].select = 0 if lite_hands else 1
-        elif node.calculator == "LandmarkProjectionCalculator":
-            # The same result, and no warning that crops must be square: they are.
-            node.input_stream.append("IMAGE_DIMENSIONS:poselandmarkcpu__image_size")
-    return configuration
-
-
-def _side_packet(value: bool | int) -> Packet:
-    return packet_creator.create_bool(value) if isinstance(value, bool) else packet_creator.create_int(value)
 
 
 def _landmarks(packets: Mapping[str, Packet | None]) -> HolisticLandmarks:
