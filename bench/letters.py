@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from report import Figure
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
@@ -158,22 +159,37 @@ def _features(palms: Array, fingers: Array, thumb: Array) -> Array:
 
 
 def main() -> None:
-    """Print what each letter is taken for."""
-    console = Console()
+    """Print what each letter is taken for, and which the hand cannot separate."""
+    console = Console(width=160)  # thirty columns
     found = likenesses()
-    table = Table("TEO's letter", "own recording", "rank", "nearest recordings", "hardly separated from")
+    letters = [one.letter for one in found]
+    table = Table("TEO's", *letters, title="difference from each recording", box=SIMPLE_HEAD, padding=0)
     for one in found:
-        names = one.ranking[:3]
-        table.add_row(
-            one.letter,
-            f"{one.distances[one.letter]:.1f}",
-            f"{one.ranking.index(one.letter) + 1}",
-            ", ".join(f"{name} {one.distances[name]:.1f}" for name in names),
-            ", ".join(one.look_alikes) or "-",
-        )
+        nearest = one.ranking[0]
+        cells = [
+            f"[{'bold green' if one.right else 'bold red'}]{one.distances[name]:.1f}[/]"
+            if name == nearest
+            else f"[bold]{one.distances[name]:.1f}[/]"
+            if name == one.letter
+            else f"[dim]{one.distances[name]:.0f}[/]"
+            for name in letters
+        ]
+        table.add_row(f"[bold]{one.letter}[/]", *cells)
     console.print(table)
+    for one in found:
+        if not one.right:
+            console.print(f"{one.letter} is taken for {one.ranking[0]}: {_differences(one)}")
+    for one in found:
+        if one.right and one.look_alikes:
+            console.print(f"{one.letter} is hardly separated from {_differences(one)}")
     right = sum(one.right for one in found)
     console.print(f"{right} of {len(found)} are most like their own; target {TARGET}")
+
+
+def _differences(one: Likeness) -> str:
+    """The own recording and its look-alikes, with how different each is."""
+    names = [one.letter, *(name for name in one.look_alikes if name != one.letter)]
+    return ", ".join(f"{name} {one.distances[name]:.1f}" for name in names)
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ _STILL_FILM = 1.0
 _SHEET_COLUMNS = 6
 _OVERVIEW_COLUMNS = 16
 _OVERVIEW_SIZE = 200  # [px]
-_OVERVIEW_COLOURS = 256
+_OVERVIEW_COLOURS = 128
 
 
 def pose_at(sign: Sign, time: float) -> dict[str, float]:

@@ -79,9 +79,12 @@ class SelfCollision:
         between = around[:: max(1, len(around) // (2 * _CLOSER))]
         return min((found[closest], *(look(item) for item in between)), key=lambda near: near.distance)
 
-    def distance(self, positions: NDArray[np.float64]) -> float:
-        """The closest that parts are in a posture of the commanded joints [m]."""
-        return float(self._robot.clearance(self._configuration(positions)).distance)
+    def is_nearer(self, positions: NDArray[np.float64], distance: float) -> bool:
+        """Whether parts are nearer than a distance [m] in a posture of the commanded joints.
+
+        It is seen in a part of the time in which it is found how near they are.
+        """
+        return bool(self._robot.contacts(self._configuration(positions), distance))
 
     def _configuration(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         return self._robot.configuration(dict(zip(COMMANDED_JOINTS, positions.tolist(), strict=True)))

@@ -77,3 +77,17 @@ def test_a_joint_on_its_limit_stays_on_it() -> None:
     motion = np.tile(joint_limits(JOINTS).lower, (len(TIMES), 1))
     np.testing.assert_allclose(gentlest(TIMES, JOINTS, motion), motion, atol=FINGER_TUBE)
     assert (gentlest(TIMES, JOINTS, motion) >= motion).all()
+
+
+@pytest.mark.filterwarnings("error")
+def test_steps_and_limits_are_no_trouble_for_the_search() -> None:
+    """Motions whose answer lies on the tube's edge for long: a step, and a joint that leaves its limit."""
+    rng = np.random.default_rng(3)
+    step = np.tile(MIDDLE, (len(TIMES), 1)) + 0.3 * (TIMES > 0.7)[:, None]
+    upper = joint_limits(JOINTS).upper
+    leaving = upper + np.minimum(0.0, np.round(np.cumsum(rng.normal(0.0, 0.05, (len(TIMES), 12)), axis=0), 2))
+    for motion in (step, np.maximum(leaving, joint_limits(JOINTS).lower)):
+        for share in (1.0, 0.5, 0.25, 0.16, 0.02):
+            gentle = gentlest(TIMES, JOINTS, motion, share=share)
+            assert (np.abs(gentle - motion) <= share * tube_radii(JOINTS) + 1e-9).all()
+            assert (gentle <= upper + 1e-12).all()

@@ -10,10 +10,11 @@ import pytest
 
 from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_description.robot import Robot
+from teo_lut_executor.capture.body_map import body_boxes
 from teo_lut_executor.lut import Lut, default_lut_directory
 from teo_lut_executor.lut_error import LutError
 from teo_lut_executor.score.directions import direction
-from teo_lut_executor.score.places import find_place
+from teo_lut_executor.score.places import NAMES, OTHER_HAND, find_place
 from teo_lut_executor.score.retarget import score_sign
 from teo_lut_executor.score.score_file import default_scores_directory, read_score, read_scores
 from teo_lut_executor.sign import Sign
@@ -51,6 +52,18 @@ def made(robot: Robot, folder: Path, text: str) -> Sign:
 
 def palm(robot: Robot, sign: Sign, knot: int, side: str = "right") -> np.ndarray:
     return np.asarray(robot.placement(robot.configuration(sign.pose(knot)), f"{side}_palm"))
+
+
+def test_places_of_the_face_are_on_the_surface_that_hands_stop_at(robot: Robot) -> None:
+    boxes = body_boxes(robot)
+    for name in ("forehead", "temple", "eye", "nose", "ear", "cheek", "mouth", "mouth_corner", "chin"):
+        point = find_place(name).point
+        # How far outside each box, its sides counted from within: 0 on the surface.
+        outside = [float((np.abs(point - middle) - half).max()) for middle, half in boxes]
+        assert abs(min(outside, key=abs)) < 0.001, name
+    for name in set(NAMES) - set(OTHER_HAND):
+        point = find_place(name).point
+        assert all((np.abs(point - middle) - half).max() > -0.001 for middle, half in boxes), name
 
 
 def test_a_hand_goes_where_the_score_says_and_stays(robot: Robot, tmp_path: Path) -> None:

@@ -20,6 +20,10 @@ Array = NDArray[np.float64]
 
 # Deviation of a landmark across the view and in depth [pixel]; the residual of the fits is 2.3 and 8.
 _ACROSS, _DEPTH = 2.5, 10.0
+# The palm is stiff, and its six points tell how it is turned. Where fingers are not the hinges they are taken
+# for - an index pressed aside by the thumb - it is they that give way while the palm is sought: beyond a
+# deviation they pull no harder. T's palm is then 14 deg off what its six points say alone, else 26.
+_FINGER_POINTS = [point for point in range(21) if point not in (WRIST, THUMB, *KNUCKLES)]
 # Fingers spread about their natural direction by 12 deg or so; the last joint follows the middle one at about
 # 0.6 of its angle (they share a tendon), give or take 25 deg.
 _NATURAL_SPREAD = np.radians([-2.0, 0.0, 3.0, 8.0])
@@ -125,12 +129,19 @@ def fit_hand(landmarks: Array, signer: SignerHand) -> HandPose:
     starts = [
         problem.start(Rotation.from_rotvec(turn * axes[:, 1]).as_matrix() @ axes) for turn in (0.0, 0.5, -0.5)
     ]
-    fits = [least_squares(problem.residuals, start, bounds=problem.bounds, max_nfev=60) for start in starts]
-    best = min(fits, key=lambda fit: float(fit.cost))
-    rotation, local = problem.hand(best.x)
+    fits = [least_squares(problem.turned, start, bounds=problem.bounds, max_nfev=60) for start in starts]
+    palm, bent = np.split(min(fits, key=lambda fit: float(fit.cost)).x, [3])
+    fit = least_squares(
+        lambda rest: problem.residuals(np.concatenate([palm, rest])),
+        bent,
+        bounds=tuple(bound[3:] for bound in problem.bounds),
+        max_nfev=60,
+    )
+    best = np.concatenate([palm, fit.x])
+    rotation, local = problem.hand(best)
     seen = local @ rotation.T
     away = (seen - seen.mean(axis=0) - centred)[:, 1:]
-    fingers = best.x[3:19].reshape(4, 4)
+    fingers = best[3:19].reshape(4, 4)
     relative = (local - local[INDEX]) / signer.finger_length
     return HandPose(
         rotation=rotation,
@@ -181,7 +192,15 @@ class _Problem:
         points[THUMB + 1 : THUMB + 4] = points[THUMB] + np.cumsum(x[19:].reshape(3, 3), axis=0)
         return Rotation.from_rotvec(x[:3]).as_matrix(), points
 
+    def turned(self, x: Array) -> Array:
+        """Residuals for the palm's sake: fingers give way."""
+        found = self.residuals(x)
+        across = found[:42].reshape(21, 2)
+        across[_FINGER_POINTS] = _giving_way(across[_FINGER_POINTS])
+        return found
+
     def residuals(self, x: Array) -> Array:
+        """Differences from the landmarks, and from what hands are like, in standard deviations."""
         rotation, local = self.hand(x)
         seen = local @ rotation.T
         away = seen - seen.mean(axis=0) - self._landmarks
@@ -196,6 +215,13 @@ class _Problem:
                 thumb / _THUMB_LENGTH_DEVIATION,
             ]
         )
+
+
+def _giving_way(away: Array) -> Array:
+    """Residuals whose squares grow as their lengths beyond 1 (pseudo-Huber loss). Shape (n, 2)."""
+    length = np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-9)
+    shrunk: Array = away * (np.sqrt(2.0 * (np.hypot(1.0, length) - 1.0)) / length)
+    return shrunk
 
 
 def finger_directions(total_bends: Array, spread: float) -> Array:

@@ -42,6 +42,8 @@ _SHAPE, _SEEN = 0.6, 1.0
 """Weights of the bending plane and of the viewer's plane; chosen by eye on pictures of the thirty letters."""
 _CONTACT = 8.0
 """Weight of a contact of thumb and finger, at distance 0."""
+_SIDE = 1.0
+"""Weight of the side on which the thumb is of a finger that it is at."""
 _EVEN = 3.0
 """[cm/rad] Weight of the differences of neighbouring fingers' flexion: a hand looks torn where one finger of
 four in a claw falls into a fist."""
@@ -133,6 +135,9 @@ class HandProblem:
         # reach it.
         self._contacts = _CONTACT * nearness / max(1.0, float(nearness.sum()))
         self._apart = np.where(apart < _TOUCH + _SURELY_APART, _TOUCH, apart)
+        # A finger that the thumb is near has it on one side or the other: another letter.
+        self._nearness = nearness / max(1.0, float(nearness.sum()))
+        self._beside = (pose.thumb[2, 1] - pose.tips[:, 1]) * FINGER_LENGTH
         self._steps = np.diff(pose.bends.sum(axis=1)) / 3.0
 
     def best_bends(self) -> Array:
@@ -165,6 +170,7 @@ class HandProblem:
                 _SHAPE * (thumb - self._thumb),
                 _SEEN * self._seen(thumb, self._thumb),
                 self._contacts * (apart - self._apart),
+                self._nearness * _SIDE * (points.thumb[2, 1] - points.fingers[:, 3, 1] - self._beside),
                 _PARTED * np.diff(self._seen(fingers, self._fingers), axis=0).ravel(),
                 _OVERLAP * overlap,
                 0.01 * _EVEN * (np.diff(positions[2:]) - self._steps),

@@ -2,7 +2,8 @@
 
 Thirty clips of one signer (collection "ssp"), MediaPipe Holistic landmarks at 25 frames a second. They look
 flat, but are not: width and height were scaled to pixels and the depth was left in MediaPipe's unit, a
-fraction of the picture's width. `DEPTH_SCALE` puts it back.
+fraction of the picture's width. `DEPTH_SCALE` puts it back. Where the tracker of the hand lost it, which the
+tracker of the body tells, the hand is led straight from where it was last seen to where it is seen again.
 """
 
 from __future__ import annotations
@@ -29,6 +30,11 @@ _HAND = "RIGHT_HAND_LANDMARKS"
 WRIST, THUMB, INDEX, MIDDLE, RING, LITTLE = 0, 1, 5, 9, 13, 17
 """MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
 each."""
+_BODY, _BODY_WRIST = "POSE_LANDMARKS", 16
+_LOST = 30.0
+"""[pixel] The hand's wrist is within 27 of the body's in every letter's stroke but Q's, where 15 frames in a
+row have it 34 to 55 away and the hand shrunk to a third: the hand was lost, the arm was not. Wrist to middle
+knuckle is 59."""
 KNUCKLES = (INDEX, MIDDLE, RING, LITTLE)
 PALM = (WRIST, *KNUCKLES)
 
@@ -42,12 +48,14 @@ class LetterClip:
         rate: Frames a second [Hz].
         hand: The 21 landmarks of the right hand [pixel of the normalised clip]: forward (to the viewer, from
             the wrist), to the signer's left, up. Shape (n, 21, 3), read-only.
+        lost: Frames in which the hand was not seen, and is filled in. Shape (n,), read-only.
         file: Name of the recording.
     """
 
     letter: str
     rate: float
     hand: NDArray[np.float64]
+    lost: NDArray[np.bool_]
     file: str
 
 
@@ -82,14 +90,34 @@ def _read(path: Path, letter: str) -> LetterClip:
     try:
         pose = Pose.read(path.read_bytes())
         components = [(component.name, len(component.points)) for component in pose.header.components]
-        start = sum(count for _, count in components[: [name for name, _ in components].index(_HAND)])
-        landmarks = np.asarray(pose.body.data.filled(np.nan), dtype=np.float64)[:, 0, start : start + 21]
+        names = [name for name, _ in components]
+        starts = dict(zip(names, np.cumsum([0, *(count for _, count in components)]).tolist(), strict=False))
+        points = np.asarray(pose.body.data.filled(np.nan), dtype=np.float64)[:, 0]
+        landmarks = points[:, starts[_HAND] : starts[_HAND] + 21]
+        body_wrist = points[:, starts[_BODY] + _BODY_WRIST]
         rate = float(pose.body.fps)
     except Exception as error:  # whatever a damaged file makes of pose-format
         raise LutError("bad_clip", f"{path.name}: expected a pose file with {_HAND}, got: {error}") from error
     if landmarks.shape[1:] != (21, 3) or not np.isfinite(landmarks).all():
         raise LutError("bad_clip", f"{path.name}: expected 21 landmarks in each frame, got some missing")
+    away = np.linalg.norm(landmarks[:, WRIST, :2] - body_wrist[:, :2], axis=1)
+    lost = away > _LOST
+    if lost.all():
+        raise LutError("bad_clip", f"{path.name}: expected a hand at the arm's wrist, got none in any frame")
+    # What is before the first or after the last sight of the hand cannot be led from anywhere: left as it is.
+    seen = np.flatnonzero(~lost)
+    lost[: seen[0]] = lost[seen[-1] :] = False
     depth = landmarks[..., 2] - landmarks[:, WRIST, None, 2]
     hand = np.stack([-DEPTH_SCALE * depth, landmarks[..., 0], -landmarks[..., 1]], axis=-1)
+    hand = _filled(hand, lost)
     hand.setflags(write=False)
-    return LetterClip(letter=letter, rate=rate, hand=hand, file=path.name)
+    lost.setflags(write=False)
+    return LetterClip(letter=letter, rate=rate, hand=hand, lost=lost, file=path.name)
+
+
+def _filled(hand: NDArray[np.float64], lost: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Landmarks with the lost frames led straight from the frame before to the frame after."""
+    frames = np.arange(len(hand))
+    flat = hand.reshape(len(hand), -1)
+    columns = [np.interp(frames, frames[~lost], column[~lost]) for column in flat.T]
+    return np.column_stack(columns).reshape(hand.shape)

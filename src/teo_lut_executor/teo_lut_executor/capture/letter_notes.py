@@ -22,8 +22,9 @@ NOTES: dict[str, str] = {
     "N": f"{_HANGING} Arm as for M.",
     "Ñ": f"{_MOVES_ONLY.format('N')} {_HANGING} Arm as for M.",
     "Q": (
-        "The recording shows the hand end-on and its landmarks jump: handshape (bunched) and forearm turn "
-        "are written down from what is seen before, in and after the stroke, not measured. Doubtful."
+        "The recording's tracker of the hand lost it in 15 of 25 frames, while that of the body saw the arm "
+        "stay: shape and palm are those seen before and after. A movement in between would not be seen. The "
+        "thumb stays off the fingers."
     ),
     "R": "TEO's fingers cannot cross: index and middle stand side by side, closed, where U's part.",
     "RR": f"{_MOVES_ONLY.format('R')} Index and middle side by side instead of crossed.",

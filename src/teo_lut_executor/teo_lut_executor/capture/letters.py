@@ -23,7 +23,6 @@ from teo_lut_executor.capture.letter_clips import LICENCE, PACKAGE, LetterClip, 
 from teo_lut_executor.capture.letter_notes import NOTES
 from teo_lut_executor.capture.measures import clearance_mm, limit_margin_deg
 from teo_lut_executor.capture.stroke import Stroke, find_stroke, palm_centres, reaches, tilts
-from teo_lut_executor.capture.unseen_forms import UNSEEN_FORMS
 from teo_lut_executor.capture.whole_retarget import fit_whole
 from teo_lut_executor.sign import Sign
 from teo_lut_executor.sign_schema import Provenance
@@ -128,10 +127,6 @@ def _held_poses(
     clip: LetterClip, stroke: Stroke, signer: SignerHand
 ) -> tuple[list[HandPose], list[tuple[int, int]]]:
     """The hand of each hold, and the frames of each."""
-    if clip.letter in UNSEEN_FORMS:
-        poses = list(UNSEEN_FORMS[clip.letter])
-        edges = np.linspace(stroke.first, stroke.last + 1, 2 * len(poses)).round().astype(int).tolist()
-        return poses, [(edges[2 * i], edges[2 * i + 1] - 1) for i in range(len(poses))]
     poses = []
     for start, end in stroke.holds:
         hand = clip.hand[start : end + 1]

@@ -1,8 +1,9 @@
 """Places of articulation on TEO: where on the body a sign is made.
 
 Read off the shapes of the robot description with head and trunk at home, for the right hand, in
-``base_link`` [m]. Left and right are mirrored for the left hand. TEO's shoulders are nearly twice as far
-apart as a person's and its head is small; a place is therefore named by the part of the body, never by a
+``base_link`` [m]; on the surface that counts in a collision, which before the face is up to 3 cm off what is
+seen: there a hand stops. Left and right are mirrored for the left hand. TEO's shoulders are nearly twice as
+far apart as a person's and its head is small; a place is therefore named by the part of the body, never by a
 distance from another.
 """
 
@@ -38,15 +39,15 @@ _CHEEK, _TEMPLE = (0.75, -0.66, 0.0), (0.45, -0.89, 0.0)
 # name: point, outward, on the body
 _PLACES: dict[str, tuple[tuple[float, float, float], tuple[float, float, float], bool]] = {
     "head_top": ((0.0, -0.02, 0.815), _UP, True),
-    "forehead": ((0.085, -0.01, 0.770), _FRONT, True),
-    "temple": ((0.045, -0.075, 0.750), _TEMPLE, True),
-    "eye": ((0.080, -0.034, 0.723), _FRONT, True),
-    "nose": ((0.088, 0.0, 0.695), _FRONT, True),
-    "ear": ((0.0, -0.090, 0.710), _OUT, True),
-    "cheek": ((0.060, -0.060, 0.680), _CHEEK, True),
-    "mouth": ((0.085, 0.0, 0.668), _FRONT, True),
-    "mouth_corner": ((0.075, -0.035, 0.668), _CHEEK, True),
-    "chin": ((0.078, 0.0, 0.640), _FRONT, True),
+    "forehead": ((0.102, -0.010, 0.770), _FRONT, True),
+    "temple": ((0.057, -0.099, 0.750), _TEMPLE, True),
+    "eye": ((0.102, -0.034, 0.723), _FRONT, True),
+    "nose": ((0.102, 0.0, 0.695), _FRONT, True),
+    "ear": ((0.0, -0.099, 0.710), _OUT, True),
+    "cheek": ((0.102, -0.060, 0.680), _CHEEK, True),
+    "mouth": ((0.102, 0.0, 0.668), _FRONT, True),
+    "mouth_corner": ((0.102, -0.035, 0.668), _CHEEK, True),
+    "chin": ((0.102, 0.0, 0.640), _FRONT, True),
     "throat": ((0.050, 0.0, 0.590), _FRONT, True),
     "shoulder": ((0.060, -0.300, 0.530), _FRONT, True),
     "other_shoulder": ((0.100, 0.200, 0.500), _FRONT, True),
