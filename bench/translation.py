@@ -1,8 +1,9 @@
 """How well and how fast Spanish is translated: our models, the trivial baseline and a peer, side by side.
 
 The 39 pairs of the paper as published, and typed without accents and marks; generated sentences of words and
-constructions that training never saw; sentences written apart from the generator (test/data/README.md). A translation counts where it is the expected one gloss by gloss, or one that is accepted.
-Spelled words count as the word that they spell.
+constructions that training never saw; sentences written apart from the generator (test/data/README.md). A
+translation counts where it is the expected one gloss by gloss, or one that is accepted. Spelled words count
+as the word that they spell.
 """
 
 from __future__ import annotations
