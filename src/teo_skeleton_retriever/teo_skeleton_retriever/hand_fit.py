@@ -49,8 +49,8 @@ points is hardly more than a guess, which is best made small."""
 _FLAT_SIGMA = 0.03  # [m] without an imagined shape: a hand is about across the view
 _DATA_SIGMA = 0.006  # [m] how far the skin of a finger differs from a tube
 _OUTLIER = 0.02  # [m] beyond it a measured surface is another's: two fingers' thickness
-_NARROWING = (0.06, 0.03, 0.03)
-"""[m] The same, from step to step of the solution: from three fingers, so that a shape imagined wrongly is
+_NARROWING = (0.05, 0.03)
+"""[m] The same, from step to step of the solution: from half a palm, so that a shape imagined wrongly is
 put right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
 _HAND = 0.2  # [m] a hand's length: what is measured farther from where it is imagined is not the hand
 _UNMEASURED = 0.1  # how a keypoint that is not measured counts against one that is, for how a hand is turned

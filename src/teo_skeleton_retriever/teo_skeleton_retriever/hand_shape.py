@@ -25,7 +25,7 @@ PALM_BONES = _PALM[CHILD]
 RIGID = np.where(_PALM, 1.0, 0.3)
 """How a keypoint counts for how a hand is turned: a palm keeps its shape. Shape (21,)"""
 _OUTLIER = 0.025  # [m] farther off the shape a depth is another's: two fingers, and the shape's own error
-_ITERATIONS = 4
+_ITERATIONS = 2  # more were no better on rendered people
 _WRIST_TO = np.zeros((N, N - 1))
 """Which bones lead from the wrist to each keypoint."""
 for _i in range(1, N):

@@ -14,6 +14,7 @@ from teo_skeleton_retriever.body_size import BodySize, widened
 from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.detected import Detected, detected
 from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
+from teo_skeleton_retriever.detector_noise import hand_doubt
 from teo_skeleton_retriever.face_depth import face_depths
 from teo_skeleton_retriever.filtered import keypoints_of
 from teo_skeleton_retriever.frame import Frame
@@ -122,6 +123,8 @@ class PersonEstimator:
         near = np.where(np.isfinite(depth), depth, distance)
         doubt = np.zeros(N)
         doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
+        if self._parameters.detector == "mediapipe":
+            doubt += np.where(_ON_HANDS & seen.seen, hand_doubt(seen.confidence), 0.0)
         across = np.hypot(np.hypot(ACROSS, doubt) / near, PIXEL / frame.camera.fx)
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])

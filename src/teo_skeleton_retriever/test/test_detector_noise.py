@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.detector_noise import across_by_confidence
+from teo_skeleton_retriever.detector_noise import across_by_confidence, hand_doubt
 
 ROW = BODY_25.index
 
@@ -29,3 +29,10 @@ def test_left_and_right_are_alike_and_shoulders_are_as_they_were() -> None:
 
 def test_a_keypoint_that_is_absent_has_a_finite_sigma() -> None:
     assert np.isfinite(at(0.0)).all()
+
+
+def test_a_hand_is_doubted_the_more_the_less_it_seems_to_be_there_and_not_in_plain_view() -> None:
+    doubts = hand_doubt(np.array([1.0, 0.98, 0.9, 0.8, 0.6, 0.0]))
+    assert (np.diff(doubts) >= 0.0).all()
+    assert doubts[0] == doubts[1] == 0.0
+    assert 0.01 < doubts[-1] < 0.03

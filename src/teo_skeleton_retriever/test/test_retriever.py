@@ -98,6 +98,19 @@ def test_sigma_tells_how_far_joints_are_off() -> None:
     assert 0.3 < spread < 1.5
 
 
+def test_a_hand_that_the_detector_hardly_believes_in_is_less_certain_sideways() -> None:
+    def doubtful(time: float) -> Frame:
+        shown = frame(time, signing(time), noise=0.003)
+        hand = shown.people[0].right_hand.copy()
+        hand[:, 2] = 0.6
+        return replace(shown, people=(replace(shown.people[0], right_hand=hand),))
+
+    sure = only(follow(Retriever(AT_ONCE), 0.3, lambda t: frame(t, signing(t), noise=0.003))[-1])
+    unsure = only(follow(Retriever(AT_ONCE), 0.3, doubtful)[-1])
+    assert (unsure.right_hand.sigma[:, 0] > 1.3 * sure.right_hand.sigma[:, 0]).all()
+    np.testing.assert_allclose(unsure.left_hand.sigma, sure.left_hand.sigma)
+
+
 def test_an_elbow_behind_the_hand_is_found_by_the_lengths_of_the_arm() -> None:
     retriever = Retriever(AT_ONCE)
 
