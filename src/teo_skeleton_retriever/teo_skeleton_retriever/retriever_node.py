@@ -35,6 +35,7 @@ from teo_skeleton_retriever.image_retriever import (
     make_retriever,
 )
 from teo_skeleton_retriever.image_subscription import ImageSubscription
+from teo_skeleton_retriever.interpreter_tuning import tune_interpreter
 from teo_skeleton_retriever.markers import marker_array
 from teo_skeleton_retriever.messages import image_message, skeleton_array
 from teo_skeleton_retriever.newest_pipeline import NewestPipeline
@@ -55,9 +56,7 @@ from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
 _LOOK_PERIOD = 0.25  # [s] between looks for who publishes images; of a bag of some seconds little is missed
-_SAME_CLOCK = (
-    60.0  # [s] An image that seems older, or younger, was stamped by another clock: a bag is played.
-)
+_SAME_CLOCK = 60.0  # [s] An image that seems older, or younger, was stamped by another clock: in a bag.
 
 BUSY = "busy"
 """Images whose turn never came: a newer one was there first."""
@@ -284,6 +283,7 @@ def main(arguments: list[str] | None = None) -> None:
     node = None
     try:
         node = RetrieverNode()
+        tune_interpreter()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

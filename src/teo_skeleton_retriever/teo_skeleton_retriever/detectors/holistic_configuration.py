@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,9 @@ _HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
 _POSE_NETWORK = "pose_network"
 _OUTLINE = (1, 256, 256, 1)
 """Of all outputs of the pose's network, what draws the person's outline."""
+_THREADS = (os.cpu_count() or 1) + 2
+"""Two more than MediaPipe takes, which is one a core: while they tell Python what they found, for which they
+may have to wait, networks go on."""
 _SIDE_INPUTS = {
     # The only pose model that comes with the package; the two others would be downloaded.
     "model_complexity": packet_creator.create_int(1),
@@ -82,6 +86,8 @@ def holistic_configuration(
         elif node.calculator == "LandmarkProjectionCalculator":
             # The same result, and no warning that crops must be square: they are.
             node.input_stream.append(f"IMAGE_DIMENSIONS:{_POSE}image_size")
+    del configuration.executor[:]  # an empty one, which stands for a thread a core
+    configuration.num_threads = _THREADS
     _leave_out_the_outline(configuration)
     _look_for_the_face_only_where_it_is_lost(configuration)
     network = (_FOLDER / "modules/pose_landmark/pose_landmark_full.tflite").read_bytes()
