@@ -24,6 +24,8 @@ from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resou
 from teo_skeleton_retriever.detectors.graph_pruning import only_for
 from teo_skeleton_retriever.detectors.network_pruning import without_output
 
+LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
+"""Input streams beside that of images: whether to look at a hand in this image."""
 _FOLDER = Path(mediapipe.__file__).parent
 _POSE = "poselandmarkcpu__"
 _POSE_BY_ROI = f"{_POSE}poselandmarkbyroicpu__"
@@ -90,6 +92,7 @@ def holistic_configuration(
     configuration.num_threads = _THREADS
     _leave_out_the_outline(configuration)
     _look_for_the_face_only_where_it_is_lost(configuration)
+    _look_at_hands_only_when_told(configuration)
     network = (_FOLDER / "modules/pose_landmark/pose_landmark_full.tflite").read_bytes()
     side_packets = _SIDE_INPUTS | {
         _POSE_NETWORK: packet_creator.create_string(without_output(network, _OUTLINE))
@@ -165,6 +168,19 @@ def _look_for_the_face_only_where_it_is_lost(configuration: Any) -> None:
         }}
     """
     configuration.node.extend(text_format.Parse(added, type(configuration)()).node)
+
+
+def _look_at_hands_only_when_told(configuration: Any) -> None:
+    """Begin with a hand only where its stream of LOOKS says so."""
+    for side in ("left", "right"):
+        by_body = f"handlandmarksleftandrightcpu__{side}_hand_landmarks_from_pose"
+        for node in configuration.node:
+            _rename(node.input_stream, by_body, f"{side}_hand_to_look_at")
+        look = LOOKS[f"{side}_hand"]
+        configuration.input_stream.append(look)
+        gate = configuration.node.add(calculator="GateCalculator")
+        gate.input_stream.extend([by_body, f"ALLOW:{look}"])
+        gate.output_stream.append(f"{side}_hand_to_look_at")
 
 
 def _rename(streams: Any, name: str, new: str) -> None:
