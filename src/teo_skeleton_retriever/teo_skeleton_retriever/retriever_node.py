@@ -36,6 +36,7 @@ from teo_skeleton_retriever.image_retriever import (
     make_retriever,
 )
 from teo_skeleton_retriever.image_subscription import ImageSubscription
+from teo_skeleton_retriever.interpreter_tuning import tune_interpreter
 from teo_skeleton_retriever.markers import marker_array
 from teo_skeleton_retriever.messages import image_message, skeleton_array
 from teo_skeleton_retriever.newest_pipeline import NewestPipeline
@@ -56,9 +57,7 @@ from teo_skeleton_retriever.synchroniser import Pair, Synchroniser
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
 _LOOK_PERIOD = 0.25  # [s] between looks for who publishes images; of a bag of some seconds little is missed
-_SAME_CLOCK = (
-    60.0  # [s] An image that seems older, or younger, was stamped by another clock: a bag is played.
-)
+_SAME_CLOCK = 60.0  # [s] An image that seems older, or younger, was stamped by another clock: in a bag.
 
 BUSY = "busy"
 """Images whose turn never came: a newer one was there first."""
@@ -278,10 +277,16 @@ class RetrieverNode(Node):
         return self.get_parameter(name).value
 
 
+def _tuned_node() -> RetrieverNode:
+    node = RetrieverNode()
+    tune_interpreter()
+    return node
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
     try:
-        run_node(RetrieverNode, arguments)
+        run_node(_tuned_node, arguments)
     except RetrieverError as error:
         rclpy.logging.get_logger("skeleton_retriever").fatal(str(error))
         raise SystemExit(1) from None

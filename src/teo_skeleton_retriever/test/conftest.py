@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -76,3 +77,30 @@ def recording() -> Recording:
         np.array([skeleton[key] for skeleton in skeletons]) for key in ("sagittal", "transverse", "coronal")
     ]
     return Recording(columns[0], columns[1], columns[2] == "updated", *planes)
+
+
+@pytest.fixture
+def context(domain_id: int) -> Iterator[Any]:
+    """ROS, for one test alone."""
+    import rclpy  # here, as most tests do without
+
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    yield context
+    rclpy.try_shutdown(context=context)
+
+
+@pytest.fixture
+def start(context: Any) -> Iterator[Callable[..., Any]]:
+    """Starts the node, a NodeBench, with a detector that sees some people from an image on."""
+    from node_bench import NodeBench, replay
+
+    benches: list[NodeBench] = []
+
+    def run(*people: Any, begin: int = 0, **parameters: Any) -> NodeBench:
+        benches.append(NodeBench(context, replay(*people, begin=begin), **parameters))
+        return benches[-1]
+
+    yield run
+    for bench in benches:
+        bench.close()

@@ -143,3 +143,18 @@ def test_closing_waits_for_what_is_at_hand_and_a_pipeline_without_work_can_be_cl
         time.sleep(0.001)
     pipeline.close()
     assert finished == [1]
+
+
+def test_two_are_begun_and_one_waits_whose_place_a_newer_one_takes():
+    first, done = Gate(), Done()
+    pipeline = NewestPipeline(first, done, at_once=2)
+    for job in (1, 2):
+        assert pipeline.submit(job) is None
+        first.wait()
+    assert [pipeline.submit(job) for job in (3, 4, 5)] == [None, 3, 4]
+    assert not first.begun.acquire(timeout=0.05)
+    first.go_on.release(3)
+    for _ in range(3):
+        done.wait()
+    pipeline.close()
+    assert done.jobs == [1, 2, 5]

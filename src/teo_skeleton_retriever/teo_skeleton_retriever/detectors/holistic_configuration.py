@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,8 @@ from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resou
 from teo_skeleton_retriever.detectors.graph_pruning import only_for
 from teo_skeleton_retriever.detectors.network_pruning import without_output
 
+LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
+"""Input streams beside that of images: whether to look at a hand in this image."""
 _FOLDER = Path(mediapipe.__file__).parent
 _POSE = "poselandmarkcpu__"
 _POSE_BY_ROI = f"{_POSE}poselandmarkbyroicpu__"
@@ -34,6 +37,9 @@ _HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
 _POSE_NETWORK = "pose_network"
 _OUTLINE = (1, 256, 256, 1)
 """Of all outputs of the pose's network, what draws the person's outline."""
+_THREADS = (os.cpu_count() or 1) + 2
+"""Two more than MediaPipe takes, which is one a core: while they tell Python what they found, for which they
+may have to wait, networks go on."""
 _SIDE_INPUTS = {
     # The only pose model that comes with the package; the two others would be downloaded.
     "model_complexity": packet_creator.create_int(1),
@@ -82,8 +88,11 @@ def holistic_configuration(
         elif node.calculator == "LandmarkProjectionCalculator":
             # The same result, and no warning that crops must be square: they are.
             node.input_stream.append(f"IMAGE_DIMENSIONS:{_POSE}image_size")
+    del configuration.executor[:]  # an empty one, which stands for a thread a core
+    configuration.num_threads = _THREADS
     _leave_out_the_outline(configuration)
     _look_for_the_face_only_where_it_is_lost(configuration)
+    _look_at_hands_only_when_told(configuration)
     network = (_FOLDER / "modules/pose_landmark/pose_landmark_full.tflite").read_bytes()
     side_packets = _SIDE_INPUTS | {
         _POSE_NETWORK: packet_creator.create_string(without_output(network, _OUTLINE))
@@ -159,6 +168,19 @@ def _look_for_the_face_only_where_it_is_lost(configuration: Any) -> None:
         }}
     """
     configuration.node.extend(text_format.Parse(added, type(configuration)()).node)
+
+
+def _look_at_hands_only_when_told(configuration: Any) -> None:
+    """Begin with a hand only where its stream of LOOKS says so."""
+    for side in ("left", "right"):
+        by_body = f"handlandmarksleftandrightcpu__{side}_hand_landmarks_from_pose"
+        for node in configuration.node:
+            _rename(node.input_stream, by_body, f"{side}_hand_to_look_at")
+        look = LOOKS[f"{side}_hand"]
+        configuration.input_stream.append(look)
+        gate = configuration.node.add(calculator="GateCalculator")
+        gate.input_stream.extend([by_body, f"ALLOW:{look}"])
+        gate.output_stream.append(f"{side}_hand_to_look_at")
 
 
 def _rename(streams: Any, name: str, new: str) -> None:

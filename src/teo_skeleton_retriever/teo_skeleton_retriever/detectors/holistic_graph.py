@@ -19,8 +19,9 @@ from mediapipe.python import CalculatorGraph, ImageFormat, Packet, packet_creato
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray
-from teo_skeleton_retriever.detectors.holistic_configuration import holistic_configuration
+from teo_skeleton_retriever.detectors.holistic_configuration import LOOKS, holistic_configuration
 from teo_skeleton_retriever.detectors.native_output import silenced
+from teo_skeleton_retriever.detectors.resting_hands import HANDS, RestingHands
 from teo_skeleton_retriever.errors import DetectorError
 
 _LEFT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_1__handlandmarkcpu__"
@@ -136,6 +137,7 @@ class HolisticGraph:
     ) -> None:
         self._input_lock = threading.Lock()
         self._results = _Results()
+        self._resting_hands = RestingHands()
         self._closed = False
         self._time_us = 0
         configuration, side_packets = holistic_configuration(
@@ -167,14 +169,22 @@ class HolisticGraph:
                 raise DetectorError("closed", "the detector was closed before it came to this image")
             self._time_us += _FRAME_US
             pending = self._results.expect(self._time_us)
+            looks = self._resting_hands.next_looks()
             try:
+                for hand, look in looks.items():
+                    packet = packet_creator.create_bool(look).at(self._time_us)
+                    self._graph.add_packet_to_input_stream(LOOKS[hand], packet)
                 self._graph.add_packet_to_input_stream("image", frame.at(self._time_us))
             except (RuntimeError, ValueError) as error:
                 raise DetectorError("failed", f"MediaPipe refused an image: {error}") from error
         while not pending.done.wait(_PATIENCE_S):
             if self._graph.has_error():
                 raise DetectorError("failed", "MediaPipe's graph stopped with an error")
-        return _landmarks(pending.packets)
+        landmarks = _landmarks(pending.packets)
+        height, width = image.shape[:2]
+        found = {hand: getattr(landmarks, hand) is not None for hand in HANDS}
+        self._resting_hands.saw(landmarks.pose, found, width=width, height=height)
+        return landmarks
 
     def close(self) -> None:
         """Finish the images at hand, then stop the graph and its threads."""
