@@ -217,6 +217,9 @@ def _refusal(bag: Path, complaints: list[str], said: str, status: int) -> LutErr
     for line in complaints:
         coded = re.match(r"(?:\d+ images left out, )?([a-z_]+): (.+)", line)
         if coded:
-            return LutError(coded[1], f"{bag.name}: {coded[2]}")
+            # Its options are not those of a capture.
+            named = r": if it has another name, run `retrieve` \1 first"
+            sentence = re.sub(r"; see (--[a-z-]+)$", named, coded[2])
+            return LutError(coded[1], f"{bag.name}: {sentence}")
     reason = (complaints or said.strip().splitlines()[-1:] or [f"exit status {status}"])[0]
     return LutError("not_retrieved", f"{bag.name}: expected skeletons of its images, got: {reason}")

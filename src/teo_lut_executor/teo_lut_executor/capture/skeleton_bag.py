@@ -146,9 +146,12 @@ def _person(skeletons: Any, signer: int | None) -> Any | None:
 
 def _nobody(source: str, people: Sequence[Any], signer: int | None) -> str:
     ids = sorted({skeleton.id for found in people for skeleton in found})
+    where = f"in one of {len(people)} frames"
+    if not ids:
+        return f"{source}: expected a person {where}, got nobody: were head and arms in the picture?"
     wanted = "a person who is marked as the signer" if signer is None else f"the person with id {signer}"
-    seen = f"the ids {', '.join(map(str, ids))}" if ids else "nobody"
-    return f"{source}: expected {wanted} in one of {len(people)} frames, got {seen}"
+    seen = f"the {'id' if len(ids) == 1 else 'ids'} {', '.join(map(str, ids))}"
+    return f"{source}: expected {wanted} {where}, got {seen}: name who signs with --person"
 
 
 def _keypoints(skeletons: list[Any], part: str, size: int) -> Keypoints:
