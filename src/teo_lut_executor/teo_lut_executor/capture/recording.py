@@ -218,7 +218,7 @@ def _refusal(bag: Path, complaints: list[str], said: str, status: int) -> LutErr
         coded = re.match(r"(?:\d+ images left out, )?([a-z_]+): (.+)", line)
         if coded:
             # Its options are not those of a capture.
-            named = r": if it has another name, run `retrieve` \1 first"
+            named = r": if it has another name, run `retrieve \1 NAME` first"
             sentence = re.sub(r"; see (--[a-z-]+)$", named, coded[2])
             return LutError(coded[1], f"{bag.name}: {sentence}")
     reason = (complaints or said.strip().splitlines()[-1:] or [f"exit status {status}"])[0]
