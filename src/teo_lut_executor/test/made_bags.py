@@ -13,7 +13,7 @@ from teo_lut_executor.capture.live_capture import write_skeletons
 from teo_lut_executor.capture.skeleton_track import Keypoints, SkeletonTrack
 
 DISTANCE = 2.0  # [m] from the camera
-BEGINS = 1_700_000_000.0  # [s], a day in November 2023
+BEGINS = 1_710_000_000.0  # [s], a day in March 2024
 CHIN, OUT, REST = (0.28, -0.06, 0.02), (0.42, -0.10, -0.08), tuple(HANGING["right"])
 SIGN: list[Move] = [(0.5, 1.1, CHIN), (1.1, 1.8, OUT), (1.8, 2.4, REST)]
 """From the chin outwards: the stroke is from 1.1 to 1.8 s."""

@@ -89,7 +89,7 @@ def test_hands_that_belong_together_stay_together(chain):
         goals_of(chain, ARMS, shift=(0.0, 0.06, 0.03)),
     )
     way = np.tile((0.0, -0.05, 0.02), (len(TIMES), 1))
-    pair = PairGoals(right=right.local, left=left.local, way=way, nearness=np.ones(len(TIMES)))
+    pair = PairGoals(right=right.local, left=left.local, way=way, nearness=np.ones(len(TIMES)), order=way)
     apart, together = (
         solve_arms(ArmProblem(chain, (right, left), one), TIMES, BOUNDS) for one in (None, pair)
     )
@@ -104,9 +104,9 @@ def test_hands_that_belong_together_stay_together(chain):
 def test_slopes_of_what_is_wanted_are_true(chain):
     rows = np.random.default_rng(0).uniform(-1.0, 0.5, (3, 12))
     goals = goals_of(chain, ARMS[:3], shift=(0.1, 0.0, -0.1), contact=0.4)
-    pair = PairGoals(
-        right=goals.local, left=goals.local, way=goals.palm * 0.1, nearness=np.array([0.0, 0.5, 1.0])
-    )
+    way = goals.palm * 0.1
+    nearness = np.array([0.0, 0.5, 1.0])
+    pair = PairGoals(right=goals.local, left=goals.local, way=way, nearness=nearness, order=way)
     problem = ArmProblem(chain, (goals, goals), pair)
     step = 1e-6
     for joint in range(12):

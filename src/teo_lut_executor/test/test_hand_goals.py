@@ -96,6 +96,30 @@ def test_directions_are_those_of_the_hand(scene):
 def test_hands_that_are_near_each_other_keep_the_way_between_them(scene, apart, nearness):
     right = scene.hand + np.array([0.35, 0.0, 0.0])
     left = right + np.array([apart, 0.0, 0.0])  # palm to back, the left one behind
-    pair = pair_goals(scene.body, (right[None], left[None]), (scene.teo, scene.teo))
+    arms = (ARM, ARM * MIRROR)
+    pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
     assert pair.nearness[0] == pytest.approx(nearness)
     assert pair.way[0] == pytest.approx(scene.body.scale * (-apart, 0.0, 0.0), abs=0.01)
+
+
+@pytest.mark.parametrize(("ahead", "front"), [(0.08, 1.0), (-0.08, -1.0)])
+def test_of_arms_that_cross_the_one_in_front_is_told(scene, ahead, front):
+    """Each hand on the other side's breast; which forearm is before the other tells them apart."""
+    right = scene.hand + np.array([0.25 + ahead, 0.12, 0.0])
+    left = scene.hand * MIRROR + np.array([0.25, -0.12, 0.0])
+    arms = [
+        np.array([[(0.0, -side * 0.2, 0.0), (0.2 + x, -side * 0.15, -0.25), hand[0]]])
+        for side, x, hand in ((1.0, ahead, right), (-1.0, 0.0, left))
+    ]
+    pair = pair_goals(
+        scene.body, np.zeros(1), (right[None], left[None]), (arms[0], arms[1]), (scene.teo, scene.teo)
+    )
+    assert pair.order[0, 0] * front > 0.9
+    assert pair.order[0, 1] <= 0.0  # beside leads nowhere
+
+
+def test_hands_far_from_each_other_have_no_order(scene):
+    right, left = scene.hand + np.array([0.3, -0.4, 0.0]), scene.hand * MIRROR + np.array([0.3, 0.4, 0.0])
+    arms = (ARM * (1.0, 2.0, 1.0), ARM * MIRROR * (1.0, 2.0, 1.0))
+    pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
+    assert pair.order[0] == pytest.approx(np.zeros(3))

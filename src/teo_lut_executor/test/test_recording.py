@@ -6,11 +6,13 @@ import shutil
 from pathlib import Path
 
 import pytest
-from made_bags import signing, write_bag
+from made_bags import messages, signing, write_bag
 from mcap.writer import Writer
 
+from teo_lut_executor.capture.live_capture import write_skeletons
 from teo_lut_executor.capture.recording import digest_of, is_bag, open_recording, track_of
 from teo_lut_executor.lut_error import LutError
+from teo_skeleton_retriever.synthetic.take_bag import START
 
 SHIPPED = Path(__file__).resolve().parents[3] / "bags" / "signer_d435"
 
@@ -27,7 +29,7 @@ def test_a_bag_of_skeletons_is_read_as_it_is(bag: Path, tmp_path: Path) -> None:
     track, warnings = track_of(recording, cache=tmp_path / "cache")
     assert len(track.times) == 96
     assert track.source == "HOLA.mcap"
-    assert track.recorded == "2023-11-14"
+    assert track.recorded == "2024-03-09"
     assert warnings == ()
     assert not (tmp_path / "cache").exists()
 
@@ -37,6 +39,16 @@ def test_a_rendered_bag_says_so_and_was_recorded_on_no_day(tmp_path: Path) -> No
     assert recording.rendered
     assert not recording.has_skeletons
     track, _ = track_of(recording, cache=tmp_path, topic="/truth/skeletons")
+    assert track.recorded is None
+
+
+def test_skeletons_found_in_a_rendered_bag_were_recorded_on_no_day_either(tmp_path: Path) -> None:
+    file = tmp_path / "found.mcap"
+    write_skeletons(file, messages(signing(), begins=START * 1e-9 + 0.1))
+    recording = open_recording(file)
+    assert recording.has_skeletons
+    assert recording.rendered
+    track, _ = track_of(recording, cache=tmp_path / "cache")
     assert track.recorded is None
 
 

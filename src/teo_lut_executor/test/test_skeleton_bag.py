@@ -157,7 +157,9 @@ def test_a_bag_in_which_nobody_is_seen_is_refused(store, tmp_path):
 
 def test_people_of_whom_none_is_marked_are_refused(store, tmp_path):
     bag = write(store, tmp_path / "bag", [(0.0, [skeleton(store, 4, signer=False)])])
-    assert code_of(bag)[0] == "no_person"
+    code, sentence = code_of(bag)
+    assert code == "no_person"
+    assert "--person" in sentence
 
 
 def test_a_topic_without_messages_is_refused(store, tmp_path):

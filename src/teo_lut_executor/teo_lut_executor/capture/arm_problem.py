@@ -7,7 +7,8 @@ fingers point. The elbow where a person has it and an easy arm choose among what
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import fields, replace
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from teo_lut_executor.capture.hand_goals import HandGoals, PairGoals
 from teo_lut_executor.capture.hand_points import MIRROR
 
 Array = NDArray[np.float64]
+Goals = TypeVar("Goals", HandGoals, PairGoals)
 
 JOINTS = len(RIGHT_ARM)
 
@@ -68,6 +70,31 @@ class ArmProblem:
         self._chain = chain
         self._hands = hands
         self._pair = pair
+
+    def between(self, part: slice) -> ArmProblem:
+        """What is wanted in some frames one after the other."""
+        pair = None if self._pair is None else _cut(self._pair, part)
+        return ArmProblem(self._chain, tuple(_cut(goals, part) for goals in self._hands), pair)
+
+    def opened(self, amount: Array) -> ArmProblem:
+        """The same with hands away from everything, each on the side of the other on which it belongs.
+
+        Hands that are near each other go apart along the way on which the person's are, the one in front
+        forwards; others go forwards, off the body.
+
+        Args:
+            amount: How far from each other, or from the body, in each frame [m]. Shape (T,).
+        """
+        order = np.zeros((len(amount), 3)) if self._pair is None else self._pair.order
+        ahead = 1.0 - np.linalg.norm(order, axis=1) + 0.5 * np.abs(order[:, 0])
+        forwards = amount[:, None] * ahead[:, None] * (1.0, 0.0, 0.0)
+        aside = 0.5 * amount[:, None] * order
+        shifts = (forwards + aside, (forwards - aside) * MIRROR)
+        hands = tuple(
+            replace(goals, place=goals.place + shift)
+            for goals, shift in zip(self._hands, shifts, strict=False)
+        )
+        return ArmProblem(self._chain, hands, None)
 
     def of_hand(self, hand: int, positions: Array, frames: NDArray[np.intp]) -> Quadratic:
         """One arm by itself, at any positions [rad], shape (n, 6), each for one of the frames, shape (n,)."""
@@ -141,6 +168,10 @@ class ArmProblem:
         return Quadratic(
             0.5 * (residuals**2).sum(axis=1), (turned @ residuals[..., None])[..., 0], turned @ slopes
         )
+
+
+def _cut(goals: Goals, part: slice) -> Goals:
+    return replace(goals, **{field.name: getattr(goals, field.name)[part] for field in fields(goals)})
 
 
 def _unit(vectors: Array) -> Array:

@@ -34,12 +34,14 @@ _STARTS = np.radians(
         [0.0, -5.0, 0.0, -15.0, 0.0, 0.0],
     ]
 )
-_EVERY = 3
-"""Frames from one to the next that is sought from all starts: valleys change slower than hands move."""
+_EVERY = 0.1
+"""[s] From one frame to the next that is sought from all starts: valleys change slower than hands move."""
 _SEARCH_STEPS = 12
 _JUMP = 0.5
 """[1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
 much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it."""
+_SPREAD = 0.15
+"""[s] A way from valley to valley begins and ends so much before and after in all."""
 _SPEED = 0.04
 """[s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
 this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
@@ -52,6 +54,8 @@ HASTE = 20.0
 70 deg, so that an arm that changes the valley takes some frames for it."""
 _STEPS, _ENOUGH = 40, 1e-4
 """The search ends after so many steps, or when no joint moves by this any more [rad]."""
+_STEPS_OFF, _ENOUGH_OFF = 20, 3e-4
+"""The same with touches, which are measured anew after it: their slopes are wrong by more."""
 _DAMPING = 1e-4
 """At least this is added to the curvature, so that a step exists where a joint has no say."""
 _MOST_DAMPING = 1e6
@@ -72,14 +76,22 @@ def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array
     Returns:
         Shape (T, 6 or 12) [rad].
     """
-    frames = np.unique(np.append(np.arange(0, len(times), _EVERY), len(times) - 1))
+    frames = _sought(times)
     arms = []
     for hand, arm_bounds in enumerate(bounds):
         found, cost = _valleys(problem, hand, frames, arm_bounds)
-        farthest = SWIFT * np.diff(times[frames])
-        path = cheapest_way(cost, found, _JUMP, farthest=farthest, haste=HASTE)
+        farthest = SWIFT * (np.diff(times[frames]) + _SPREAD)
+        lasting = np.gradient(times[frames]) / _EVERY if len(frames) > 1 else np.ones(1)
+        path = cheapest_way(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=HASTE)
         arms.append(np.stack([np.interp(times, times[frames], joint) for joint in path.T], axis=1))
     return refine_arms(problem, times, bounds, np.concatenate(arms, axis=1))
+
+
+def _sought(times: Array) -> NDArray[np.intp]:
+    """Frames that are sought from all starts, the first and the last among them."""
+    steps = np.arange(0.0, times[-1] - times[0], _EVERY)
+    found: NDArray[np.intp] = np.unique(np.append(np.searchsorted(times - times[0], steps), len(times) - 1))
+    return found
 
 
 def refine_arms(
@@ -90,7 +102,8 @@ def refine_arms(
     *,
     touches: Touches | None = None,
     shares: Array | None = None,
-    trusted: float = TRUSTED,
+    trusted: float | Array = TRUSTED,
+    held: NDArray[np.bool_] | None = None,
 ) -> Array:
     """Find the joints nearest to a motion at which what is wanted, speed and touches cost least.
 
@@ -101,11 +114,14 @@ def refine_arms(
         start: Shape (T, 6 or 12) [rad].
         touches: What must not touch; None if nothing can.
         shares: What is wanted counts by so much in each frame, 0 to 1; None if it counts in full. Shape (T,).
-        trusted: With touches, how far from the start each joint may go [rad].
+        trusted: With touches, how far from the start each joint may go [rad]; one for all, or shape (T, 1).
+        held: Frames that stay as they are; None if all may move. Shape (T,).
     """
     lower, upper = (np.concatenate([arm[end] for arm in bounds]) for end in (0, 1))
     if touches is not None:
         lower, upper = np.maximum(lower, start - trusted), np.minimum(upper, start + trusted)
+    if held is not None:
+        lower, upper = (np.where(held[:, None], start, end) for end in (lower, upper))
     ties, farthest = _ties(times), _farthest(times)
 
     def worth(positions: Array) -> tuple[Quadratic, float]:
@@ -124,7 +140,8 @@ def refine_arms(
     positions = np.clip(start, lower, upper)
     here, cost = worth(positions)
     damping = _DAMPING
-    for _ in range(_STEPS):
+    steps, enough = (_STEPS, _ENOUGH) if touches is None else (_STEPS_OFF, _ENOUGH_OFF)
+    for _ in range(steps):
         step = _newton_step(here, positions, ties, farthest, lower, upper, damping)
         moved = np.clip(positions + step, lower, upper)
         there, lower_cost = worth(moved)
@@ -136,7 +153,7 @@ def refine_arms(
         way = float(np.abs(moved - positions).max())
         positions, here, cost = moved, there, lower_cost
         damping = max(damping * 0.3, _DAMPING)
-        if way < _ENOUGH:
+        if way < enough:
             break
     return positions
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
 
 from teo_lut_executor.capture.body_map import BodyMap, smooth_step
 from teo_lut_executor.capture.hand_model import palm_axes
@@ -27,6 +28,14 @@ _ON_BODY, _OFF_BODY = 0.03, 0.12
 2 cm); farther than the other the hand is in the air."""
 _TOGETHER, _APART = 0.05, 0.15
 """[m] The same between keypoints of two hands."""
+_BESIDE, _ASUNDER = 0.15, 0.30
+"""[m] The same between forearms and hands of both sides: TEO's are thicker than a person's by a half."""
+_STEADY = 0.15
+"""[s] Deviation of the Gaussian over which that way is smoothed: where fingers pass it turns about."""
+_UNDECIDED = 0.2
+"""By this much the right hand is in front where neither is: hands that pass through each other choose."""
+_FOREARM = np.linspace(0.3, 0.9, 5)
+"""Points of a forearm from elbow to wrist that are looked at; elbows themselves stay on their sides."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,12 +72,15 @@ class PairGoals:
             mirror [m]. Shape (T, 3).
         way: From the left one to the right one [m]. Shape (T, 3).
         nearness: How much the hands are together, 0 to 1. Shape (T,).
+        order: Way from the left forearm and hand to the right ones where they are nearest, which of them is
+            in front, above, aside: a unit vector, shorter the farther they are from each other. Shape (T, 3).
     """
 
     right: Array
     left: Array
     way: Array
     nearness: Array
+    order: Array
 
 
 def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Array, teo: Array) -> HandGoals:
@@ -107,18 +119,50 @@ def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Arr
     )
 
 
-def pair_goals(body: BodyMap, hands: tuple[Array, Array], teo: tuple[Array, Array]) -> PairGoals:
+def pair_goals(
+    body: BodyMap,
+    times: Array,
+    hands: tuple[Array, Array],
+    arms: tuple[Array, Array],
+    teo: tuple[Array, Array],
+) -> PairGoals:
     """Find what is wanted of two hands together; right and left, arguments as for `hand_goals`."""
     right, left = (person_hand_points(hand) for hand in hands)
+    of_right, of_left, nearest = _shares(right, left)
+    way = (of_right[..., None] * right).sum(axis=1) - (of_left[..., None] * left).sum(axis=1)
+    return PairGoals(
+        right=(of_right[..., None] * teo[0]).sum(axis=1),
+        left=(of_left[..., None] * teo[1]).sum(axis=1),
+        way=way * body.scale,
+        nearness=smooth_step((_APART - nearest) / (_APART - _TOGETHER)),
+        order=_order(times, hands, arms),
+    )
+
+
+def _shares(right: Array, left: Array) -> tuple[Array, Array, Array]:
+    """Shares of points in the nearest of each side to the other, shapes (T, k), and their distance (T,)."""
     away = np.linalg.norm(right[:, :, None] - left[:, None], axis=3)
     nearest = away.min(axis=(1, 2))
     shares = np.exp((nearest[:, None, None] - away) / _BLEND)
     shares /= shares.sum(axis=(1, 2), keepdims=True)
-    of_right, of_left = shares.sum(axis=2)[:, :, None], shares.sum(axis=1)[:, :, None]
-    way = (of_right * right).sum(axis=1) - (of_left * left).sum(axis=1)
-    return PairGoals(
-        right=(of_right * teo[0]).sum(axis=1),
-        left=(of_left * teo[1]).sum(axis=1),
-        way=way * body.scale,
-        nearness=smooth_step((_APART - nearest) / (_APART - _TOGETHER)),
+    return shares.sum(axis=2), shares.sum(axis=1), nearest
+
+
+def _order(times: Array, hands: tuple[Array, Array], arms: tuple[Array, Array]) -> Array:
+    """As `PairGoals.order`; of arms that cross only what is before and above, for beside leads nowhere."""
+    right, left = (
+        np.concatenate([elbow + _FOREARM[:, None] * (wrist - elbow), hand], axis=1)
+        for hand, elbow, wrist in (
+            (hand, arm[:, 1:2], arm[:, 2:]) for hand, arm in zip(hands, arms, strict=True)
+        )
     )
+    of_right, of_left, nearest = _shares(right, left)
+    way = (of_right[..., None] * right).sum(axis=1) - (of_left[..., None] * left).sum(axis=1)
+    way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-6)
+    way[:, 1] = np.minimum(way[:, 1], 0.0)
+    way[:, 0] += _UNDECIDED
+    width = _STEADY / float(np.median(np.diff(times))) if len(times) > 1 else 1.0
+    steady = gaussian_filter1d(way, width, axis=0, mode="nearest")
+    near = smooth_step((_ASUNDER - nearest) / (_ASUNDER - _BESIDE))
+    order: Array = near[:, None] * steady / np.maximum(np.linalg.norm(steady, axis=1, keepdims=True), 1e-6)
+    return order

@@ -98,12 +98,12 @@ def retarget_motion(
         for side, hand in hands.items()
     }
     points = {side: teo_hand_points(table, shape.axes) for side, shape in shapes.items()}
-    goals = tuple(
-        hand_goals(body, head, side, hands[side], _arm(track, side), points[side]) for side in sides
-    )
+    limbs = {side: _arm(track, side) for side in sides}
+    goals = tuple(hand_goals(body, head, side, hands[side], limbs[side], points[side]) for side in sides)
     pair = None
     if handedness == "both":
-        pair = pair_goals(body, (hands["right"], hands["left"]), (points["right"], points["left"]))
+        both = ((of["right"], of["left"]) for of in (hands, limbs, points))
+        pair = pair_goals(body, track.times, *both)
     problem = ArmProblem(chain, goals, pair)
     bounds = [arm_bounds(side) for side in sides]
     others: dict[str, Array] = {}

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from rosbags.highlevel import AnyReader
 
-from teo_lut_executor.capture.skeleton_bag import TRUTH, TYPE, read_skeletons
+from teo_lut_executor.capture.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
 from teo_lut_executor.capture.skeleton_track import SkeletonTrack
 from teo_lut_executor.lut_error import LutError
 
@@ -37,7 +37,7 @@ class Recording:
         path: The bag.
         digest: SHA-256 of its content, hexadecimal.
         has_skeletons: Whether it holds skeletons that were found in images, or only the images.
-        rendered: Whether a program drew it: it tells the truth about itself.
+        rendered: Whether a program drew it.
     """
 
     path: Path
@@ -68,7 +68,7 @@ def open_recording(path: Path) -> Recording:
         raise LutError(
             "no_bag", f"expected the folder of a bag or a file {', '.join(BAG_SUFFIXES)}, got {path}"
         )
-    kinds = _topics(path)
+    kinds, begins = _topics(path)
     skeletons = any(kind == TYPE and not topic.startswith(TRUTH) for topic, kind in kinds.items())
     if not skeletons and not any(kind in _IMAGES for kind in kinds.values()):
         raise LutError(
@@ -80,7 +80,7 @@ def open_recording(path: Path) -> Recording:
         path=path,
         digest=digest_of(path),
         has_skeletons=skeletons,
-        rendered=any(topic.startswith(TRUTH) for topic in kinds),
+        rendered=is_rendered(kinds, begins),
     )
 
 
@@ -156,10 +156,11 @@ def _warnings_of(skeletons: Path) -> Path:
     return skeletons.with_suffix(".txt")
 
 
-def _topics(path: Path) -> dict[str, str]:
+def _topics(path: Path) -> tuple[dict[str, str], float]:
+    """Types of a bag's topics, and when its first message was received [s]."""
     try:
         with AnyReader([path]) as reader:
-            return {one.topic: one.msgtype for one in reader.connections}
+            return {one.topic: one.msgtype for one in reader.connections}, 1e-9 * reader.start_time
     except Exception as error:  # the library raises what unpacking wrong bytes happens to raise
         raise LutError(
             "unreadable_bag", f"{path}: expected a whole bag, got: {type(error).__name__} {error}"
@@ -216,6 +217,9 @@ def _refusal(bag: Path, complaints: list[str], said: str, status: int) -> LutErr
     for line in complaints:
         coded = re.match(r"(?:\d+ images left out, )?([a-z_]+): (.+)", line)
         if coded:
-            return LutError(coded[1], f"{bag.name}: {coded[2]}")
+            # Its options are not those of a capture.
+            named = r": if it has another name, run `retrieve \1 NAME` first"
+            sentence = re.sub(r"; see (--[a-z-]+)$", named, coded[2])
+            return LutError(coded[1], f"{bag.name}: {sentence}")
     reason = (complaints or said.strip().splitlines()[-1:] or [f"exit status {status}"])[0]
     return LutError("not_retrieved", f"{bag.name}: expected skeletons of its images, got: {reason}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +26,22 @@ _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
 """Stamps before this count from the start of a clock that knows no day, as in simulation."""
 
 
+RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0
+"""[s] The synthetic signer's takes all begin at this moment of 2023, and last no longer: skeletons that were
+found in its images carry no other sign of it."""
+
+
+def is_rendered(topics: Iterable[str], begins: float) -> bool:
+    """Whether a program drew what a bag holds, and nobody stood before a camera on any day.
+
+    Args:
+        topics: Of the bag; a renderer's tell the truth about its images.
+        begins: Stamp of its first message [s].
+    """
+    told = any(topic.startswith(TRUTH) for topic in topics)
+    return told or RENDERED_FROM <= begins < RENDERED_FROM + _LONGEST
+
+
 def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = None) -> SkeletonTrack:
     """Read a person's skeletons, in the axes of the person's trunk.
 
@@ -40,10 +56,10 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
     """
     stamps: list[float] = []
     people: list[Any] = []
-    rendered = False
+    topics: list[str] = []
     try:
         with AnyReader([bag]) as reader:
-            rendered = any(connection.topic.startswith(TRUTH) for connection in reader.connections)
+            topics = [connection.topic for connection in reader.connections]
             chosen = _topic(reader, bag, topic)
             connections = [one for one in reader.connections if one.topic == chosen]
             for connection, _, data in reader.messages(connections=connections):
@@ -61,7 +77,7 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
             f"{type(error).__name__} {error}. Of a bag that was cut off, `ros2 run teo_skeleton_retriever "
             "retrieve` reads what is left of the images",
         ) from error
-    recorded = None if rendered else _day(stamps[0])
+    recorded = None if is_rendered(topics, stamps[0]) else _day(stamps[0])
     return track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
 
 
@@ -130,9 +146,12 @@ def _person(skeletons: Any, signer: int | None) -> Any | None:
 
 def _nobody(source: str, people: Sequence[Any], signer: int | None) -> str:
     ids = sorted({skeleton.id for found in people for skeleton in found})
+    where = f"in one of {len(people)} frames"
+    if not ids:
+        return f"{source}: expected a person {where}, got nobody: were head and arms in the picture?"
     wanted = "a person who is marked as the signer" if signer is None else f"the person with id {signer}"
-    seen = f"the ids {', '.join(map(str, ids))}" if ids else "nobody"
-    return f"{source}: expected {wanted} in one of {len(people)} frames, got {seen}"
+    seen = f"the {'id' if len(ids) == 1 else 'ids'} {', '.join(map(str, ids))}"
+    return f"{source}: expected {wanted} {where}, got {seen}: name who signs with --person"
 
 
 def _keypoints(skeletons: list[Any], part: str, size: int) -> Keypoints:

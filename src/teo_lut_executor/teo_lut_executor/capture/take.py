@@ -169,7 +169,8 @@ def _check_reach(source: str, motion: RobotMotion, start: float) -> None:
         raise LutError(
             "unreachable",
             f"{source}: expected hands at places that TEO reaches within {100.0 * MOST_OUT_OF_REACH:.0f} cm, "
-            f"got one {100.0 * away[worst]:.0f} cm off at {start + motion.times[worst]:.2f} s",
+            f"got one {100.0 * away[worst]:.0f} cm off at {start + motion.times[worst]:.2f} s: show the sign "
+            "farther before the body, or leave this part out with --start and --end",
         )
 
 

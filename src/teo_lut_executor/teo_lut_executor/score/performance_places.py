@@ -54,12 +54,12 @@ _PLACES = {
     "chest": PersonPlace("sternum", (0.0, 0.02, 0.0)),
     "other_chest": PersonPlace("other_chest"),
     "belly": PersonPlace("belly"),
-    "space": PersonPlace("sternum", (0.215, 0.10, 0.01)),
-    "low_space": PersonPlace("belly", (0.235, 0.11, 0.01)),
-    "middle_space": PersonPlace("sternum", (0.215, 0.0, 0.01)),
+    "space": PersonPlace("sternum", (0.195, 0.10, 0.0)),
+    "low_space": PersonPlace("belly", (0.18, 0.11, 0.06)),
+    "middle_space": PersonPlace("sternum", (0.19, 0.0, 0.0)),
     "shoulder_space": PersonPlace("shoulder", (0.26, 0.03, 0.03)),
-    "high_space": PersonPlace("shoulder", (0.30, 0.02, 0.14)),
-    "face_space": PersonPlace("mouth", (0.215, 0.02, -0.01)),
+    "high_space": PersonPlace("shoulder", (0.30, 0.02, 0.19)),
+    "face_space": PersonPlace("mouth", (0.16, 0.02, -0.01)),
     "beside_head": PersonPlace("ear", (0.10, 0.07, 0.03)),
 }
 
