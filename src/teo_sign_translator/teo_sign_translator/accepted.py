@@ -6,7 +6,6 @@ stand; brackets round what may be left out; `||` between whole translations.
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from collections.abc import Sequence
 
@@ -22,11 +21,11 @@ def accepts(pattern: str, glosses: Sequence[str]) -> bool:
     Raises:
         TranslationError: "invalid_data" if the pattern is empty or a bracket is not closed in its own word.
     """
-    alternatives = [alternative.split() for alternative in pattern.split("||")]
+    alternatives = [[_place(word, pattern) for word in each.split()] for each in pattern.split("||")]
     if not all(alternatives):
         raise TranslationError("invalid_data", f"expected glosses on both sides of ||, got '{pattern}'")
-    wanted = "|".join("".join(_place(word, pattern) for word in words) for words in alternatives)
-    return bool(re.fullmatch(wanted, "".join(f"{plain_gloss(gloss)} " for gloss in glosses)))
+    said = [plain_gloss(gloss) for gloss in glosses]
+    return any(_fits(places, said) for places in alternatives)
 
 
 def plain_gloss(gloss: str) -> str:
@@ -38,8 +37,8 @@ def plain_gloss(gloss: str) -> str:
     return word if len(word) <= _SHORT else _unaccented(word)
 
 
-def _place(word: str, pattern: str) -> str:
-    """What may stand in one place, as a regular expression."""
+def _place(word: str, pattern: str) -> frozenset[str]:
+    """What may stand in one place; the empty string among it if nothing may."""
     optional = word.startswith("(") and word.endswith(")")
     glosses = word.strip("()").split("/")
     brackets = word.count("(") + word.count(")")
@@ -47,8 +46,16 @@ def _place(word: str, pattern: str) -> str:
         raise TranslationError(
             "invalid_data", f"expected a gloss like (A/B) or A/B, got '{word}' in '{pattern}'"
         )
-    choice = "|".join(re.escape(plain_gloss(gloss)) for gloss in glosses)
-    return f"(?:(?:{choice}) ){'?' if optional else ''}"
+    return frozenset([*map(plain_gloss, glosses), *([""] if optional else [])])
+
+
+def _fits(places: Sequence[frozenset[str]], glosses: Sequence[str]) -> bool:
+    """Whether glosses fill places one after the other."""
+    reached = {0}
+    for choices in places:
+        filled = {count + 1 for count in reached if count < len(glosses) and glosses[count] in choices}
+        reached = filled | (reached if "" in choices else set())
+    return len(glosses) in reached
 
 
 def _unaccented(word: str) -> str:

@@ -54,8 +54,9 @@ class Coverage:
         """For each gloss the places of the words that it says.
 
         A gloss says one word that has it as its dictionary form, and those that the list names; of several
-        those that it stands for and that no gloss before it says; LENGUA_DE_SIGNOS says all that are listed.
-        What else the model has looked at is not said by it.
+        those that it stands for and that no gloss before it says, and their neighbours ("qué tal"); NADA the
+        "no" before it, as Spanish says both; LENGUA_DE_SIGNOS all that are listed. What else the model has
+        looked at is not said by it.
         """
         result: list[list[int]] = []
         taken: set[int] = set()
@@ -71,8 +72,10 @@ class Coverage:
             )
             lemmas = self.gloss_words.get(gloss.gloss, frozenset())
             listed = sorted({place for lemma in lemmas for place in lemma_places.get(lemma, ())})
-            meant = [place for place in listed if place in gloss.sources or "_" in gloss.gloss]
-            result.append([*own[:1], *(meant or ([] if own else listed))])
+            meant = {place for place in listed if place in gloss.sources or "_" in gloss.gloss}
+            meant |= {place for place in listed if meant & {place - 1, place + 1}}
+            meant |= {place for place in listed if own and place < own[0] and words[place].form == "no"}
+            result.append([*own[:1], *(sorted(meant) or ([] if own else listed))])
             taken.update(own[:1])
         return result
 
