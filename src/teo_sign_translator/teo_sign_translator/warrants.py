@@ -19,6 +19,7 @@ from teo_sign_translator.tables import read_rows
 
 _NONE = "-"
 _PAST = "PASADO"
+_NOT = "NO"
 _PAST_TAGS = ("V:ind:pret:", "V:ind:impf:")
 #: Subjects that a verb's ending says, and its person: "llego" may be "llegó", but not the past of YO.
 _PERSONS = {"YO": "1s", "TÚ": "2s", "NOSOTROS": "1p", "VOSOTROS": "2p"}
@@ -87,8 +88,8 @@ class Warrants:
     def invented(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """Places of the glosses that no word warrants.
 
-        Besides those listed: of PASADO beside a verb that is now, and of a noun said twice though its only
-        word is singular.
+        Besides those listed: of PASADO beside a verb that is now, and of a word said twice that is there
+        once and no plural.
 
         Args:
             words: Of the sentence.
@@ -101,7 +102,7 @@ class Warrants:
             for place, gloss in enumerate(glosses)
             if (self._unwarranted(gloss.gloss, readings) and not _unsure(gloss, words))
             or (gloss.gloss == _PAST and _present(glosses[place:], meant))
-            or (place > 0 and gloss.gloss == glosses[place - 1].gloss and _single(gloss, words, readings))
+            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words, readings))
         ]
 
     def _unwarranted(self, gloss: str, readings: Sequence[Reading]) -> bool:
@@ -135,11 +136,24 @@ def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]])
     return f"V:ind:pres:{person}" in tags and not any(f"{past}{person}" in tags for past in _PAST_TAGS)
 
 
-def _single(gloss: OutputGloss, words: Sequence[SourceWord], readings: Sequence[Reading]) -> bool:
-    """Whether only one word says a gloss, and only in the singular."""
+def _said_again(
+    place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord], readings: Sequence[Reading]
+) -> bool:
+    """Whether a gloss was said before for the same word, and not because it is a plural.
+
+    A plural is the noun twice, one sign after the other. What is denied may be said of the same subject again
+    ("no somos médicos, somos profesores").
+    """
+    gloss = glosses[place]
+    again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
     said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
+    if not again or len(said) != 1:
+        return False
+    if again[-1] < place - 1:
+        denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
+        return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
     tags = [reading.tag for reading in readings if copied_gloss(reading) == gloss.gloss]
-    return len(said) == 1 and bool(tags) and all(tag.endswith("s") and tag[:2] == "N:" for tag in tags)
+    return bool(tags) and all(tag.startswith(("N:", "A:")) and tag.endswith("s") for tag in tags)
 
 
 def _listed(text: str) -> list[str]:
