@@ -1,4 +1,4 @@
-"""Seeing to it that no word of a sentence is lost in its translation."""
+"""Seeing to it that a translation loses no word of its sentence and invents none."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from teo_sign_translator.morphology import Reading
 from teo_sign_translator.neural import Hypothesis, OutputGloss
 from teo_sign_translator.neural.lexis import copied_gloss
 from teo_sign_translator.spanish_words import SourceWord
+from teo_sign_translator.warrants import Warrants
 
 #: Of a gloss that was put back: its word is right, its place a guess.
 REPAIRED_CONFIDENCE = 0.2
@@ -37,21 +38,30 @@ def as_said(hypothesis: Hypothesis) -> Faithful:
     return Faithful(hypothesis.glosses, (False,) * len(hypothesis.glosses))
 
 
-def faithful(words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], coverage: Coverage) -> Faithful:
-    """The best translation that loses no word; if all do, that which loses fewest, with those put back.
+def faithful(
+    words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], coverage: Coverage, warrants: Warrants
+) -> Faithful:
+    """The best translation that loses no word and invents no gloss.
 
-    A word put back stands beside the gloss of the nearest word that has one, a question word last. A
-    sentence of nothing but function words has each of them signed, since it would be empty otherwise.
+    If there is none, that with the fewest faults, without what it invents and with what it loses put back: a
+    sign that nobody said misleads. A word put back stands beside the gloss of the nearest word that has one,
+    a question word last. A sentence of nothing but function words has each of them signed, since it would be
+    empty otherwise.
 
     Args:
         words: Of the sentence; one at least is no mark.
         hypotheses: Its translations, best first.
         coverage: Finds lost words.
+        warrants: Finds invented glosses.
     """
     for hypothesis in hypotheses:
-        if hypothesis.glosses and not coverage.lost(words, hypothesis.glosses):
+        if hypothesis.glosses and not _faults(words, hypothesis.glosses, coverage, warrants):
             return as_said(hypothesis)
-    best = min((each.glosses for each in hypotheses), key=lambda each: len(coverage.lost(words, each)))
+    best = min(
+        (each.glosses for each in hypotheses), key=lambda each: _faults(words, each, coverage, warrants)
+    )
+    invented = warrants.invented(words, best)
+    best = tuple(gloss for place, gloss in enumerate(best) if place not in invented)
     missing = {place: _meant(words[place], coverage.function_words) for place in coverage.lost(words, best)}
     if not best and not missing:
         missing = {place: word.readings[0] for place, word in enumerate(words) if not word.is_mark}
@@ -65,6 +75,12 @@ def faithful(words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], cove
         glosses.insert(index, gloss)
         repaired.insert(index, True)
     return Faithful(tuple(glosses), tuple(repaired))
+
+
+def _faults(
+    words: Sequence[SourceWord], glosses: Sequence[OutputGloss], coverage: Coverage, warrants: Warrants
+) -> int:
+    return len(coverage.lost(words, glosses)) + len(warrants.invented(words, glosses))
 
 
 def _meant(word: SourceWord, function_words: FunctionWords) -> Reading:

@@ -1,4 +1,4 @@
-"""Translating with a sentence model: any sentence, known or not, and no word of it lost."""
+"""Translating with a sentence model: any sentence, known or not; no word of it lost, none invented."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from teo_sign_translator.reading import Clause
 from teo_sign_translator.route import DraftedSentence
 from teo_sign_translator.sentence_type import SentenceType
 from teo_sign_translator.spanish_words import SourceWord, words_of_clauses
+from teo_sign_translator.warrants import Warrants
 
 #: Translations that the model weighs against each other: a second one is there where the first loses a word;
 #: four find no more right ones among 900 held-out sentences than two.
@@ -56,6 +57,7 @@ class SentenceRoute:
         model: SentenceModel,
         morphology: Morphology,
         coverage: Coverage,
+        warrants: Warrants,
         taught: Phrasebook,
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
@@ -66,6 +68,7 @@ class SentenceRoute:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
             coverage: Finds words that a translation loses.
+            warrants: Finds glosses that a translation invents.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
             beam_width: Translations that the model weighs against each other, at least 1.
@@ -73,6 +76,7 @@ class SentenceRoute:
         self._model = model
         self._morphology = morphology
         self._coverage = coverage
+        self._warrants = warrants
         self._taught = taught
         self._beam_width = beam_width
 
@@ -100,7 +104,7 @@ class SentenceRoute:
         """Translate parts; those that lose words piece by piece, if that loses fewer."""
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            self._as_taught(part, hypotheses) or faithful(part.words, hypotheses, self._coverage)
+            self._as_taught(part, hypotheses) or self._faithful(part.words, hypotheses)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -110,11 +114,14 @@ class SentenceRoute:
         ]
         again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
         for index, own in divided.items():
-            translated = [(piece, faithful(*next(again), self._coverage)) for piece in own]
+            translated = [(piece, self._faithful(*next(again))) for piece in own]
             together = joined(every[index].words, translated, self._coverage)
             if sum(together.repaired) < sum(result[index].repaired):
                 result[index] = together
         return result
+
+    def _faithful(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Faithful:
+        return faithful(words, hypotheses, self._coverage, self._warrants)
 
     def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Faithful | None:
         """The translation that was taught; if it is not among the first, looked for among more."""

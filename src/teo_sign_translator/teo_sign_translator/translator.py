@@ -26,6 +26,7 @@ from teo_sign_translator.sentence_type import is_negated, sentence_type
 from teo_sign_translator.signs import SignChooser, read_synonyms
 from teo_sign_translator.spelling import unsignable
 from teo_sign_translator.translation import Sentence, Translation
+from teo_sign_translator.warrants import Warrants
 from teo_sign_translator.word_by_word import SPELLED_CONFIDENCE
 
 #: Probability of a token below which its sentence is called uncertain: of 900 held-out sentences, half of the
@@ -97,7 +98,9 @@ class Translator:
         if name in sentence_models(directory):
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
-            route: Route = SentenceRoute(model, morphology, Coverage.load(), taught, beam_width=beam_width)
+            route: Route = SentenceRoute(
+                model, morphology, Coverage.load(), Warrants.load(), taught, beam_width=beam_width
+            )
             return cls(route, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
         route = PhraseRoute(load_model(name, directory), taught, glosses, name=name)
         return cls(route, SignChooser(read_synonyms(), None), min_confidence=min_confidence)

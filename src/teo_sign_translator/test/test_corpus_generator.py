@@ -14,10 +14,12 @@ from teo_sign_translator.corpus.generator import LARGEST_SHARE, Generator
 from teo_sign_translator.corpus.paper import own_pairs
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.nominal import unaccented as strip_accents
+from teo_sign_translator.neural import OutputGloss
 from teo_sign_translator.pairs import gloss_name, paper_pairs
 from teo_sign_translator.resources import data_file
 from teo_sign_translator.spanish_words import source_words
 from teo_sign_translator.tables import read_rows
+from teo_sign_translator.warrants import Warrants
 
 QUESTION_GLOSSES = {
     "QUÉ",
@@ -144,6 +146,15 @@ def test_glosses_point_at_the_words_that_say_them(pairs, morphology):
             if len(having) == 1 and places and having[0] not in places and len(gloss) > 4:
                 wrong.append((gloss, pair.spanish))
     assert len(wrong) < len(pairs) / 500, wrong[:10]
+
+
+def test_no_gloss_is_one_that_a_translation_would_be_refused_for(pairs, morphology):
+    warrants = Warrants.load()
+    for pair in pairs:
+        said = [
+            OutputGloss(*each, 1.0, copied=False) for each in zip(pair.glosses, pair.alignment, strict=True)
+        ]
+        assert not warrants.invented(source_words(pair.spanish, morphology), said), pair
 
 
 def test_articles_agree_with_their_nouns(pairs, morphology):

@@ -9,6 +9,7 @@ from teo_sign_translator.coverage import Coverage
 from teo_sign_translator.division import MOST_WORDS, joined, parts, pieces
 from teo_sign_translator.faithful import faithful
 from teo_sign_translator.spanish_words import source_words
+from teo_sign_translator.warrants import Warrants
 
 
 @pytest.mark.parametrize(
@@ -47,6 +48,7 @@ def test_pieces_are_joined_with_their_places_and_conjunctions() -> None:
                 words[piece.start : piece.stop],
                 model.translate(words[piece.start : piece.stop]),
                 coverage,
+                Warrants.load(),
             ),
         )
         for piece in pieces(words)

@@ -16,6 +16,7 @@ from teo_sign_translator.sentence_route import SentenceRoute
 from teo_sign_translator.signs import SignChooser, read_synonyms
 from teo_sign_translator.spanish_words import SourceWord
 from teo_sign_translator.translator import Translator
+from teo_sign_translator.warrants import Warrants
 
 
 class WordByWordModel:
@@ -49,5 +50,5 @@ MORPHOLOGY = Morphology.load()
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
     taught = Phrasebook(training_pairs(), GlossList.load())
-    route = SentenceRoute(model, MORPHOLOGY, Coverage.load(), taught)
+    route = SentenceRoute(model, MORPHOLOGY, Coverage.load(), Warrants.load(), taught)
     return Translator(route, SignChooser(read_synonyms(), MORPHOLOGY))
