@@ -45,10 +45,17 @@ class Coverage:
             place
             for place, word in enumerate(words)
             if place not in said
-            and not self.function_words.may_be_left_out(word)
+            and not self._may_be_left_out(words, place)
             and not _says_only_the_future(words, place)
             and not (exclaims and word.readings[0].tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
         ]
+
+    def _may_be_left_out(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word has no meaning of its own; "hacer" has, unless what one does follows it."""
+        if not self.function_words.may_be_left_out(words[place]):
+            return False
+        does = any(reading.tag == "V:inf" and reading.lemma == "hacer" for reading in words[place].readings)
+        return not does or not all(map(self.function_words.may_be_left_out, words[place + 1 :]))
 
     def said(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[list[int]]:
         """For each gloss the places of the words that it says.

@@ -42,6 +42,8 @@ def _lost(sentence: str, *glosses: tuple[str, tuple[int, ...]]) -> list[str]:
         ("No quiero pan", [("YO", (1,)), ("PAN", (2,)), ("QUERER", (1,))], ["no"]),
         ("Mañana voy a comer", [("MAÑANA", (0,)), ("COMER", (3,))], []),
         ("Mañana voy a Roma", [("MAÑANA", (0,)), ("ROMA", (3,))], ["voy"]),
+        ("Va a hacer frío", [("FUTURO", (0,)), ("FRÍO", (3,))], []),
+        ("No sé qué hacer", [("YO", (1,)), ("QUÉ", (2,)), ("SABER", (1,)), ("NO", (0,))], ["hacer"]),
     ],
 )
 def test_a_gloss_says_its_own_words_and_those_that_are_listed(
