@@ -53,8 +53,11 @@ class Warrant:
 
     def given_by(self, reading: Reading) -> bool:
         """Whether this reading warrants the gloss."""
-        tags = [reading.tag, *(_CLITICS[clitic] for clitic in reading.clitics if clitic in _CLITICS)]
-        return reading.lemma in self.lemmas or any(_fits(tag, self.tags) for tag in tags)
+        return (
+            reading.lemma in self.lemmas
+            or _fits(reading.tag, self.tags)
+            or any(_fits(_CLITICS.get(clitic, ""), self.tags) for clitic in reading.clitics)
+        )
 
 
 class Warrants:
@@ -95,7 +98,7 @@ class Warrants:
             words: Of the sentence.
             glosses: Its translation.
         """
-        meant = [_meant(word, words) for word in words]
+        meant = _meant(words)
         readings = [reading for each in meant for reading in each]
         return [
             place
@@ -117,10 +120,10 @@ def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
     return any(len(words[place].readings) >= READINGS for place in gloss.sources)
 
 
-def _meant(word: SourceWord, words: Sequence[SourceWord]) -> list[Reading]:
-    """The readings of a word that its accents allow: who types accents in a sentence means those left out."""
-    accents = any(each.form != fold(each.form) for each in words)
-    return [reading for reading in word.readings if reading.exact or not accents]
+def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
+    """The readings that the accents allow: who types accents in a sentence means those left out."""
+    accents = any(word.form != fold(word.form) for word in words)
+    return [[reading for reading in word.readings if reading.exact or not accents] for word in words]
 
 
 def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:
@@ -146,8 +149,10 @@ def _said_again(
     """
     gloss = glosses[place]
     again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
+    if not again:
+        return False
     said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
-    if not again or len(said) != 1:
+    if len(said) != 1:
         return False
     if again[-1] < place - 1:
         denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
