@@ -67,7 +67,7 @@ class Spectator(Node):
         self.states: list[tuple[float, dict[str, float]]] = []
         self._film = film
         self._filming = False
-        self._next_frame = 0.0
+        self._next_frame: float | None = None
         status_qos = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(JointState, "joint_states", self._on_state, 100)
         self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, 100)
@@ -84,8 +84,10 @@ class Spectator(Node):
             return
         positions = dict(zip(message.name, message.position, strict=True))
         self.states.append((now, positions))
-        if now >= self._next_frame:
-            self._next_frame = max(self._next_frame + 1.0 / FRAMES_PER_SECOND, now - 1.0 / FRAMES_PER_SECOND)
+        if self._next_frame is None:
+            self._next_frame = now
+        while now >= self._next_frame:  # more than once where states came late: the film keeps the time
+            self._next_frame += 1.0 / FRAMES_PER_SECOND
             self._film.add(positions, self._caption(now))
 
     def _caption(self, now: float) -> str:
