@@ -27,8 +27,8 @@ _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
 
 
 RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0
-"""[s] The synthetic signer's takes all begin at this moment of 2023, and last no longer: skeletons that were
-found in its images carry no other sign of it."""
+"""[s] The synthetic signer's takes all begin at this moment of 2023 (`synthetic/take_bag.py`, which loads for
+seconds what draws them), and last no longer: skeletons that were found in its images carry no other sign."""
 
 
 def is_rendered(topics: Iterable[str], begins: float) -> bool:
