@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from teo_node_tools.parameter_row import ParameterRow
+from teo_common.parameters import ParameterRow
 from teo_sign_translator.model_store import DEFAULT_MODEL
 from teo_sign_translator.sentence_route import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.translator import DEFAULT_MIN_CONFIDENCE

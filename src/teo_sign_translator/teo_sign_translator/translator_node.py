@@ -19,8 +19,8 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence
 from teo_sign_msgs.srv import Translate
 
-from teo_node_tools.parameter_row import declare_parameters
-from teo_node_tools.run_node import run_node
+from teo_common.node_process import run_node
+from teo_common.parameters import declare_parameters
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.log_text import quoted, short
 from teo_sign_translator.messages import to_diagnostics, to_messages

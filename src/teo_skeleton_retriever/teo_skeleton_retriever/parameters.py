@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 
-from teo_node_tools.parameter_row import ParameterRow, Value
+from teo_common.parameters import ParameterRow, Value
 from teo_skeleton_retriever.detectors import DETECTORS
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES

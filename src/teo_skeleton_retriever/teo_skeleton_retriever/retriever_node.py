@@ -21,8 +21,8 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
-from teo_node_tools.parameter_row import declare_parameters
-from teo_node_tools.run_node import run_node
+from teo_common.node_process import run_node
+from teo_common.parameters import declare_parameters
 from teo_skeleton_retriever.camera_topics import CAMERA_INFO, COLOR, DEPTH
 from teo_skeleton_retriever.detectors import Detector, make_detector
 from teo_skeleton_retriever.diagnostics_publisher import DiagnosticsPublisher
