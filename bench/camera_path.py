@@ -36,8 +36,8 @@ from teo_sign_capture.retarget.motion import RobotMotion
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness
-from teo_skeleton_retriever.synthetic import Take, TakeOptions
-from teo_skeleton_retriever.synthetic.take_bag import write_take
+from teo_synthetic_signer import Take, TakeOptions
+from teo_synthetic_signer.take.take_bag import write_take
 
 Array = NDArray[np.float64]
 

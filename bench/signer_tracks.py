@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
-from teo_skeleton_retriever.synthetic.motion import Motion
-from teo_skeleton_retriever.synthetic.scripts import script as script_named
-from teo_skeleton_retriever.synthetic.signer import Signer
+from teo_synthetic_signer.body.signer import Signer
+from teo_synthetic_signer.script.motion import Motion
+from teo_synthetic_signer.script.scripts import script as script_named
 
 Array = NDArray[np.float64]
 

@@ -20,7 +20,7 @@ from teo_sign_capture.notation.score_file import default_scores_directory, read_
 from teo_sign_capture.notation.score_schema import Score
 from teo_signs.errors import LutError
 
-_SYNTHESIZE = "teo_skeleton_retriever.synthetic.synthesize_cli"
+_SYNTHESIZE = "teo_synthetic_signer.cli.synthesize_cli"
 _SAYS = "synthesize: "
 _TWICE_A_SIGNS_FASTEST = 15.0
 """[Hz] The fastest wiggles of scores go to and fro 7 times a second at most."""

@@ -50,7 +50,7 @@ def default_recordings() -> Path:
 
 def write_skeletons(path: Path, messages: Sequence[Any]) -> None:
     """Write `SkeletonArray` messages as a bag, whole or not at all."""
-    from teo_skeleton_retriever.skeleton_bag import SkeletonBag
+    from teo_skeleton_retriever.output.skeleton_bag import SkeletonBag
 
     with SkeletonBag(path) as bag:
         for message in messages:

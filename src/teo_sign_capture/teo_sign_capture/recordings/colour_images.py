@@ -52,10 +52,10 @@ def colour_images(
         Time from the beginning of the stroke [s] and image, in order; nothing where the bag has no images.
     """
     # Only who draws needs the code that reads cameras' images.
-    from teo_skeleton_retriever.bag_reader import Bag
+    from teo_skeleton_retriever.bags.bag_reader import Bag
+    from teo_skeleton_retriever.bags.topic_choice import choose_topics
+    from teo_skeleton_retriever.camera.image_messages import color_of, stamp_of
     from teo_skeleton_retriever.errors import RetrieverError
-    from teo_skeleton_retriever.image_messages import color_of, stamp_of
-    from teo_skeleton_retriever.topic_choice import choose_topics
 
     opened = Bag(bag)
     try:

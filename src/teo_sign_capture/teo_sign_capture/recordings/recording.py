@@ -21,7 +21,7 @@ from teo_signs.errors import LutError
 BAG_SUFFIXES = (".mcap", ".db3", ".bag")
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _CHUNK = 1 << 20
-_RETRIEVE = "teo_skeleton_retriever.retrieve_cli"
+_RETRIEVE = "teo_skeleton_retriever.cli.retrieve_cli"
 _PROGRESS = re.compile(rb"(\d+)/(\d+)")
 """Messages done and in all, in what `retrieve` shows."""
 _CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\r")

@@ -19,10 +19,10 @@ from teo_sign_capture.notation.score_file import default_scores_directory, read_
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.signing_space.directions import direction
 from teo_sign_capture.signing_space.places import NAMES, OTHER_HAND
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.synthetic.motion import Motion
-from teo_skeleton_retriever.synthetic.script_file import read_script
-from teo_skeleton_retriever.synthetic.signer import Signer
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_synthetic_signer.body.signer import Signer
+from teo_synthetic_signer.script.motion import Motion
+from teo_synthetic_signer.script.script_file import read_script
 
 BODIES = ("man_tall", "woman_small", "man_heavy")
 UP = {"palm": "front", "fingers": "up"}
@@ -145,7 +145,7 @@ def test_hands_touch_the_body_and_do_not_enter_it(
 
 
 def _bones() -> tuple[str, ...]:
-    from teo_skeleton_retriever.synthetic.body_data import load_body_data
+    from teo_synthetic_signer.body.body_data import load_body_data
 
     return load_body_data().bones
 

@@ -12,7 +12,7 @@ from mcap.writer import Writer
 from teo_sign_capture.entries.live_capture import write_skeletons
 from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, track_of
 from teo_signs.errors import LutError
-from teo_skeleton_retriever.synthetic.take_bag import START
+from teo_synthetic_signer.take.take_bag import START
 
 SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 
