@@ -6,9 +6,9 @@ stand; brackets round what may be left out; `||` between whole translations.
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Sequence
 
+from teo_common.text_folding import without_accents
 from teo_sign_translator.errors import TranslationError
 
 #: Letters of words that accents tell apart: TÚ and TU, SÍ and SI.
@@ -34,7 +34,7 @@ def plain_gloss(gloss: str) -> str:
     LSE spells without accents, so longer words are compared without; Ñ stays.
     """
     word = gloss.replace("-", "").replace("_", "").upper()
-    return word if len(word) <= _SHORT else _unaccented(word)
+    return word if len(word) <= _SHORT else without_accents(word)
 
 
 def _place(word: str, pattern: str) -> frozenset[str]:
@@ -56,9 +56,3 @@ def _fits(places: Sequence[frozenset[str]], glosses: Sequence[str]) -> bool:
         filled = {count + 1 for count in reached if count < len(glosses) and glosses[count] in choices}
         reached = filled | (reached if "" in choices else set())
     return len(glosses) in reached
-
-
-def _unaccented(word: str) -> str:
-    decomposed = unicodedata.normalize("NFD", word)
-    kept = (c for c in decomposed if not unicodedata.combining(c) or c == "\N{COMBINING TILDE}")
-    return unicodedata.normalize("NFC", "".join(kept))

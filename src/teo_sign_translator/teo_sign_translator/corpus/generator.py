@@ -10,6 +10,7 @@ from itertools import accumulate
 from pathlib import Path
 from random import Random
 
+from teo_common.text_folding import folded
 from teo_sign_translator.corpus.choosers import RandomChooser
 from teo_sign_translator.corpus.derivation import Derivation, Sentence
 from teo_sign_translator.corpus.fillers import NoFillerError
@@ -20,7 +21,6 @@ from teo_sign_translator.corpus.templates import Template, templates
 from teo_sign_translator.corpus.words import WordLists, is_held_out
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.text.cleaning import strip_marks
 
 #: Share of each split.
 SHARES = {"train": 0.93, "dev": 0.02, "test_words": 0.02, "test_templates": 0.02, "test_both": 0.01}
@@ -132,7 +132,7 @@ class _Seen:
     """Sentences that must not come (again)."""
 
     def __init__(self, unwanted: Iterable[str]) -> None:
-        self._unwanted = frozenset(map(_bare, unwanted))
+        self._unwanted = frozenset(map(folded, unwanted))
         self._made: Counter[str] = Counter()
 
     def add(self, sentence: str) -> None:
@@ -140,12 +140,7 @@ class _Seen:
 
     def has(self, sentence: str, most: int) -> bool:
         """Whether a sentence has come as often as it may."""
-        return self._made[sentence] >= most or (bool(self._unwanted) and _bare(sentence) in self._unwanted)
-
-
-def _bare(sentence: str) -> str:
-    """Letters and digits alone."""
-    return "".join(letter for letter in strip_marks(sentence) if letter.isalnum())
+        return self._made[sentence] >= most or (bool(self._unwanted) and folded(sentence) in self._unwanted)
 
 
 def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
