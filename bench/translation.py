@@ -25,11 +25,11 @@ from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.accepted_translations import accepts, plain_gloss
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.pointer.metrics import score
-from teo_sign_translator.resources import data_file
+from teo_sign_translator.pointer.training.metrics import score
 
 Glosses = tuple[str, ...]
 System = Callable[[str], Glosses]
