@@ -6,9 +6,22 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.coco_18 import COCO_18, body_25_from_coco_18
-from teo_skeleton_retriever.layouts.midpoint import midpoint
+from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
+
+
+def midpoint(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Mean position with the lower confidence; absent (zero) if either is absent.
+
+    Args:
+        first: x, y [px], confidence. Shape (3,).
+        second: likewise.
+    """
+    confidence = min(first[2], second[2])
+    if not confidence > 0.0:
+        return np.zeros(3)
+    x, y = (first[:2] + second[:2]) / 2.0
+    return np.array([x, y, confidence])
+
 
 _MPI: tuple[str | None, ...] = (
     *(None, "Neck"),  # the top of the head is no keypoint of BODY_25
@@ -17,6 +30,22 @@ _MPI: tuple[str | None, ...] = (
     None,  # nor is the chest
 )
 """The 15 keypoints of OpenPose's MPI model. Source: `poseParameters.cpp` of OpenPose 1.7."""
+
+
+def body_25_from_coco_18(body: FloatArray) -> FloatArray:
+    """Bring COCO keypoints into BODY_25: same names, mid-hip between the hips, feet absent.
+
+    Args:
+        body: x, y [px], confidence. Shape (18, 3).
+
+    Returns:
+        x, y [px], confidence; absent keypoints are zero. Shape (25, 3).
+    """
+    out = np.zeros((len(BODY_25), 3))
+    for name, row in zip(COCO_18.keypoints, body, strict=True):
+        out[BODY_25.index[name]] = row
+    out[BODY_25.index["MidHip"]] = midpoint(body[COCO_18.index["RHip"]], body[COCO_18.index["LHip"]])
+    return out
 
 
 def as_body_25(body: FloatArray) -> FloatArray:

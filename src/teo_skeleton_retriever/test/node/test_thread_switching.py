@@ -7,7 +7,7 @@ import sys
 
 WAITS = """
 import gc, sys
-from teo_skeleton_retriever.node.interpreter_tuning import SWITCH_INTERVAL, tune_interpreter
+from teo_skeleton_retriever.node.latest_frame_pipeline import SWITCH_INTERVAL, tune_interpreter
 
 tune_interpreter()
 assert sys.getswitchinterval() <= SWITCH_INTERVAL * 1.01

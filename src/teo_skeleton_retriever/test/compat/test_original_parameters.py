@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_skeleton_retriever.compat.original_options import original_parameters_from
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_parameters import OriginalParameters, original_parameters_from
 from teo_skeleton_retriever.errors import ParameterError
 
 

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from openpose_writer import format_frame, frame_path, write_frame
 
-from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_reader import parse_frame, read_frame
-from teo_skeleton_retriever.detectors.openpose.openpose_writer import format_frame, frame_path, write_frame
+from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, parse_frame, read_frame
 from teo_skeleton_retriever.errors import KeypointError, OpenPoseFormatError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 

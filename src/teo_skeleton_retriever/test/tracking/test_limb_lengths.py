@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.compat.original_limb_length import OriginalLimbLength
+from teo_skeleton_retriever.compat.original_track import OriginalLimbLength
 from teo_skeleton_retriever.errors import LimbError
-from teo_skeleton_retriever.tracking.limb_length import LimbLength, LimbLengthSettings
+from teo_skeleton_retriever.tracking.body_size import LimbLength, LimbLengthSettings
 
 NEAR = np.array([0.1, 0.2, 1.8])
 

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from teo_skeleton_retriever.detectors.mediapipe.hand_sides import own_hands
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
-from teo_skeleton_retriever.detectors.mediapipe.own_hands import own_hands
 from teo_synthetic_signer import render_take
 
 HAND = np.zeros((21, 3))

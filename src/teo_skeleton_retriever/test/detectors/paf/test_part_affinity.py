@@ -11,11 +11,21 @@ from drawn_maps import draw, person
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.detectors.paf.paf_limbs import find_limbs
-from teo_skeleton_retriever.detectors.paf.paf_model import BODY_25_MODEL, COCO_18_MODEL, PAF_MODELS, PafModel
-from teo_skeleton_retriever.detectors.paf.paf_peaks import MOST_PER_PART, find_peaks
-from teo_skeleton_retriever.detectors.paf.paf_people import assemble
-from teo_skeleton_retriever.detectors.paf.paf_thresholds import CAREFUL, GENEROUS, PafThresholds
+from teo_skeleton_retriever.detectors.paf.part_affinity import (
+    CAREFUL,
+    GENEROUS,
+    MOST_PER_PART,
+    PafThresholds,
+    assemble,
+    find_limbs,
+    find_peaks,
+)
+from teo_skeleton_retriever.detectors.paf.pose_network import (
+    BODY_25_MODEL,
+    COCO_18_MODEL,
+    PAF_MODELS,
+    PafModel,
+)
 
 SIZE = (656, 368)
 """Of the network's input [px]: OpenPose's own for wide images."""

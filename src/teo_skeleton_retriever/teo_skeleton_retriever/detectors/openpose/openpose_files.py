@@ -1,18 +1,68 @@
-"""Reads the files that OpenPose's `--write_json` writes."""
+"""The files that OpenPose's `--write_json` writes, in all its versions.
+
+Versions 0.1 (body), 1.0 (face and hands), 1.1 (candidates), 1.2 (3D), 1.3 (person_id). The oldest releases
+called the two-dimensional arrays by the bare name, without `_2d`; so do many tools that imitate them.
+"""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
-from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_names import PARTS, VERSION, VERSIONS, PartKeys
 from teo_skeleton_retriever.errors import KeypointError, OpenPoseFormatError
 from teo_skeleton_retriever.layouts.person_2d import UNKNOWN_ID, Person2D
+
+VERSION = 1.3
+"""The version that is written."""
+VERSIONS = (0.1, 1.0, 1.1, 1.2, 1.3)
+"""The versions that are read."""
+
+
+class PartKeys(NamedTuple):
+    """Where one part of a person stands in the file."""
+
+    attribute: str
+    """of `Person2D`"""
+    keys: tuple[str, ...]
+    """in the file; the first is the present one"""
+    columns: int
+    """numbers per keypoint"""
+
+
+PARTS = (
+    PartKeys("body", ("pose_keypoints_2d", "pose_keypoints", "body_parts"), 3),
+    PartKeys("face", ("face_keypoints_2d", "face_keypoints"), 3),
+    PartKeys("left_hand", ("hand_left_keypoints_2d", "hand_left_keypoints"), 3),
+    PartKeys("right_hand", ("hand_right_keypoints_2d", "hand_right_keypoints"), 3),
+    PartKeys("body_3d", ("pose_keypoints_3d",), 4),
+    PartKeys("face_3d", ("face_keypoints_3d",), 4),
+    PartKeys("left_hand_3d", ("hand_left_keypoints_3d",), 4),
+    PartKeys("right_hand_3d", ("hand_right_keypoints_3d",), 4),
+)
+"""In the order in which OpenPose writes them."""
+
+
+@dataclass(frozen=True, eq=False)
+class OpenPoseFrame:
+    """All people of one image.
+
+    Attributes:
+        people: in OpenPose's order, which says nothing about who is who in the next image.
+        part_candidates: body parts before they were assembled to people: x, y [px], score by body part index.
+            Shape (n, 3) each; empty without `--part_candidates`.
+        version: of the file format.
+    """
+
+    people: tuple[Person2D, ...]
+    part_candidates: Mapping[int, FloatArray] = field(default_factory=dict)
+    version: float = VERSION
+
 
 MAX_FILE_BYTES = 64 * 1024 * 1024
 """A person is about 10 kB of text; nothing that OpenPose writes comes near this."""
