@@ -31,6 +31,10 @@ os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 _DOMAINS = range(20, 102)
 
 
+# Signs and tables that tests of several packages use.
+pytest_plugins = ["made_signs"]
+
+
 @pytest.fixture
 def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     """A DDS domain that no other test here uses, confined to localhost; also in the environment."""

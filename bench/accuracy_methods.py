@@ -10,13 +10,13 @@ from accuracy_takes import TakeFrame
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.body_layouts import as_body_25
-from teo_skeleton_retriever.compat.parameters import OriginalParameters
-from teo_skeleton_retriever.compat.retriever import OriginalRetriever
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
+from teo_skeleton_retriever.compat.skeleton_std import FROM_BODY_25, SKELETON_STD
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.retriever import Frame, Retriever, RetrieverParameters, Skeleton
-from teo_skeleton_retriever.skeleton_std import FROM_BODY_25, SKELETON_STD
 
 BODY_ROW = BODY_25.index
 Detections = Callable[[TakeFrame], tuple[Person2D, ...]]

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import DepthArray
-from teo_skeleton_retriever.camera_model import CameraModel
+from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.person_2d import Person2D
-from teo_skeleton_retriever.synthetic import Truth, render_take
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_synthetic_signer import Truth, render_take
 
 _STEP = 1e-4  # [m] of stored depth: a twentieth of the camera's own noise, up to 6.5 m
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from accuracy_takes import TakeSettings
 
-from teo_skeleton_retriever.synthetic.body_shapes import BODIES, BodyShape, Color
-from teo_skeleton_retriever.synthetic.phenotype import Phenotype
+from teo_synthetic_signer.body.body_shapes import BODIES, BodyShape, Color
+from teo_synthetic_signer.body.phenotype import Phenotype
 
 _MOTIONS = {
     "signing": (0.4, 2.2, 4.0, 6.2),

@@ -25,19 +25,19 @@ from rich.progress import track as progress
 from rich.table import Table
 
 from teo_description.robot import Robot
-from teo_lut_executor.capture.motion_retarget import RobotMotion
-from teo_lut_executor.capture.recording import open_recording, track_of
-from teo_lut_executor.capture.take import capture_take
-from teo_lut_executor.capture.takes import features, warp
-from teo_lut_executor.lut_error import LutError
-from teo_lut_executor.score.performance import performance
-from teo_lut_executor.score.retarget import score_sign
-from teo_lut_executor.score.score_file import default_scores_directory, read_score
-from teo_lut_executor.score.score_schema import Score
-from teo_lut_executor.sign import Sign
-from teo_lut_executor.sign_schema import Handedness
-from teo_skeleton_retriever.synthetic import Take, TakeOptions
-from teo_skeleton_retriever.synthetic.take_bag import write_take
+from teo_sign_capture.entries.take import capture_take
+from teo_sign_capture.entries.takes import features, warp
+from teo_sign_capture.notation.performance import performance
+from teo_sign_capture.notation.score_file import default_scores_directory, read_score
+from teo_sign_capture.notation.score_retarget import score_sign
+from teo_sign_capture.notation.score_schema import Score
+from teo_sign_capture.recordings.recording import open_recording, track_of
+from teo_sign_capture.retarget.motion import RobotMotion
+from teo_signs.errors import LutError
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import Handedness
+from teo_synthetic_signer import Take, TakeOptions
+from teo_synthetic_signer.take.take_bag import write_take
 
 Array = NDArray[np.float64]
 

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_lut_executor.capture.finger_bends import finger_bends, in_palm
-from teo_lut_executor.capture.hand_model import palm_axes
-from teo_lut_executor.capture.hand_points import MIRROR
-from teo_lut_executor.capture.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
-from teo_lut_executor.score.arm_solver import mirrored
+from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
+from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
 
 Array = NDArray[np.float64]
 

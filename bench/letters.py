@@ -17,17 +17,17 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from teo_description.hand_geometry import FINGER_LENGTH, FINGERS
 from teo_description.robot import Robot
-from teo_lut_executor.capture.dextra import FINGER_LENGTH, FINGERS
-from teo_lut_executor.capture.hand_model import measure_signer, palm_axes
-from teo_lut_executor.capture.letter_clips import KNUCKLES, THUMB, LetterClip, load_letter_clips
-from teo_lut_executor.capture.stroke import find_stroke
-from teo_lut_executor.capture.takes import warp
-from teo_lut_executor.lut import Lut
-from teo_lut_executor.plan import sample_at
-from teo_lut_executor.planner import Planner
-from teo_lut_executor.similarity import SEEN_ANGLE, SEEN_LENGTH
-from teo_lut_executor.tokens import Kind, Token
+from teo_motion.planner import Planner
+from teo_motion.sentence.plan import sample_at
+from teo_sign_capture.alphabet.stroke import find_stroke
+from teo_sign_capture.entries.takes import warp
+from teo_sign_capture.recordings.letter_clips import LetterClip, load_letter_clips
+from teo_sign_capture.tracks.hand_model import KNUCKLES, THUMB, measure_signer, palm_axes
+from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
+from teo_signs.look_up_table import Lut
+from teo_signs.tokens import Kind, Token
 
 Array = NDArray[np.float64]
 

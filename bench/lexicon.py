@@ -11,13 +11,13 @@ from report import Figure
 from second_look import SecondLook
 
 from teo_description.robot import Robot
-from teo_lut_executor.lut import Lut
-from teo_lut_executor.plan import sample_at
-from teo_lut_executor.plan_error import PlanError
-from teo_lut_executor.planner import Planner
-from teo_lut_executor.sign import Sign
-from teo_lut_executor.sign_schema import STANDINGS
-from teo_lut_executor.tokens import Kind, Token
+from teo_motion.planner import Planner
+from teo_motion.sentence.plan import sample_at
+from teo_signs.errors import PlanError
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import STANDINGS
+from teo_signs.tokens import Kind, Token
 
 SENTENCES = 500
 _SIGNS = 3

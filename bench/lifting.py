@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from report import Figure
 from signer_tracks import signer_track
 
-from teo_lut_executor.capture.hand_model import palm_axes
-from teo_lut_executor.capture.lifting import lift_clip
-from teo_lut_executor.capture.pose_file import Points, PoseClip
-from teo_lut_executor.capture.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
+from teo_sign_capture.lifting.clip import lift_clip
+from teo_sign_capture.recordings.pose_file import Points, PoseClip
+from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
 
 Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ import time
 import numpy as np
 from report import Figure, percentiles
 
-from teo_skeleton_retriever.limb_chain import LimbChain
-from teo_skeleton_retriever.limb_fast import FastLimbSolver
-from teo_skeleton_retriever.limb_ipopt import IpoptLimbSolver
+from teo_skeleton_retriever.compat.limb_ipopt import IpoptLimbSolver
+from teo_skeleton_retriever.depth.limb_chain import LimbChain
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
 
 LIMBS = 200
 

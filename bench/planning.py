@@ -17,14 +17,14 @@ from report import Figure, percentiles
 
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_description.robot import Robot
-from teo_lut_executor.lut import Lut
-from teo_lut_executor.motion_limits import MotionLimits
-from teo_lut_executor.plan import Plan
-from teo_lut_executor.plan_error import PlanError
-from teo_lut_executor.planner import Planner
-from teo_lut_executor.sentence_form import SentenceForm, SentenceType
-from teo_lut_executor.sign import Sign
-from teo_lut_executor.tokens import Kind, Token, parse_printed
+from teo_motion.planner import Planner
+from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_motion.trajectory.limits import MotionLimits
+from teo_signs.errors import PlanError
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign
+from teo_signs.tokens import Kind, Token, parse_printed
 
 SENTENCES = 200
 PLANS = 10_000

@@ -17,15 +17,15 @@ from scipy.optimize import minimize
 from signer_tracks import signer_track
 
 from teo_description.robot import Robot
-from teo_lut_executor.capture import motion_retarget
-from teo_lut_executor.capture.arm_problem import ArmProblem
-from teo_lut_executor.capture.arm_trajectory import Bounds, solve_arms
-from teo_lut_executor.capture.clearing import clear_arms
-from teo_lut_executor.capture.motion_retarget import RobotMotion
-from teo_lut_executor.capture.skeleton_bag import read_skeletons
-from teo_lut_executor.capture.skeleton_track import SkeletonTrack
-from teo_lut_executor.capture.touches import WholeRobot
-from teo_lut_executor.sign_schema import Handedness
+from teo_sign_capture.recordings.skeleton_bag import read_skeletons
+from teo_sign_capture.retarget import motion as motion_retarget
+from teo_sign_capture.retarget.arm_residuals import ArmProblem
+from teo_sign_capture.retarget.arm_trajectory import Bounds, solve_arms
+from teo_sign_capture.retarget.collision_clearing import clear_arms
+from teo_sign_capture.retarget.collision_terms import WholeRobot
+from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_signs.sign_schema import Handedness
 
 Array = NDArray[np.float64]
 

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.robot import Robot
-from teo_lut_executor.capture.body_map import body_boxes, on_skin
-from teo_lut_executor.capture.finger_bends import finger_bends, in_palm
-from teo_lut_executor.capture.hand_model import palm_axes
-from teo_lut_executor.capture.hand_points import MIRROR
-from teo_lut_executor.capture.skeleton_track import EAR, MID_HIP, NECK, NOSE, SkeletonTrack
+from teo_sign_capture.retarget.body_map import body_boxes, on_skin
+from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
+from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.skeleton_track import EAR, MID_HIP, NECK, NOSE, SkeletonTrack
 
 Array = NDArray[np.float64]
 

@@ -23,17 +23,17 @@ from report import Figure, percentiles
 from sensor_msgs.msg import CameraInfo, Image
 from teo_sign_msgs.msg import SkeletonArray
 
-from teo_skeleton_retriever.bag_images import BagImages
-from teo_skeleton_retriever.bag_reader import Bag
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.camera_model import CameraModel
-from teo_skeleton_retriever.camera_topics import CAMERA_INFO, COLOR, DEPTH
+from teo_skeleton_retriever.bags.bag_images import BagImages
+from teo_skeleton_retriever.bags.bag_reader import Bag
+from teo_skeleton_retriever.bags.topic_choice import choose_topics
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.camera.camera_topics import CAMERA_INFO, COLOR, DEPTH
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.interpreter_tuning import tune_interpreter
-from teo_skeleton_retriever.person_2d import Person2D
-from teo_skeleton_retriever.retriever_node import RetrieverNode
-from teo_skeleton_retriever.rgbd_image import RgbdImage
-from teo_skeleton_retriever.topic_choice import choose_topics
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.node.interpreter_tuning import tune_interpreter
+from teo_skeleton_retriever.node.retriever_node import RetrieverNode
 
 TAKE = Path(__file__).parents[1] / "bags" / "signer_d435"
 RATE = 30.0  # [Hz] of the camera

@@ -25,8 +25,8 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.retriever import Frame, Retriever, RetrieverParameters, Skeleton
 
 MISSING = 0.66

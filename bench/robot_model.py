@@ -10,7 +10,7 @@ import numpy as np
 from report import Figure, percentiles
 
 from teo_description import COMMANDED_JOINTS, joint_limits
-from teo_description.rendering import CAMERAS, Renderer
+from teo_description.pictures.rendering import CAMERAS, Renderer
 from teo_description.robot import Robot
 
 POSES = 200

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_lut_executor.capture.body_axes import in_body_axes
-from teo_lut_executor.capture.skeleton_track import Keypoints, SkeletonTrack
-from teo_skeleton_retriever.synthetic.motion import Motion
-from teo_skeleton_retriever.synthetic.scripts import script as script_named
-from teo_skeleton_retriever.synthetic.signer import Signer
+from teo_sign_capture.tracks.body_axes import in_body_axes
+from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
+from teo_synthetic_signer.body.signer import Signer
+from teo_synthetic_signer.script.motion import Motion
+from teo_synthetic_signer.script.scripts import script as script_named
 
 Array = NDArray[np.float64]
 

@@ -21,15 +21,15 @@ from pathlib import Path
 from gloss_baselines import lemmas_in_spanish_order, spoken_to_signed
 from report import Figure, percentiles
 
-from teo_sign_translator.accepted import accepts, plain_gloss
+from teo_sign_translator.corpus.accepted_translations import accepts, plain_gloss
 from teo_sign_translator.corpus.generator import Generator
+from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.neural.examples import without_accents
-from teo_sign_translator.neural.scores import score
-from teo_sign_translator.pairs import gloss_name, paper_pairs
+from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.pointer.examples import without_accents
+from teo_sign_translator.pointer.metrics import score
 from teo_sign_translator.resources import data_file
-from teo_sign_translator.translator import Translator
 
 Glosses = tuple[str, ...]
 System = Callable[[str], Glosses]

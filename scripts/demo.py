@@ -30,7 +30,7 @@ from rich.table import Table
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 
-from teo_description.rendering import CAMERAS, film_strip, render_pose, save_png
+from teo_description.pictures.rendering import CAMERAS, film_strip, render_pose, save_png
 
 RECORDED = (
     "text",

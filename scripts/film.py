@@ -6,7 +6,7 @@ import multiprocessing
 from collections.abc import Mapping
 from pathlib import Path
 
-from teo_description.rendering import MotionVideo, Renderer
+from teo_description.pictures.rendering import MotionVideo, Renderer
 
 FRAMES_PER_SECOND = 25.0
 _Frame = tuple[dict[str, float], str]

@@ -23,8 +23,8 @@ setup(
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
-            "render = teo_description.render_cli:main",
-            "build_urdf = teo_description.build_urdf:main",
+            "render = teo_description.pictures.render_cli:main",
+            "build_urdf = teo_description.urdf.build_urdf:main",
         ],
     },
 )

@@ -30,14 +30,14 @@ setup(
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
-            "translator_node = teo_sign_translator.translator_node:main",
-            "translate = teo_sign_translator.translate_cli:main",
-            "generate_corpus = teo_sign_translator.corpus.generate_cli:main",
+            "translator_node = teo_sign_translator.node.translator_node:main",
+            "translate = teo_sign_translator.cli.translate:main",
+            "generate_corpus = teo_sign_translator.cli.generate_corpus:main",
             "build_morphology = teo_sign_translator.morphology.conjugation_build:main",
-            "train = teo_sign_translator.train:main",
-            "evaluate = teo_sign_translator.evaluate:main",
-            "compare = teo_sign_translator.compare:main",
-            "reproduce_paper = teo_sign_translator.reproduce_paper:main",
+            "train = teo_sign_translator.cli.train:main",
+            "evaluate = teo_sign_translator.cli.evaluate:main",
+            "compare = teo_sign_translator.cli.compare:main",
+            "reproduce_paper = teo_sign_translator.cli.reproduce_paper:main",
         ],
     },
 )

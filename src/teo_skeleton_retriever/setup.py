@@ -17,16 +17,16 @@ setup(
     maintainer_email="teo-sign@example.org",
     description=(
         "From colour and depth images to 3D keypoints of people's bodies, hands and faces: "
-        "node, detectors, offline tools, synthetic signer."
+        "node, detectors, offline tools."
     ),
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
-            "retrieve = teo_skeleton_retriever.retrieve_cli:main",
-            "synthesize = teo_skeleton_retriever.synthetic.synthesize_cli:main",
-            "sensor_study = teo_skeleton_retriever.sensor_study:main",
-            "retriever_node = teo_skeleton_retriever.retriever_node:main",
+            "retrieve = teo_skeleton_retriever.cli.retrieve_cli:main",
+            "synthesize = teo_skeleton_retriever.cli.synthetic_signer:synthesize",
+            "sensor_study = teo_skeleton_retriever.cli.synthetic_signer:sensor_study",
+            "retriever_node = teo_skeleton_retriever.node.retriever_node:main",
         ],
     },
 )

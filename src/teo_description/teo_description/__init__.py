@@ -1,7 +1,6 @@
 """TEO's robot description: URDF, joint groups, limits, self-collision and a renderer without a display."""
 
 from teo_description.errors import DescriptionError
-from teo_description.files import urdf_path
 from teo_description.home import HOME
 from teo_description.joints import (
     ALL_JOINTS,
@@ -18,7 +17,7 @@ from teo_description.joints import (
     TRUNK,
     mirrored_name,
 )
-from teo_description.limits import JointLimits, description_hash, joint_limits, urdf_text
+from teo_description.limits import JointLimits, description_hash, joint_limits, urdf_path, urdf_text
 
 __all__ = [
     "ALL_JOINTS",

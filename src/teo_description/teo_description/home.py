@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from teo_description import tables
 from teo_description.joints import ALL_JOINTS
+from teo_description.urdf import figures as tables
 
 THUMB_AT_REST = math.radians(-30.0)
 """[rad] The thumb lies along the index, 22 mm off; at 0 its last phalanx, bent by 46 deg, would be in it."""

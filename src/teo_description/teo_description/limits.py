@@ -7,12 +7,13 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.package_files import package_path
 from teo_description.errors import DescriptionError
-from teo_description.files import urdf_path
 from teo_description.joints import ALL_JOINTS, COMMANDED_JOINTS
 
 
@@ -30,6 +31,18 @@ class JointLimits:
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]
     velocity: NDArray[np.float64]
+
+
+def urdf_path() -> Path:
+    """Path of ``teo.urdf``: in the source tree, or in the share folder of the prefix that holds this package.
+
+    Raises:
+        DescriptionError: ``urdf_missing``.
+    """
+    try:
+        return package_path("teo_description", "urdf/teo.urdf")
+    except FileNotFoundError as error:
+        raise DescriptionError("urdf_missing", str(error)) from error
 
 
 @cache

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from teo_description import LEFT_HAND, RIGHT_HAND, DescriptionError, joint_limits
-from teo_description.dextra import LEFT_AXES, RIGHT_AXES
+from teo_description.tendons import LEFT_AXES, RIGHT_AXES
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from teo_description import DescriptionError
-from teo_description.rendering import MotionVideo, captioned, film_strip, write_video
+from teo_description.pictures.rendering import MotionVideo, captioned, film_strip, write_video
 
 
 def frames(count, height=48, width=64):

@@ -4,7 +4,9 @@ import av
 import cv2
 import pytest
 
-from teo_description import build_urdf, render_cli, urdf_text
+from teo_description import urdf_text
+from teo_description.pictures import render_cli
+from teo_description.urdf import build_urdf
 
 PLAN = "time,FrontalRightElbow\n0.0,0.0\n0.4,-0.3\n"
 

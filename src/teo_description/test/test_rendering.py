@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_description import HOME, LEFT_ARM, RIGHT_ARM, DescriptionError
-from teo_description.rendering import CAMERAS, Camera, Renderer, render_pose, save_png
+from teo_description.pictures.rendering import CAMERAS, Camera, Renderer, render_pose, save_png
 
 # The right hand raised, its palm towards the addressee (the arm of TEO's own letter E).
 RAISED = dict(zip(RIGHT_ARM, np.radians([-75.4, 12.4, 9.6, -83.5, 86.2, 2.3]), strict=True))

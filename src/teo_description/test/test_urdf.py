@@ -17,7 +17,7 @@ from teo_description import (
     urdf_path,
     urdf_text,
 )
-from teo_description.urdf_writer import urdf
+from teo_description.urdf.urdf_writer import urdf
 
 # Position limits [deg] of teo-configuration-files, share/robots/teo/nodes, typed once more.
 PUBLISHED = {

@@ -25,12 +25,11 @@ from teo_sign_msgs.srv import GetSign, ListSigns
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_description import COMMANDED_JOINTS, HEAD, HOME, joint_limits
-from teo_lut_executor.executor_node import ExecutorNode
-from teo_lut_executor.executor_parameters import PARAMETERS
-from teo_lut_executor.lut_error import LutError
-from teo_lut_executor.plan_error import PlanError
-from teo_lut_executor.sign_file import save_sign
-from teo_lut_executor.tokens import parse_printed
+from teo_lut_executor.node.executor_node import ExecutorNode
+from teo_lut_executor.node.parameters import PARAMETERS
+from teo_signs.errors import LutError, PlanError
+from teo_signs.sign_file import save_sign
+from teo_signs.tokens import parse_printed
 
 RATE = 100.0  # joint states a second [Hz]
 

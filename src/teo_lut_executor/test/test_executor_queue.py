@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from teo_description import COMMANDED_JOINTS
-from teo_lut_executor.composer import REST
-from teo_lut_executor.execution_events import (
+from teo_lut_executor.execution.events import (
     Activity,
     Event,
     Finished,
@@ -18,13 +17,14 @@ from teo_lut_executor.execution_events import (
     Status,
     TrajectoryReady,
 )
-from teo_lut_executor.execution_queue import ExecutionQueue
-from teo_lut_executor.plan import Plan
-from teo_lut_executor.plan_error import PlanError
-from teo_lut_executor.planner import Planner
-from teo_lut_executor.queue_settings import QueueSettings
-from teo_lut_executor.sign import Sign
-from teo_lut_executor.tokens import parse_printed
+from teo_lut_executor.execution.queue import ExecutionQueue
+from teo_lut_executor.execution.settings import QueueSettings
+from teo_motion.planner import Planner
+from teo_motion.sentence.composition import REST
+from teo_motion.sentence.plan import Plan
+from teo_signs.errors import PlanError
+from teo_signs.sign import Sign
+from teo_signs.tokens import parse_printed
 
 TICK = 0.02
 

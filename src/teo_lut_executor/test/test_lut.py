@@ -1,159 +1,131 @@
-"""The table: lists at once, reads when asked, keeps what it read."""
+"""What people see of the table."""
 
 from __future__ import annotations
 
-import unicodedata
+import json
 from pathlib import Path
 
+import cv2
 import pytest
+from typer.testing import CliRunner, Result
 
-from teo_lut_executor.lut import Lut, LutError, default_lut_directory
-from teo_lut_executor.sign import sign_warnings
-from teo_lut_executor.sign_file import format_sign
+from teo_lut_executor.cli.lut import app
+from teo_signs.look_up_table import default_lut_directory
 
-TABLE = Path(__file__).resolve().parent.parent / "lut" / "lse"
-LETTERS = [
-    "A",
-    "B",
-    "C",
-    "CH",
-    "D",
-    "E",
-    "F",
-    "G",
-    "H",
-    "I",
-    "J",
-    "K",
-    "L",
-    "LL",
-    "M",
-    "N",
-    "Ñ",
-    "O",
-    "P",
-    "Q",
-    "R",
-    "RR",
-    "S",
-    "T",
-    "U",
-    "V",
-    "W",
-    "X",
-    "Y",
-    "Z",
-]
+TABLE = default_lut_directory()
 
 
-def copy_of(gloss: str, directory: Path, name: str) -> None:
-    text = (TABLE / f"{gloss}.json").read_text(encoding="utf-8")
-    (directory / f"{name}.json").write_text(
-        text.replace(f'"gloss": "{gloss}"', f'"gloss": "{name}"'), "utf-8"
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "200"}).invoke(app, [str(argument) for argument in arguments])
+
+
+def test_list_has_a_line_for_every_sign() -> None:
+    result = run("list", "--lut", TABLE)
+    assert result.exit_code == 0
+    lines = {line.split()[0]: line for line in result.output.splitlines() if line.strip()}
+    assert {"A", "Ñ", "RR", "7", "HOLA"} <= set(lines)
+    assert "letter" in lines["A"]
+    assert "right" in lines["A"]
+    assert "spoken-to-signed" in lines["A"]
+    assert "both" in lines["7"]
+
+
+def test_list_can_be_of_one_kind() -> None:
+    output = run("list", "--lut", TABLE, "--kind", "lexical").output
+    assert "NOMBRE" in output
+    assert "spoken-to-signed" not in output
+    assert "3 recorded" in output  # what TEO has signed in public
+
+
+def test_show_tells_everything() -> None:
+    output = run("show", "Ñ", "--lut", TABLE).output
+    for word in ("Ñ", "letter", "MIT", "FrontalRightElbow", "palm_angle_error_deg", "notes"):
+        assert word in output
+
+
+def test_show_json_is_the_file() -> None:
+    assert run("show", "NOMBRE", "--lut", TABLE, "--json").output == (TABLE / "NOMBRE.json").read_text(
+        "utf-8"
     )
 
 
-def test_ten_thousand_entries_open(tmp_path: Path) -> None:
-    for number in range(10_000):
-        (tmp_path / f"SEÑA{number}.json").touch()
-    lut = Lut.open(tmp_path)
-    glosses = lut.glosses()
-    assert len(glosses) == len(lut) == 10_000
-    assert list(glosses) == sorted(glosses)
+def test_show_of_an_unknown_sign_fails_with_a_sentence() -> None:
+    result = run("show", "NADA", "--lut", TABLE)
+    assert result.exit_code == 1
+    assert "unknown_sign" in result.output
 
 
-def test_an_entry_is_read_when_it_is_first_asked_for_and_then_kept(tmp_path: Path) -> None:
-    copy_of("A", tmp_path, "A")
-    (tmp_path / "ROTO.json").write_text("{")
-    lut = Lut.open(tmp_path)
-    assert "ROTO" in lut
-    first = lut["A"]
-    (tmp_path / "A.json").unlink()
-    assert lut["A"] is first
-    with pytest.raises(LutError) as caught:
-        lut["ROTO"]
-    assert caught.value.code == "not_json"
+def test_validate_passes_for_the_package() -> None:
+    result = run("validate", TABLE)
+    assert result.exit_code == 0
+    assert "0 errors, 0 warnings" in result.output
 
 
-def test_a_changed_table_is_seen_after_reload(tmp_path: Path) -> None:
-    copy_of("A", tmp_path, "A")
-    lut = Lut.open(tmp_path)
-    copy_of("A", tmp_path, "B")
-    assert lut.glosses() == ("A",)
-    lut.reload()
-    assert lut.glosses() == ("A", "B")
-
-
-def test_an_unknown_gloss_is_refused_by_name(tmp_path: Path) -> None:
-    lut = Lut.open(tmp_path)
-    assert lut.glosses() == ()
-    with pytest.raises(LutError, match="got 'NADA'") as caught:
-        lut["NADA"]
-    assert caught.value.code == "unknown_sign"
-    assert "NADA" not in lut
-    assert 7 not in lut
-
-
-def test_accents_are_found_in_either_unicode_form_and_spaces_as_underscores(tmp_path: Path) -> None:
-    (tmp_path / unicodedata.normalize("NFD", "ADIÓS.json")).touch()
-    (tmp_path / "POR_FAVOR.json").touch()
-    lut = Lut.open(tmp_path)
-    assert lut.glosses() == ("ADIÓS", "POR_FAVOR")
-    assert unicodedata.normalize("NFD", "ADIÓS") in lut
-    assert "POR FAVOR" in lut
-
-
-def test_two_files_of_one_gloss_are_refused(tmp_path: Path) -> None:
-    (tmp_path / unicodedata.normalize("NFD", "Ñ.json")).touch()
-    (tmp_path / unicodedata.normalize("NFC", "Ñ.json")).touch()
-    if len(list(tmp_path.iterdir())) < 2:
-        pytest.skip("this file system takes both Unicode forms of a name for one")
-    with pytest.raises(LutError) as caught:
-        Lut.open(tmp_path)
-    assert caught.value.code == "duplicate_gloss"
-
-
-def test_other_files_are_not_signs(tmp_path: Path) -> None:
-    for name in (".A.json", "notes.txt", ".tmp123.tmp"):
-        (tmp_path / name).touch()
-    assert Lut.open(tmp_path).glosses() == ()
-
-
-def test_a_missing_directory_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(LutError) as caught:
-        Lut.open(tmp_path / "nowhere")
-    assert caught.value.code == "no_directory"
-
-
-def test_the_package_finds_its_own_table() -> None:
-    assert set(LETTERS) <= set(Lut.open(default_lut_directory()).glosses())
-
-
-def test_the_table_holds_alphabet_digits_demonstrated_signs_and_every_score_without_a_warning() -> None:
-    lut = Lut.open(TABLE)
-    assert {gloss for gloss in lut if lut[gloss].kind == "letter"} == set(LETTERS)
-    assert {gloss for gloss in lut if lut[gloss].kind == "number"} == {
-        *map(str, range(21)),
-        *map(str, range(30, 101, 10)),
-    }
-    scores = {path.stem for path in (TABLE.parent.parent / "scores" / "lse").glob("*.yaml")}
-    assert {gloss for gloss in lut if lut[gloss].kind == "lexical"} == {"HOLA", "MI", "NOMBRE"} | scores
-    assert [warning for gloss in lut for warning in sign_warnings(lut[gloss])] == []
-
-
-def test_entries_are_kept_in_the_form_in_which_they_would_be_written() -> None:
-    lut = Lut.open(TABLE)
-    for gloss in lut:
-        assert lut.path(gloss).read_text(encoding="utf-8") == format_sign(lut[gloss])
-
-
-def test_an_entry_for_another_robot_or_hand_is_warned_of(tmp_path: Path) -> None:
-    text = (TABLE / "A.json").read_text(encoding="utf-8")
-    made_for = Lut.open(TABLE)["A"].provenance.description_hash
-    (tmp_path / "A.json").write_text(
-        text.replace(made_for, "0" * 64).replace('"handedness": "right"', '"handedness": "both"'), "utf-8"
+def test_validate_names_every_entry_that_is_wrong(tmp_path: Path) -> None:
+    for name in ("A", "B"):
+        (tmp_path / f"{name}.json").write_text((TABLE / f"{name}.json").read_text("utf-8"), "utf-8")
+    (tmp_path / "B.json").write_text(
+        (tmp_path / "B.json").read_text("utf-8").replace('"letter"', '"word"'), "utf-8"
     )
-    warnings = sign_warnings(Lut.open(tmp_path)["A"])
-    assert len(warnings) == 2
-    assert "provenance.description_hash" in warnings[0]
-    assert "handedness" in warnings[1]
+    (tmp_path / "C.json").touch()
+    result = run("validate", tmp_path)
+    assert result.exit_code == 1
+    assert "error bad_value: B.json: kind: expected" in result.output
+    assert "error empty_file: C.json" in result.output
+    assert "3 entries" in result.output
+    assert "2 errors" in result.output
+
+
+def test_a_missing_table_fails_with_a_sentence(tmp_path: Path) -> None:
+    result = run("list", "--lut", tmp_path / "nowhere")
+    assert result.exit_code == 1
+    assert "no_directory" in result.output
+
+
+def test_render_draws_a_still_and_a_moving_sign(tmp_path: Path) -> None:
+    assert run("render", "A", "--lut", TABLE, "--out", tmp_path / "a.png").exit_code == 0
+    assert run("render", "J", "--lut", TABLE, "--out", tmp_path / "j.png").exit_code == 0
+    still, moving = (cv2.imread(str(tmp_path / name)) for name in ("a.png", "j.png"))
+    assert moving.shape[0] > still.shape[0]
+    assert moving.shape[1] > still.shape[1]
+
+
+def test_render_films_a_sign_for_its_duration(tmp_path: Path) -> None:
+    assert run("render", "HOLA", "--lut", TABLE, "--out", tmp_path / "hola.mp4").exit_code == 0
+    film = cv2.VideoCapture(str(tmp_path / "hola.mp4"))
+    assert film.get(cv2.CAP_PROP_FRAME_COUNT) / film.get(cv2.CAP_PROP_FPS) == pytest.approx(1.25, abs=0.1)
+
+
+def test_render_all_makes_a_sheet_of_each_kind(tmp_path: Path) -> None:
+    for name in ("A", "J", "7", "MI"):
+        (tmp_path / f"{name}.json").write_text((TABLE / f"{name}.json").read_text("utf-8"), "utf-8")
+    result = run("render", "--all", "--lut", tmp_path, "--out", tmp_path / "sheets")
+    assert result.exit_code == 0
+    assert sorted(path.name for path in (tmp_path / "sheets").iterdir()) == [
+        "letters.png",
+        "numbers.png",
+        "signs.png",
+    ]
+
+
+def test_overview_shows_two_moments_of_each_sign(tmp_path: Path) -> None:
+    result = run("overview", "--kind", "number", "--lut", TABLE, "--out", tmp_path / "all.png")
+    assert result.exit_code == 0, result.output
+    assert "29 signs" in result.output
+    picture = cv2.imread(str(tmp_path / "all.png"))
+    # Fifty-eight moments, sixteen a row.
+    assert picture.shape[1] > 16 * 150 and 4 * 150 < picture.shape[0] < 4 * 250
+    assert run("overview", "--kind", "none", "--lut", TABLE, "--out", tmp_path / "no.png").exit_code == 1
+
+
+@pytest.mark.parametrize(
+    "arguments", [("A",), ("--out", "x.png"), ("A", "--all", "--out", "x.png"), ("A", "--out", "x.gif")]
+)
+def test_render_without_a_sign_or_a_place_says_what_it_needs(arguments: tuple[str, ...]) -> None:
+    result = run("render", *arguments, "--lut", TABLE)
+    assert result.exit_code == 1
+    assert "bad_arguments" in result.output
+
+
+def test_schema_prints_json() -> None:
+    assert json.loads(run("schema").output)["title"] == "TEO sign"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from teo_sign_translator.translator import Translator
+from teo_sign_translator.pipeline.translator import Translator
 
 # What several tests here need stands beside them.
 sys.path.insert(0, str(Path(__file__).parent))

@@ -11,13 +11,13 @@ import torch
 
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.neural import Hypothesis
-from teo_sign_translator.neural.array_model import ArrayModel
-from teo_sign_translator.neural.by_heart import ByHeart
-from teo_sign_translator.neural.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.neural.decoding import ZooModel
-from teo_sign_translator.neural.fit import Fit, fit
-from teo_sign_translator.neural.zoo import ZOO
-from teo_sign_translator.spanish_words import SourceWord
+from teo_sign_translator.pointer.array_model import ArrayModel
+from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.memorised_pairs import ByHeart
+from teo_sign_translator.pointer.training import Fit, fit
+from teo_sign_translator.pointer.zoo import ZOO
+from teo_sign_translator.text.source_words import SourceWord
 
 NOUNS = ("pan", "vaso", "libro", "coche", "gato", "perro")
 VERBS = ("com", "beb", "le", "vend")

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from teo_sign_translator.coverage import Coverage
-from teo_sign_translator.function_words import FunctionWords
-from teo_sign_translator.glosses import GlossList
+from teo_sign_translator.corpus.paper_pairs import training_pairs
+from teo_sign_translator.lstm256.gloss_list import GlossList
+from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.neural import Hypothesis, OutputGloss
-from teo_sign_translator.neural.lexis import copied_gloss
-from teo_sign_translator.pairs import training_pairs
-from teo_sign_translator.phrasebook import Phrasebook
-from teo_sign_translator.sentence_route import SentenceRoute
-from teo_sign_translator.signs import SignChooser, read_synonyms
-from teo_sign_translator.spanish_words import SourceWord
-from teo_sign_translator.translator import Translator
-from teo_sign_translator.warrants import Warrants
+from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
+from teo_sign_translator.pipeline.coverage import Coverage
+from teo_sign_translator.pipeline.function_words import FunctionWords
+from teo_sign_translator.pipeline.gloss_evidence import Warrants
+from teo_sign_translator.pipeline.pointer_back_end import SentenceRoute
+from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.source_words import SourceWord
 
 
 class WordByWordModel:

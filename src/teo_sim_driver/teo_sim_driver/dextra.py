@@ -1,4 +1,4 @@
-"""What the real Dextra hands would be told; the conversion of one axis is in `teo_description.dextra`."""
+"""What the real Dextra hands would be told; the conversion of one axis is in `teo_description.tendons`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from teo_description import DescriptionError
-from teo_description.dextra import LEFT_AXES, RIGHT_AXES
+from teo_description.tendons import LEFT_AXES, RIGHT_AXES
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import DriverError
 

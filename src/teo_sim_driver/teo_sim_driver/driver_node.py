@@ -17,9 +17,9 @@ from std_msgs.msg import Float64MultiArray, MultiArrayDimension, MultiArrayLayou
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
+from teo_common.node_process import run_node
+from teo_common.parameters import declare_parameters
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
-from teo_node_tools.parameter_row import declare_parameters
-from teo_node_tools.run_node import run_node
 from teo_sim_driver import dextra
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import Refusal, TrajectoryError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from teo_node_tools.parameter_row import ParameterRow
+from teo_common.parameters import ParameterRow
 from teo_sim_driver.joint_follower import DEFAULT_STOP_DECELERATION
 from teo_sim_driver.rules import Rules
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from teo_description import COMMANDED_JOINTS, HOME, LEFT_HAND, RIGHT_HAND, joint_limits
-from teo_description.dextra import RIGHT_AXES
+from teo_description.tendons import RIGHT_AXES
 from teo_sim_driver.dextra import setpoints
 from teo_sim_driver.errors import DriverError
 

@@ -9,16 +9,16 @@ from typing import Protocol
 
 import numpy as np
 
-from teo_skeleton_retriever.compat_options import original_parameters_from
-from teo_skeleton_retriever.compat_retriever import CompatRetriever
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
+from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
+from teo_skeleton_retriever.compat.original_options import original_parameters_from
 from teo_skeleton_retriever.detectors import Detector
+from teo_skeleton_retriever.detectors.detection_frame import Frame
 from teo_skeleton_retriever.errors import ParameterError
-from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.rgbd_image import RgbdImage
-from teo_skeleton_retriever.skeleton_3d import Skeleton
 
 COMPAT_MODES = ("", "skeleton_retriever")
 """Whose processing can be asked for: our own, or that of the original skeletonRetriever."""

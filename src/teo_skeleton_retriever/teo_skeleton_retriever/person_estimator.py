@@ -8,21 +8,20 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.body_depth import BodyDepth, BodyDepths, WristView
-from teo_skeleton_retriever.body_layouts import as_body_25
-from teo_skeleton_retriever.body_size import BodySize, widened
-from teo_skeleton_retriever.depth_lookup import DepthLookup, Surfaces
-from teo_skeleton_retriever.detected import Detected, detected
-from teo_skeleton_retriever.detector_bias import MEDIAPIPE, unbiased
-from teo_skeleton_retriever.detector_noise import hand_doubt
-from teo_skeleton_retriever.face_depth import face_depths
-from teo_skeleton_retriever.filtered import keypoints_of
-from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.hand_fit import BONES, HandFit, HandView, fit_hands
-from teo_skeleton_retriever.hand_joints import MEDIAPIPE_BONES, mediapipe_joints
-from teo_skeleton_retriever.keypoint_filter import FilterOutput, KeypointFilter
-from teo_skeleton_retriever.person_2d import Person2D
-from teo_skeleton_retriever.person_layout import (
+from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
+from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
+from teo_skeleton_retriever.depth.face_depth import face_depths
+from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of
+from teo_skeleton_retriever.depth.hand_depth import BONES, HandFit, HandView, fit_hands
+from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
+from teo_skeleton_retriever.depth.viewing_rays import Detected, detected
+from teo_skeleton_retriever.detectors.detection_frame import Frame
+from teo_skeleton_retriever.detectors.mediapipe.calibration import hand_doubt
+from teo_skeleton_retriever.detectors.mediapipe.hand_joints import MEDIAPIPE_BONES, mediapipe_joints
+from teo_skeleton_retriever.detectors.mediapipe.keypoint_bias import MEDIAPIPE, unbiased
+from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_layout import (
     ACCELERATION,
     ACROSS,
     ARMS,
@@ -41,9 +40,10 @@ from teo_skeleton_retriever.person_layout import (
     SPEED,
     N,
 )
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus
-from teo_skeleton_retriever.skin import HAND_DEPTHS
+from teo_skeleton_retriever.tracking.body_size import BodySize, widened
+from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput, KeypointFilter
 
 _TRUNK = [ROW[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip")]
 _BEFORE_TRUNK = 1.0  # [m] a long arm and a lean forward reach no farther

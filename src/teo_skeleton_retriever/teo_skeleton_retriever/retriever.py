@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.body_frame import BodyFrame, body_frame
-from teo_skeleton_retriever.body_layouts import as_body_25
-from teo_skeleton_retriever.depth_lookup import DepthLookup
-from teo_skeleton_retriever.detected import detected
-from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
+from teo_skeleton_retriever.depth.viewing_rays import detected
+from teo_skeleton_retriever.detectors.detection_frame import Frame
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.body_frame import BodyFrame, body_frame
+from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.person_estimator import PersonEstimator
-from teo_skeleton_retriever.person_tracker import PersonTracker, TrackerSettings
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
-from teo_skeleton_retriever.signer_choice import SignerChoice
-from teo_skeleton_retriever.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
+from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
 
 __all__ = ["Frame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
 

@@ -11,9 +11,9 @@ from builtin_interfaces.msg import Time
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import Header
 
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.camera_model import CameraModel
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 WIDTH, HEIGHT = 320, 240
 FOCAL = 300.0

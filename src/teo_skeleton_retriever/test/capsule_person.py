@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from teo_skeleton_retriever.body_25 import BODY_25
-from teo_skeleton_retriever.camera_model import CameraModel
-from teo_skeleton_retriever.frame import Frame
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.detectors.detection_frame import Frame
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 CAMERA = CameraModel(width=320, height=240, fx=300.0, fy=300.0, cx=159.5, cy=119.5)
 ROW = BODY_25.index

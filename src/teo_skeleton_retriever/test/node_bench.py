@@ -18,8 +18,8 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import LockSigner
 
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.person_2d import Person2D
-from teo_skeleton_retriever.retriever_node import RetrieverNode
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.node.retriever_node import RetrieverNode
 
 PATIENCE = 20.0  # [s]; a busy machine is slow, not wrong
 IMAGES = 400  # of which the detector knows the keypoints

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from capsule_person import CAMERA, ROW, Pose, face, frame, person_2d, pose
 
-from teo_skeleton_retriever.camera_model import CameraModel
+from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.errors import FrameError
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.retriever import Frame, KeypointStatus, Retriever, RetrieverParameters, Skeleton
 
 RATE = 30.0  # [1/s]

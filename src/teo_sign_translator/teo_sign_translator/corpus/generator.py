@@ -20,7 +20,7 @@ from teo_sign_translator.corpus.templates import Template, templates
 from teo_sign_translator.corpus.words import WordLists, is_held_out
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.normalisation import folded
+from teo_sign_translator.text.cleaning import folded
 
 #: Share of each split.
 SHARES = {"train": 0.93, "dev": 0.02, "test_words": 0.02, "test_templates": 0.02, "test_both": 0.01}

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from teo_sign_translator.corpus.pairs_file import Pair
+from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, AlignedPair, training_pairs
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pairs import NAME, NUMBER, AlignedPair, training_pairs
-from teo_sign_translator.spanish_words import SourceWord, source_words
+from teo_sign_translator.text.source_words import SourceWord, source_words
 
 #: Fill the slots of the pairs; common names of different lengths, and ages.
 _NAMES = (

@@ -19,8 +19,8 @@ from teo_sign_translator.morphology.guessing import guess
 from teo_sign_translator.morphology.lexicon import Form
 from teo_sign_translator.morphology.reading import Reading
 from teo_sign_translator.morphology.tags import tag_class
-from teo_sign_translator.normalisation import strip_marks
 from teo_sign_translator.resources import data_file
+from teo_sign_translator.text.cleaning import strip_marks
 
 #: Most readings of one word; few words have more, and none of them is likely.
 MAX_READINGS = 4

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.errors import DetectorError
-from teo_skeleton_retriever.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 ImageArray = NDArray[np.uint8]
 

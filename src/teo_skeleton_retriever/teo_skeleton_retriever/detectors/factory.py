@@ -10,9 +10,9 @@ from teo_skeleton_retriever.detectors.detector import Detector
 from teo_skeleton_retriever.errors import DetectorError
 
 _CLASSES = {
-    "mediapipe": "mediapipe_detector.MediaPipeDetector",
-    "openpose_json": "openpose_json_detector.OpenPoseJsonDetector",
-    "openpose_onnx": "openpose_onnx_detector.OpenPoseOnnxDetector",
+    "mediapipe": "mediapipe.mediapipe_detector.MediaPipeDetector",
+    "openpose_json": "openpose.openpose_json_detector.OpenPoseJsonDetector",
+    "openpose_onnx": "paf.openpose_onnx_detector.OpenPoseOnnxDetector",
     "replay": "replay_detector.ReplayDetector",
 }
 DETECTORS = tuple(_CLASSES)
@@ -31,7 +31,7 @@ def make_detector(name: str, **options: object) -> Detector:
     """
     if name not in _CLASSES:
         raise DetectorError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")
-    module, class_name = _CLASSES[name].split(".")
+    module, _, class_name = _CLASSES[name].rpartition(".")
     # Imported only when asked for: MediaPipe takes a second to load.
     detector = getattr(import_module(f"teo_skeleton_retriever.detectors.{module}"), class_name)
     try:

@@ -1,0 +1,1 @@
+"""What the packages share: parameters in a table, running a node, atomic files."""

@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import pytest
+
+NODE = """
+from rclpy.node import Node
+from teo_common.node_process import run_node
+
+class Talker(Node):
+    def __init__(self):
+        super().__init__("talker")
+        self.create_timer(0.1, lambda: print("spins", flush=True))
+
+    def destroy_node(self):
+        print("destroyed", flush=True)
+        super().destroy_node()
+
+run_node(Talker, None)
+print("returned", flush=True)
+"""
+REFUSED = """
+import rclpy
+from teo_common.node_process import run_node
+
+def refuse():
+    raise ValueError("no table")
+
+try:
+    run_node(refuse, None)
+except ValueError as error:
+    print(error, rclpy.ok())
+"""
+
+
+@pytest.mark.parametrize("told", [signal.SIGINT, signal.SIGTERM])
+def test_a_node_that_is_told_to_end_is_destroyed_and_ends_well(told: int, domain_id: int) -> None:
+    environment = os.environ | {"ROS_DOMAIN_ID": str(domain_id)}
+    command = [sys.executable, "-c", NODE]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        try:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "spins\n"
+            process.send_signal(told)
+            rest, _ = process.communicate(timeout=20.0)
+        finally:
+            process.kill()
+        assert rest.endswith("destroyed\nreturned\n")
+        assert process.returncode == 0
+
+
+def test_what_making_the_node_raises_passes_through_with_ros_ended(domain_id: int) -> None:
+    environment = os.environ | {"ROS_DOMAIN_ID": str(domain_id)}
+    command = [sys.executable, "-c", REFUSED]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=20.0, check=True)
+    assert done.stdout == "no table False\n"

@@ -1,0 +1,117 @@
+"""Where a picture is taken from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.errors import DescriptionError
+from teo_description.urdf.figures import Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Camera:
+    """A pinhole camera held upright.
+
+    Attributes:
+        position: Where it stands [m].
+        target: The point in the middle of the picture [m].
+        field_of_view: Vertical opening angle [rad].
+        size: Width and height of the picture [pixel]; both even, as video needs.
+        near: What is nearer to the camera than this is left out [m].
+        follows: Frame of the robot whose origin `position` and `target` are relative to (axes always
+            ``base_link``'s), or None.
+    """
+
+    position: Vector
+    target: Vector
+    field_of_view: float
+    size: tuple[int, int] = (640, 480)
+    near: float = 0.05
+    follows: str | None = None
+
+    def __post_init__(self) -> None:
+        """Check the figures.
+
+        Raises:
+            DescriptionError: ``bad_camera``.
+        """
+        numbers = (*self.position, *self.target, self.field_of_view)
+        if not all(math.isfinite(number) for number in numbers):
+            raise DescriptionError("bad_camera", f"expected finite camera figures, got {numbers}")
+        if not 0.0 < self.field_of_view < math.pi:
+            raise DescriptionError(
+                "bad_camera", f"expected a field of view between 0 and pi rad, got {self.field_of_view} rad"
+            )
+        if not 0.01 <= self.near <= 10.0:
+            raise DescriptionError("bad_camera", f"expected near within 0.01 to 10 m, got {self.near} m")
+        if any(side < 16 or side > 4096 or side % 2 for side in self.size):
+            raise DescriptionError(
+                "bad_camera", f"expected even sizes from 16 to 4096 pixels, got {self.size}"
+            )
+        across = np.cross(np.subtract(self.target, self.position), (0.0, 0.0, 1.0))
+        if not np.linalg.norm(across) > 1e-6:
+            raise DescriptionError(
+                "bad_camera", "expected a camera that does not look straight up or down, or at itself"
+            )
+
+    def sized(self, width: int, height: int) -> Camera:
+        """The same view on a picture of another size [pixel]."""
+        return replace(self, size=(width, height))
+
+    def from_world(self, origin: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Transform from ``base_link`` to the camera (x right, y up, z towards the viewer).
+
+        Args:
+            origin: Where the followed frame is [m]; zeros without one. Shape (3,).
+
+        Returns:
+            Shape (4, 4).
+        """
+        eye = origin + np.array(self.position)
+        back = eye - origin - np.array(self.target)
+        back /= np.linalg.norm(back)
+        right = np.cross((0.0, 0.0, 1.0), back)
+        right /= np.linalg.norm(right)
+        matrix = np.eye(4)
+        matrix[:3, :3] = right, np.cross(back, right), back
+        matrix[:3, 3] = -matrix[:3, :3] @ eye
+        return matrix
+
+
+CAMERAS: Mapping[str, Camera] = MappingProxyType(
+    {
+        # As somebody spoken to sees TEO: at arm's length and a step, eyes a little above its shoulders.
+        "front": Camera(position=(2.3, 0.0, 0.55), target=(0.0, 0.0, 0.45), field_of_view=math.radians(29.0)),
+        # The right hand from the same side, wherever it is.
+        "hand": Camera(
+            position=(0.9, 0.0, 0.05),
+            target=(0.0, 0.0, 0.0),
+            field_of_view=math.radians(20.0),
+            near=0.55,  # a hand behind the back is seen through the body
+            follows="RightMiddleFinger_link",
+        ),
+        "full": Camera(position=(4.6, 0.0, 0.35), target=(0.0, 0.0, 0.04), field_of_view=math.radians(24.5)),
+    }
+)
+"""The views that have a name."""
+
+
+def camera_named(camera: Camera | str) -> Camera:
+    """Look a view up; a camera comes back as it is.
+
+    Raises:
+        DescriptionError: ``unknown_camera``.
+    """
+    if isinstance(camera, Camera):
+        return camera
+    if camera not in CAMERAS:
+        raise DescriptionError(
+            "unknown_camera", f"expected a camera among {', '.join(CAMERAS)}; got {camera!r}"
+        )
+    return CAMERAS[camera]

@@ -1,0 +1,1 @@
+"""How `teo.urdf` is written from published figures."""

@@ -1,1 +1,0 @@
-"""From what a person's hands did to signs that TEO can make."""

@@ -1,0 +1,1 @@
+"""The commands `lut` and `plan`."""

@@ -1,0 +1,241 @@
+"""`ros2 run teo_lut_executor lut`: look into a table of signs."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from teo_lut_executor.cli.export import export
+from teo_lut_executor.cli.options import TableDirectory, fail
+from teo_lut_executor.cli.plugins import add_plugins
+from teo_signs.look_up_table import Lut, LutError, Sign, default_lut_directory
+from teo_signs.sign import sign_warnings
+from teo_signs.sign_file import format_sign
+from teo_signs.sign_schema import STANDINGS, Kind, sign_json_schema
+
+app = typer.Typer(
+    help="Look into a table of signs.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+app.command()(export)
+add_plugins(app)
+
+_output = Console(highlight=False)
+
+
+@app.command("list")
+def list_signs(
+    lut: TableDirectory = None,
+    kind: Annotated[str | None, typer.Option(help="lexical, letter or number.")] = None,
+) -> None:
+    """One line a sign: gloss, kind, hands, duration, knots, standing, source; and how many of each."""
+    table = Table(box=None)
+    for name in ("gloss", "kind", "hands", "duration [s]", "knots", "standing"):
+        table.add_column(name, no_wrap=True)
+    table.add_column("source")
+    standings: Counter[str] = Counter()
+    bad = 0
+    signs = _open(lut)
+    for gloss in signs.glosses():
+        try:
+            sign = signs[gloss]
+        except LutError as error:
+            bad += 1
+            table.add_row(gloss, "[red]not valid[/red]", "", "", "", "", error.code)
+            continue
+        if kind is None or sign.kind == kind:
+            standing, source = sign.provenance.standing, sign.provenance.source.partition(",")[0]
+            standings[standing] += 1
+            figures = (f"{sign.duration:.2f}", str(len(sign.times)))
+            table.add_row(gloss, sign.kind, sign.handedness, *figures, standing, source)
+    _output.print(table)
+    counts = ", ".join(f"{standings[standing]} {standing}" for standing in STANDINGS if standings[standing])
+    _output.print(
+        f"{standings.total()} signs in {signs.directory}: {counts}"
+        + (f"; {bad} entries not valid" if bad else ""),
+        soft_wrap=True,
+    )
+
+
+@app.command()
+def show(
+    gloss: str,
+    lut: TableDirectory = None,
+    as_json: Annotated[bool, typer.Option("--json", help="The entry as its file holds it.")] = False,
+) -> None:
+    """Everything that an entry says."""
+    try:
+        sign = _open(lut)[gloss]
+    except LutError as error:
+        fail(error)
+    if as_json:
+        print(format_sign(sign), end="")
+        return
+    _output.print(f"{sign.gloss}: {sign.kind} of {sign.language}, {sign.handedness}, {sign.duration:.2f} s")
+    for name, value in sign.provenance.model_dump().items():
+        _output.print(f"  {name}: {value if value not in (None, '') else '-'}", markup=False)
+    for name, figure in sign.quality.items():
+        _output.print(f"  {name}: {figure:g}")
+    table = Table("joint", *(f"{time:.2f} s" for time in sign.times), title="knots [deg]", box=None)
+    for joint, column in zip(sign.joints, np.degrees(sign.knots).T, strict=True):
+        table.add_row(joint, *(f"{value:.1f}" for value in column))
+    # A long sign has more columns than a terminal: let the lines run on rather than drop any.
+    Console(highlight=False, width=max(_output.width, 24 + 10 * len(sign.times))).print(table)
+    for warning in sign_warnings(sign):
+        _output.print(f"warning: {warning}", markup=False)
+
+
+@app.command()
+def validate(
+    directory: Annotated[
+        Path | None, typer.Argument(help="Directory of the table; the package's without it.")
+    ] = None,
+) -> None:
+    """Read every entry; exit status 1 if one is not valid."""
+    signs = _open(directory)
+    wrong = odd = 0
+    for gloss in signs.glosses():
+        try:
+            sign = signs[gloss]
+        except LutError as error:
+            wrong += 1
+            _output.print(f"error {error.code}: {error}", markup=False, soft_wrap=True)
+            continue
+        for warning in sign_warnings(sign):
+            odd += 1
+            _output.print(f"warning: {warning}", markup=False, soft_wrap=True)
+    _output.print(
+        f"{len(signs)} entries in {signs.directory}: {wrong} errors, {odd} warnings", soft_wrap=True
+    )
+    if wrong:
+        raise typer.Exit(1)
+
+
+@app.command()
+def render(
+    gloss: Annotated[str | None, typer.Argument(help="Which sign; not with --all.")] = None,
+    out: Annotated[Path | None, typer.Option(help="A .png or .mp4 file; with --all a directory.")] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Sheets of letters, numbers and signs.")] = False,
+    lut: TableDirectory = None,
+) -> None:
+    """Draw a sign (PNG) or film it (MP4); with --all, one sheet for each kind of sign."""
+    if out is None or everything == (gloss is not None):
+        fail(LutError("bad_arguments", "expected GLOSS --out FILE.png|FILE.mp4, or --all --out DIRECTORY"))
+    signs = _open(lut)
+    try:
+        if gloss is None:
+            _render_sheets(out, signs)
+        else:
+            _render_one(out, signs[gloss])
+    except LutError as error:
+        fail(error)
+    except OSError as error:
+        fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+
+
+@app.command()
+def overview(
+    out: Annotated[Path, typer.Option(help="A .png file.")],
+    kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "lexical",
+    lut: TableDirectory = None,
+) -> None:
+    """Draw all signs of a kind on one small picture, each as it begins and farthest from there."""
+    from teo_signs.pictures import save_overview
+
+    signs = _of_kind(_open(lut), kind)
+    if not signs:
+        fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
+    try:
+        save_overview(out, signs)
+    except OSError as error:
+        fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+    _output.print(f"wrote {out}: {len(signs)} signs", soft_wrap=True)
+
+
+@app.command()
+def nearest(
+    count: Annotated[int, typer.Option(help="How many pairs.", min=1)] = 15,
+    kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "letter",
+    lut: TableDirectory = None,
+) -> None:
+    """The pairs of signs that look most alike on TEO."""
+    from teo_description.robot import Robot
+    from teo_signs.likeness import nearest_pairs
+
+    signs = _of_kind(_open(lut), kind)
+    # Rich takes "[mm]" for markup.
+    columns = (r"handshape \[mm]", r"orientation \[deg]", r"movement \[mm]", r"place \[mm]")
+    table = Table("pair", "seen", *columns, box=None)
+    for pair in nearest_pairs(Robot.load(), signs)[:count]:
+        table.add_row(
+            f"{pair.first} {pair.second}",
+            f"{pair.seen:.1f}",
+            f"{1000.0 * pair.handshape:.0f}",
+            f"{np.degrees(pair.orientation):.0f}",
+            f"{1000.0 * pair.movement:.0f}",
+            f"{1000.0 * pair.place:.0f}",
+        )
+    _output.print(table)
+    _output.print(
+        "seen: the largest difference, in finger thicknesses (15 mm), 15 deg or neighbouring places on the "
+        "face (28 mm); below 1 they look alike",
+        soft_wrap=True,
+    )
+
+
+@app.command()
+def schema() -> None:
+    """The JSON Schema of an entry."""
+    print(json.dumps(sign_json_schema(), indent=2, ensure_ascii=False))
+
+
+def main() -> None:
+    """Run the command."""
+    app()
+
+
+def _open(directory: Path | None) -> Lut:
+    try:
+        return Lut.open(directory or default_lut_directory())
+    except LutError as error:
+        fail(error)
+
+
+def _of_kind(signs: Lut, kind: Kind | str) -> list[Sign]:
+    try:
+        return [sign for sign in signs.values() if sign.kind == kind]
+    except LutError as error:
+        fail(error)
+
+
+def _render_one(out: Path, sign: Sign) -> None:
+    from teo_signs.pictures import save_film, save_picture  # drawing takes a second to load
+
+    if out.suffix not in (".png", ".mp4"):
+        raise LutError("bad_arguments", f"--out: expected a .png or .mp4 file, got {out.name!r}")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    if out.suffix == ".png":
+        save_picture(out, sign)
+    else:
+        save_film(out, sign)
+    _output.print(f"wrote {out}", soft_wrap=True)
+
+
+def _render_sheets(out: Path, signs: Lut) -> None:
+    from teo_signs.pictures import save_sheet
+
+    out.mkdir(parents=True, exist_ok=True)
+    for kind, name in (("letter", "letters.png"), ("number", "numbers.png"), ("lexical", "signs.png")):
+        chosen = _of_kind(signs, kind)
+        if chosen:
+            save_sheet(out / name, chosen)
+            _output.print(f"wrote {out / name}: {len(chosen)} signs", soft_wrap=True)

@@ -1,0 +1,159 @@
+"""`plan`: the motion of a sentence in the printed form, without ROS running."""
+
+from __future__ import annotations
+
+import enum
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+from teo_description import DescriptionError
+from teo_description.robot import Robot
+from teo_lut_executor.cli.plan_csv import write_csv
+from teo_lut_executor.cli.plan_film import frames, write_film, write_strip
+from teo_motion.planner import Planner
+from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.sentence_form import SentenceType, printed_form, without_marks
+from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
+from teo_signs.errors import LutError, PlanError
+from teo_signs.look_up_table import Lut
+from teo_signs.mirroring import MirroredSigns
+from teo_signs.tokens import parse_printed
+
+
+class _Type(enum.Enum):
+    """Names of `SentenceType` for people."""
+
+    STATEMENT = "statement"
+    YES_NO_QUESTION = "yes-no"
+    WH_QUESTION = "wh"
+    EXCLAMATION = "exclamation"
+
+
+_out = Console()
+_err = Console(stderr=True)
+# No markup in the help: it would swallow units in brackets.
+_app = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+@_app.command()
+def _plan(
+    sentence: Annotated[
+        str,
+        typer.Argument(
+            metavar="GLOSSES",
+            help="Glosses by spaces; A-N-A is spelled, digits are numbers, _ alone is a pause; "
+            "a ? or ! behind makes it a question or an exclamation.",
+        ),
+    ],
+    type_: Annotated[
+        _Type | None, typer.Option("--type", help="Type of sentence; default: as its marks and glosses say.")
+    ] = None,
+    negated: Annotated[
+        bool | None,
+        typer.Option(
+            "--negated/--affirmed", help="Whether it is negated; default: whether it has a negative sign."
+        ),
+    ] = None,
+    csv: Annotated[
+        Path | None,
+        typer.Option(help="File for the motion, 100 rows a second: time [s], then [rad] for each joint."),
+    ] = None,
+    lut: Annotated[
+        Path | None, typer.Option(help="Directory of the look-up table; default: the package's LSE table.")
+    ] = None,
+    acceleration: Annotated[
+        float, typer.Option(help="Greatest acceleration of every joint [rad/s^2].")
+    ] = DEFAULT_ACCELERATION,
+    jerk: Annotated[float, typer.Option(help="Greatest jerk of every joint [rad/s^3].")] = DEFAULT_JERK,
+    left: Annotated[
+        bool, typer.Option("--left", help="Sign as a left-handed signer: every sign as its mirror image.")
+    ] = False,
+    mp4: Annotated[Path | None, typer.Option(help="File for a film of the motion.")] = None,
+    strip: Annotated[Path | None, typer.Option(help="PNG with the middle of every sign.")] = None,
+) -> None:
+    """Plan how TEO signs a sentence, and print when each token is signed.
+
+    Exit status: 0 if it can be signed, 1 if not or if a file cannot be written, 2 for wrong options.
+
+    Example: plan "TÚ AGUA BEBER?" --csv plan.csv --strip plan.png
+    """
+    try:
+        limits = MotionLimits.of_robot(acceleration=acceleration, jerk=jerk)
+        signs, robot = Lut.open(lut), Robot.load()
+        planner = Planner(MirroredSigns(signs, robot) if left else signs, limits=limits, robot=robot)
+        tokens = parse_printed(without_marks(sentence))
+        form = printed_form(sentence, tokens)
+        if type_ is not None:
+            form = replace(form, type=SentenceType[type_.name])
+        if negated is not None:
+            form = replace(form, negated=negated)
+        plan = planner.plan(tokens, form=form)
+        _out.print(_table(plan))
+        _out.print(_summary(plan), highlight=False, soft_wrap=True)
+        _write(plan, csv, mp4, strip)
+    except (PlanError, LutError, DescriptionError) as error:
+        _complain(f"{error.code}: {error}")
+        raise typer.Exit(1) from None
+    except OSError as error:
+        _complain(f"cannot write {error.filename}: {error.strerror}")
+        raise typer.Exit(1) from None
+
+
+def _table(plan: Plan) -> Table:
+    # Rich takes "[s]" for markup.
+    table = Table("token", "kind", r"start \[s]", r"duration \[s]", "stretch")
+    for timing in plan.timings:
+        token = timing.token
+        cells = (f"{value:.2f}" for value in (timing.start, timing.duration, timing.stretch))
+        table.add_row(token.gloss or "-", token.kind.name.lower(), *cells)
+    return table
+
+
+def _summary(plan: Plan) -> str:
+    lines = [f"{plan.duration:.2f} s from rest to rest, signs stretched {plan.stretch:.2f} times"]
+    if plan.nearest is not None:
+        near = plan.nearest
+        lines.append(
+            f"nearest to itself: {near.distance * 1000.0:.0f} mm between {near.first} and {near.second} "
+            f"at {near.time:.2f} s"
+        )
+    if plan.head:
+        gestures = (f"{item.kind.value} {item.start:.2f} .. {item.end:.2f} s" for item in plan.head)
+        lines.append(f"head: {', '.join(gestures)}")
+    return "\n".join(lines)
+
+
+def _write(plan: Plan, csv: Path | None, mp4: Path | None, strip: Path | None) -> None:
+    if csv is not None:
+        rows = write_csv(csv, plan)
+        _out.print(f"wrote {csv} ({rows} rows)", highlight=False, markup=False)
+    if strip is not None:
+        write_strip(strip, plan)
+        _out.print(f"wrote {strip}", highlight=False, markup=False)
+    if mp4 is not None:
+        shown = track(frames(plan), description="drawing", console=_err, transient=True)
+        write_film(mp4, plan, shown)
+        _out.print(f"wrote {mp4}", highlight=False, markup=False)
+
+
+def _complain(sentence: str) -> None:
+    _err.print(f"plan: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
+
+
+def main() -> None:
+    """Run the command line."""
+    for stream in (sys.stdout, sys.stderr):
+        # Whatever the locale says, glosses go out as UTF-8.
+        stream.reconfigure(encoding="utf-8", errors="backslashreplace")  # type: ignore[union-attr]
+    _app()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,60 @@
+"""Plans as pictures: a film, and a strip with the middle of every sign."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from teo_description.pictures.rendering import CAMERAS, MotionVideo, film_strip, render_pose, save_png
+from teo_motion.sentence.plan import Plan
+from teo_signs.tokens import Token
+
+FRAMES_PER_SECOND = 25
+
+_CAMERA = CAMERAS["front"]
+_STRIP_CAMERA = CAMERAS["front"].sized(400, 400)
+_PAUSE = "(pause)"
+
+
+def frames(plan: Plan) -> range:
+    """Numbers of the frames of a plan's film; the last shows TEO at rest again."""
+    return range(math.ceil(plan.duration * FRAMES_PER_SECOND) + 1)
+
+
+def write_film(path: Path, plan: Plan, numbers: Iterable[int] | None = None) -> None:
+    """Write a film of a plan, with the gloss of each sign at its foot.
+
+    Args:
+        path: MP4 to write; its folder exists.
+        plan: What to show.
+        numbers: `frames` of the plan, wrapped if the caller shows progress.
+    """
+    with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as film:
+        for number in frames(plan) if numbers is None else numbers:
+            time = number / FRAMES_PER_SECOND
+            index = plan.token_at(time)
+            caption = "" if index is None else _caption(plan.timings[index].token)
+            film.add(render_pose(_pose(plan, time), _CAMERA), caption)
+
+
+def write_strip(path: Path, plan: Plan) -> None:
+    """Write a picture with TEO at rest, in the middle of every sign, and at rest again."""
+    moments = list(_moments(plan))
+    pictures = [render_pose(_pose(plan, time), _STRIP_CAMERA) for time, _ in moments]
+    save_png(path, film_strip(pictures, [caption for _, caption in moments], columns=6))
+
+
+def _moments(plan: Plan) -> Iterator[tuple[float, str]]:
+    yield 0.0, "(rest)"
+    for timing in plan.timings:
+        yield timing.start + timing.duration / 2.0, _caption(timing.token)
+    yield plan.duration, "(rest)"
+
+
+def _caption(token: Token) -> str:
+    return token.gloss or _PAUSE
+
+
+def _pose(plan: Plan, time: float) -> dict[str, float]:
+    return dict(zip(plan.names, plan.at(time)[0].tolist(), strict=True))

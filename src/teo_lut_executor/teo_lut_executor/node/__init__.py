@@ -1,0 +1,1 @@
+"""The executor as a ROS node: parameters, messages, services, action."""

@@ -1,0 +1,136 @@
+"""Messages from and to what the executor works with."""
+
+from __future__ import annotations
+
+import array
+from typing import cast
+
+from builtin_interfaces.msg import Duration, Time
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
+from teo_sign_msgs.msg import TokenTiming as TokenTimingMessage
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from teo_lut_executor.execution.events import Sentence, Status
+from teo_motion.sentence.plan import Plan, TokenTiming
+from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_signs.sign import Sign
+from teo_signs.tokens import Kind, Token
+
+_NANO = 1_000_000_000
+
+
+def to_sentence(message: SignSentence) -> Sentence:
+    """A sentence as it came; what is wrong with it shows when it is planned."""
+    return Sentence(
+        tokens=tuple(_to_token(token) for token in message.tokens),
+        utterance_id=message.utterance_id,
+        index=message.sentence_index,
+        count=message.sentence_count,
+        form=SentenceForm(
+            type=cast(SentenceType, message.type),  # `check_form` refuses what is none
+            negated=message.negated,
+        ),
+    )
+
+
+def to_trajectory(plan: Plan, *, lead: float = 0.0) -> JointTrajectory:
+    """A plan as the driver takes it, to start now (stamp 0).
+
+    Args:
+        plan: The motion.
+        lead: When its first sample is to be reached [s]. Without lead the robot is there, and the first point
+            is the second sample.
+    """
+    samples = plan.samples
+    first = 0 if lead > 0.0 else 1
+    message = JointTrajectory(joint_names=list(plan.names))
+    message.points = [
+        JointTrajectoryPoint(
+            # The generated setters take arrays as they are, and check lists number for number.
+            positions=array.array("d", position.tobytes()),
+            velocities=array.array("d", velocity.tobytes()),
+            accelerations=array.array("d", acceleration.tobytes()),
+            time_from_start=_to_duration(time + lead),
+        )
+        for time, position, velocity, acceleration in zip(
+            samples.times[first:].tolist(),
+            samples.positions[first:],
+            samples.velocities[first:],
+            samples.accelerations[first:],
+            strict=True,
+        )
+    ]
+    return message
+
+
+def to_status(status: Status) -> ExecutorStatus:
+    """What everybody is told."""
+    message = ExecutorStatus(
+        state=int(status.activity), queued=status.queued, code=status.code, message=status.message
+    )
+    message.header.stamp = to_time(status.stamp)
+    if status.sentence is not None:
+        message.utterance_id = status.sentence.utterance_id
+        message.sentence_index = status.sentence.index
+        message.sentence_count = status.sentence.count
+    if status.plan is not None:
+        message.duration = status.plan.duration
+        message.stretch = status.plan.stretch
+        message.timings = to_timings(status.plan.timings)
+    return message
+
+
+def to_timings(timings: tuple[TokenTiming, ...]) -> list[TokenTimingMessage]:
+    """When each token is signed."""
+    return [
+        TokenTimingMessage(
+            token=_from_token(timing.token),
+            start=timing.start,
+            duration=timing.duration,
+            stretch=timing.stretch,
+        )
+        for timing in timings
+    ]
+
+
+def sign_trajectory(sign: Sign) -> JointTrajectory:
+    """The knots of a sign, positions only."""
+    message = JointTrajectory(joint_names=list(sign.joints))
+    message.points = [
+        JointTrajectoryPoint(positions=knot.tolist(), time_from_start=_to_duration(time))
+        for time, knot in zip(sign.times.tolist(), sign.knots, strict=True)
+    ]
+    return message
+
+
+def to_time(seconds: float) -> Time:
+    """A time of the node's clock [s] as a stamp."""
+    whole, nanoseconds = divmod(round(seconds * _NANO), _NANO)
+    return Time(sec=whole, nanosec=nanoseconds)
+
+
+def _to_duration(seconds: float) -> Duration:
+    whole, nanoseconds = divmod(round(seconds * _NANO), _NANO)
+    return Duration(sec=whole, nanosec=nanoseconds)
+
+
+def _to_token(message: SignToken) -> Token:
+    return Token(
+        gloss=message.gloss,
+        kind=cast(Kind, message.kind),  # `check_tokens` refuses what is none
+        confidence=message.confidence,
+        duration_scale=message.duration_scale,
+        word_index=message.word_index,
+        source_words=tuple(message.source_words),
+    )
+
+
+def _from_token(token: Token) -> SignToken:
+    return SignToken(
+        gloss=token.gloss,
+        kind=int(token.kind),
+        confidence=token.confidence,
+        duration_scale=token.duration_scale,
+        word_index=token.word_index,
+        source_words=list(token.source_words),
+    )

@@ -1,1 +1,0 @@
-"""Sign scores: signs written down by their form, and brought onto TEO's arms and hands."""

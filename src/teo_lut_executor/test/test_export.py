@@ -1,0 +1,260 @@
+"""Exports, read back by readers of their own: rows of doubles as C++ reads them, and YAML."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rclpy
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from typer.testing import CliRunner, Result
+
+from teo_description import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_lut_executor.cli.lut import app
+from teo_motion.planner import Planner
+from teo_signs.errors import LutError
+from teo_signs.export.play_motion2 import play_motion2_parameters
+from teo_signs.export.playback_thread import playback_mask, playback_table, save_playback_tables
+from teo_signs.export.sign_motion import PARTS, SignMotion, sign_motion
+from teo_signs.sign import Sign
+
+MAXIMUM_VELOCITY = math.radians(50.0)
+
+
+def parse_playback(text: str) -> list[list[float]]:
+    """`while (stream >> number) row.push_back(number)` on each line; rows without a number are skipped."""
+    rows = []
+    for line in text.split("\n"):
+        row: list[float] = []
+        for word in line.split():
+            try:
+                row.append(float(word))
+            except ValueError:
+                break
+        if row:
+            rows.append(row)
+    return rows
+
+
+def parse_motions(text: str) -> dict[str, dict[str, Any]]:
+    """As motion_loader.cpp: strings, doubles (an integer is none), and sizes that fit."""
+    motions = yaml.safe_load(text)["play_motion2"]["ros__parameters"]["motions"]
+    for key, motion in motions.items():
+        assert isinstance(key, str)
+        assert all(type(joint) is str for joint in motion["joints"])
+        assert all(type(number) is float for number in motion["positions"] + motion["times_from_start"])
+        assert len(motion["positions"]) == len(motion["joints"]) * len(motion["times_from_start"])
+        assert set(motion["meta"]) == {"name", "usage", "description"}
+        assert all(type(text) is str for text in motion["meta"].values())
+    return motions
+
+
+def dextra_angle(axis: int, value: float) -> float:
+    """Radians of a hand's axis by the published line: 7 + 78 mm / 20, thumb -90 + 180 mm / 10."""
+    if axis == 0:
+        return math.radians(value)
+    return math.radians(-90.0 + 18.0 * value) if axis == 1 else math.radians(7.0 + 3.9 * value)
+
+
+def planned(signs: Mapping[str, Sign], gloss: str, **options: Any) -> SignMotion:
+    return sign_motion(Planner(signs, least_standing="sketched"), signs[gloss], **options)
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "300"}).invoke(app, ["export", *(str(word) for word in arguments)])
+
+
+def test_a_motion_goes_from_rest_over_every_knot_back_to_rest(table: Mapping[str, Sign]) -> None:
+    motion = planned(table, "CASA")
+    home = np.array([HOME[joint] for joint in motion.joints])
+    np.testing.assert_allclose(motion.positions[[0, -1]], [home, home], atol=1e-12)
+    columns = [motion.joints.index(joint) for joint in table["CASA"].joints]
+    for knot in table["CASA"].knots:
+        assert np.abs(motion.positions[:, columns] - knot).max(axis=1).min() < 0.02
+
+
+def test_only_the_parts_that_move_are_exported(table: Mapping[str, Sign]) -> None:
+    assert planned(table, "L").parts == ("rightArm", "rightHand")
+    assert planned(table, "CASA").parts == ("leftArm", "rightArm", "leftHand", "rightHand")
+
+
+def test_a_motion_is_as_slow_as_teo_must_be(make_sign: Callable[..., Sign]) -> None:
+    start, end = np.zeros(12), np.zeros(12)
+    start[:] = end[:] = [HOME[joint] for joint in RIGHT_ARM + RIGHT_HAND]
+    end[3] -= 1.0  # 57 deg, asked for in a tenth of a second
+    sign = make_sign("FAST", [start, end], [0.0, 0.1])
+    motion = planned({"FAST": sign}, "FAST")
+    assert motion.stretch > 3.0
+    assert motion.duration > 57.0 / 50.0
+    speed = np.abs(np.diff(motion.positions, axis=0)) / np.diff(motion.times)[:, None]
+    assert speed.max() <= MAXIMUM_VELOCITY + 1e-9
+
+
+@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(seed=st.integers(0, 2**32 - 1), period=st.sampled_from([0.01, 0.02, 0.05]))
+def test_what_is_written_is_read_back(
+    random_table: Callable[..., dict[str, Sign]], seed: int, period: float
+) -> None:
+    signs = random_table(np.random.default_rng(seed), signs=1)
+    motion = planned(signs, "SIGN0", period=period)
+
+    read = parse_motions(play_motion2_parameters([motion]))["SIGN0"]
+    assert tuple(read["joints"]) == motion.joints
+    rows = np.array(read["positions"]).reshape(-1, len(read["joints"]))
+    np.testing.assert_allclose(rows, motion.positions, atol=5.1e-10)
+    np.testing.assert_allclose(read["times_from_start"], motion.times, atol=1e-9)
+
+    for part in motion.parts:
+        rows = np.array(parse_playback(playback_table(motion, part)))
+        np.testing.assert_allclose(rows[:, 0], np.arange(len(rows)) * period, atol=1e-9)
+        if part.endswith("Hand"):
+            angles = [[dextra_angle(axis, v) for axis, v in enumerate(row)] for row in rows[:, 1:]]
+            # Half a digit of a thumb's millimetre, 1e-4, is 18 times as much in degrees.
+            np.testing.assert_allclose(angles, motion.part(part), atol=math.radians(18.1 * 0.5e-4))
+            assert (rows[:, 1:] >= 0.0).all()
+            assert (rows[:, 1:] <= [90.0, 10.0, 20.0, 20.0, 20.0, 20.0]).all()
+        else:
+            np.testing.assert_allclose(np.radians(rows[:, 1:]), motion.part(part), atol=math.radians(0.51e-4))
+
+
+@pytest.mark.parametrize("gloss", ["NO", "Y", "N", "7", "ÑANDÚ", "ON", "NULL", "POR_QUÉ"])
+def test_a_gloss_that_yaml_takes_for_something_else_stays_a_text(
+    make_sign: Callable[..., Sign], gloss: str
+) -> None:
+    sign = make_sign(gloss, [[HOME[joint] + 0.1 for joint in RIGHT_ARM]], joints=RIGHT_ARM)
+    motions = parse_motions(play_motion2_parameters([planned({gloss: sign}, gloss)]))
+    assert motions[gloss]["meta"]["name"] == gloss
+
+
+def test_ros_itself_reads_the_parameters(
+    tmp_path: Path, domain_id: int, make_sign: Callable[..., Sign]
+) -> None:
+    """rcl's parser is another one than PyYAML: as play_motion2 starts, so does this node."""
+    knots = [[HOME[joint] + 0.1 for joint in RIGHT_ARM]]
+    signs = {gloss: make_sign(gloss, knots, joints=RIGHT_ARM) for gloss in ("NO", "POR_QUÉ")}
+    motions = [planned(signs, gloss) for gloss in signs]
+    file = tmp_path / "motions.yaml"
+    file.write_text(play_motion2_parameters(motions), encoding="utf-8")
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    try:
+        node = Node(
+            "play_motion2",
+            context=context,
+            cli_args=["--ros-args", "--params-file", str(file)],
+            automatically_declare_parameters_from_overrides=True,
+            start_parameter_services=False,
+        )
+        for motion in motions:
+            read = node.get_parameters_by_prefix(f"motions.{motion.sign.gloss}")
+            assert read["joints"].type_ == Parameter.Type.STRING_ARRAY
+            assert read["positions"].type_ == Parameter.Type.DOUBLE_ARRAY
+            assert read["times_from_start"].type_ == Parameter.Type.DOUBLE_ARRAY
+            assert read["meta.name"].value == motion.sign.gloss
+            np.testing.assert_allclose(read["positions"].value, motion.positions.ravel(), atol=5.1e-10)
+        node.destroy_node()
+    finally:
+        rclpy.shutdown(context=context)
+
+
+def test_the_boards_have_their_axes_in_the_robots_order() -> None:
+    """As launchCanBus/wholeBody.ini of teo-configuration-files and the Dextra's Synapse.cpp list them."""
+    arm = ("Frontal{}Shoulder", "Sagittal{}Shoulder", "Axial{}Shoulder", "Frontal{}Elbow", "Axial{}Wrist")
+    for side in ("Left", "Right"):
+        names = tuple(name.format(side) for name in (*arm, "Frontal{}Wrist"))
+        assert PARTS[f"{side.lower()}Arm"] == names
+        fingers = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+        hand = (f"{side}HandAbductor", *(f"{side}{finger}Finger" for finger in fingers))
+        assert PARTS[f"{side.lower()}Hand"] == hand
+    assert PARTS["head"] == ("AxialNeck", "FrontalNeck")
+    assert PARTS["trunk"] == ("AxialTrunk", "FrontalTrunk")
+
+
+def test_the_mask_leaves_the_time_out(table: Mapping[str, Sign]) -> None:
+    assert playback_mask("rightArm") == "(mask 0 1 1 1 1 1 1)"
+    assert playback_mask("head") == "(mask 0 1 1)"
+    row = parse_playback(playback_table(planned(table, "L"), "rightArm"))[0]
+    assert len(row) == len(playback_mask("rightArm").split()) - 1
+
+
+def test_the_arm_is_in_degrees_and_at_rest_in_the_first_row(table: Mapping[str, Sign]) -> None:
+    row = parse_playback(playback_table(planned(table, "L"), "rightArm"))[0]
+    np.testing.assert_allclose(row[1:], [math.degrees(HOME[joint]) for joint in RIGHT_ARM], atol=1e-4)
+
+
+def test_a_planner_that_would_spell_the_sign_is_refused(make_sign: Callable[..., Sign]) -> None:
+    sign = make_sign("OLA", [[HOME[joint] + 0.1 for joint in RIGHT_ARM]], joints=RIGHT_ARM)
+    sketched = sign.provenance.model_copy(update={"standing": "sketched"})
+    letters = {
+        letter: make_sign(
+            letter, [[HOME[joint] + 0.2 for joint in RIGHT_ARM]], joints=RIGHT_ARM, kind="letter"
+        )
+        for letter in "OLA"
+    }
+    signs = {"OLA": dataclasses.replace(sign, provenance=sketched), **letters}
+    assert planned(signs, "OLA").sign.gloss == "OLA"
+    with pytest.raises(LutError, match="spelled") as error:
+        sign_motion(Planner(signs, least_standing="described"), signs["OLA"])
+    assert error.value.code == "not_signed"
+
+
+@pytest.mark.parametrize("period", [0.0, -0.02, 0.5, math.nan, math.inf])
+def test_a_period_out_of_range_is_refused(table: Mapping[str, Sign], period: float) -> None:
+    with pytest.raises(LutError) as error:
+        planned(table, "L", period=period)
+    assert error.value.code == "bad_period"
+
+
+def test_a_folder_is_replaced_whole_and_only_on_request(tmp_path: Path, table: Mapping[str, Sign]) -> None:
+    save_playback_tables(tmp_path, planned(table, "CASA"))
+    (tmp_path / "CASA" / "head.txt").write_text("0 0 0\n")  # of an older version that moved the head
+    with pytest.raises(LutError) as error:
+        save_playback_tables(tmp_path, planned(table, "CASA"))
+    assert error.value.code == "exists"
+    assert (tmp_path / "CASA" / "head.txt").exists()
+    files = save_playback_tables(tmp_path, planned(table, "CASA"), replace=True)
+    assert sorted(files) == sorted((tmp_path / "CASA").iterdir())
+    assert [path.name for path in tmp_path.iterdir()] == ["CASA"]
+
+
+def test_the_command_writes_both_formats(tmp_path: Path, table_directory: Path) -> None:
+    out = tmp_path / "motions.yaml"
+    result = run("TÚ", "L", "--out", out, "--lut", table_directory)
+    assert result.exit_code == 0, result.output
+    assert set(parse_motions(out.read_text("utf-8"))) == {"TÚ", "L"}
+    result = run("TÚ", "--format", "yarp", "--out", tmp_path / "yarp", "--lut", table_directory)
+    assert result.exit_code == 0, result.output
+    assert {path.name for path in (tmp_path / "yarp" / "TÚ").iterdir()} == {"rightArm.txt", "rightHand.txt"}
+    assert "timeIdx 0, timeScale 1, (mask 0 1 1 1 1 1 1)" in result.output
+
+
+def test_the_command_refuses_with_a_code(tmp_path: Path, table_directory: Path) -> None:
+    out = tmp_path / "motions.yaml"
+    for arguments, code in (
+        (("NADA", "--out", out), "unknown_sign"),
+        (("L", "--out", out, "--period", "9"), "bad_period"),
+        (("L", "--out", table_directory / "L.json"), "exists"),
+        (("L", "--out", table_directory / "L.json" / "below.yaml"), "not_written"),
+    ):
+        result = run(*arguments, "--lut", table_directory)
+        assert result.exit_code == 1
+        assert code in result.output
+        assert not out.exists()
+
+
+def test_everything_exported_stays_within_the_limits(table: Mapping[str, Sign]) -> None:
+    assert set(planned(table, "CASA").joints) <= set(COMMANDED_JOINTS)
+    motion = planned(table, "CASA")
+    limits = joint_limits(motion.joints)
+    assert (motion.positions >= limits.lower - 1e-9).all()
+    assert (motion.positions <= limits.upper + 1e-9).all()

@@ -1,0 +1,1 @@
+"""Keeping the robot clear of itself: distances along a motion, idle limbs, detours."""

@@ -1,0 +1,94 @@
+"""How near parts of the robot come to each other along a motion."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import COMMANDED_JOINTS
+from teo_description.robot import Robot
+from teo_motion.sentence.plan import Nearness, Samples
+
+# How far any point of the robot can be from each joint's axis [m], rounded up from the robot description: tip
+# of the hand to shoulder, elbow and wrist, finger tip to knuckle.
+_REACH = {
+    "Neck": 0.25,
+    "Trunk": 0.9,
+    "Shoulder": 0.85,
+    "Elbow": 0.55,
+    "FrontalLeftWrist": 0.33,
+    "FrontalRightWrist": 0.33,
+    "Wrist": 0.12,
+    "Hand": 0.12,
+    "Finger": 0.12,
+}
+
+# How far parts can have moved is bounded by adding up all joints, as if each moved the farthest point, and
+# all in one direction. The real motion is about a third of that, and the approach of two parts less.
+_REAL_SHARE = 0.5
+
+# Two looks are at least this far apart, by that bound [m].
+_STEP = 0.12
+
+# The same for the head alone [m]: it is mostly far from the hands, so that looking closely costs little where
+# it is not.
+_HEAD_STEP = 0.02
+
+# Around the closest of them the robot is looked at so much more closely [1].
+_CLOSER = 6
+
+
+class SelfCollision:
+    """Looks along a motion at the distances between parts of the robot."""
+
+    def __init__(self, robot: Robot) -> None:
+        """Use a robot, which is not shared with another thread."""
+        self._robot = robot
+        self._reach = np.array([_reach(name) for name in COMMANDED_JOINTS])
+
+    def nearest(self, samples: Samples, *, head_alone: bool = False) -> Nearness:
+        """The closest that parts come along a motion; of the head to any other, if only that is asked for.
+
+        The next look is taken where the parts can have moved by the distance that the last one found, and at
+        least by a step: far from contact the robot is looked at seldom. Around the closest look every sample
+        between its neighbours is looked at, if there are not too many.
+        """
+        clearance = self._robot.head_clearance if head_alone else self._robot.clearance
+        step = _HEAD_STEP if head_alone else _STEP
+
+        def look(index: int) -> Nearness:
+            distance, first, second = clearance(self._configuration(samples.positions[index]))
+            time = float(samples.times[index])
+            return Nearness(distance=float(distance), time=time, first=first, second=second)
+
+        moved = np.abs(np.diff(samples.positions, axis=0)) @ self._reach
+        path = np.concatenate(([0.0], np.cumsum(moved)))
+        looked: list[int] = []
+        found: list[Nearness] = []
+        index, last = 0, len(path) - 1
+        while True:
+            near = look(index)
+            looked.append(index)
+            found.append(near)
+            if index == last:
+                break
+            ahead = path[index] + max(near.distance / _REAL_SHARE, step)
+            index = min(max(int(np.searchsorted(path, ahead)), index + 1), last)
+        closest = min(range(len(found)), key=lambda item: found[item].distance)
+        around = range(looked[max(closest - 1, 0)] + 1, looked[min(closest + 1, len(looked) - 1)])
+        between = around[:: max(1, len(around) // (2 * _CLOSER))]
+        return min((found[closest], *(look(item) for item in between)), key=lambda near: near.distance)
+
+    def is_nearer(self, positions: NDArray[np.float64], distance: float) -> bool:
+        """Whether parts are nearer than a distance [m] in a posture of the commanded joints.
+
+        It is seen in a part of the time in which it is found how near they are.
+        """
+        return bool(self._robot.contacts(self._configuration(positions), distance))
+
+    def _configuration(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self._robot.configuration(dict(zip(COMMANDED_JOINTS, positions.tolist(), strict=True)))
+
+
+def _reach(name: str) -> float:
+    return next(reach for part, reach in _REACH.items() if part in name)

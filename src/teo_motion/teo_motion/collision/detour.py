@@ -1,0 +1,155 @@
+"""Ways around the robot's own body."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import COMMANDED_JOINTS
+from teo_motion.sentence.composition import ARMS, LIMBS, REST, TokenSpan
+from teo_motion.trajectory.limits import MotionLimits
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Route:
+    """Stations with every limb in place.
+
+    Attributes:
+        targets: Positions [rad], NaN where a joint is on its way. Shape (n, 28).
+        nominal: Least time from each station to the next [s]. Shape (n - 1,).
+        strokes: Number of the stroke of each step. Shape (n - 1,).
+        spans: Where each token is signed.
+    """
+
+    targets: Array
+    nominal: Array
+    strokes: NDArray[np.intp]
+    spans: tuple[TokenSpan, ...]
+
+    def token_at(self, step: int) -> int | None:
+        """Index of the token that is signed between a station and the next; None on the way between signs."""
+        for index, span in enumerate(self.spans):
+            if span.first <= step < span.last:
+                return index
+        return None
+
+    def name_at(self, station: int) -> str:
+        """What the robot does at a station, for people."""
+        if station == 0:
+            return "the start"
+        for span in self.spans:
+            if span.first <= station <= span.last:
+                return f"the sign {span.token.gloss!r}" if span.token.gloss else "a pause"
+        return "rest" if station == len(self.targets) - 1 else "a posture between two signs"
+
+
+# What lifts the upper arms sideways, brings them forward, opens the elbows; half way, to pass the body.
+_SIDEWAYS = {"SagittalLeftShoulder": 1.0, "SagittalRightShoulder": -1.0}
+_FORWARD = {"FrontalLeftShoulder": -1.0, "FrontalRightShoulder": -1.0}
+_OPEN = {"FrontalLeftElbow": 1.0, "FrontalRightElbow": 1.0}
+# Changes of posture to try, the smallest first [rad].
+_CHANGES = (
+    (0.25, (_SIDEWAYS,)),
+    (0.3, (_FORWARD,)),
+    (0.3, (_OPEN,)),
+    (0.5, (_SIDEWAYS,)),
+    (0.6, (_OPEN,)),
+    (0.4, (_SIDEWAYS, _FORWARD)),
+    (0.5, (_FORWARD, _OPEN)),
+    (0.8, (_SIDEWAYS, _OPEN)),
+    (0.9, (_OPEN, _FORWARD, _SIDEWAYS)),
+)
+
+
+# Both hands well in front of the shoulders, out of the way of everything [rad].
+_APART = {
+    "FrontalLeftShoulder": -0.7,
+    "FrontalRightShoulder": -0.7,
+    "SagittalLeftShoulder": 0.4,
+    "SagittalRightShoulder": -0.4,
+    "FrontalLeftElbow": -0.8,
+    "FrontalRightElbow": -0.8,
+}
+
+
+def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) -> Iterator[tuple[Array, ...]]:
+    """Postures to pass through between two others, the least far out of the way first.
+
+    Arms wider, further in front, hands away from the body; then one arm before the other; then hands apart,
+    and from there one arm before the other, which takes any two hands out of each other's way; last the same
+    by way of rest, to which every sign has a way.
+
+    Args:
+        first: Positions where the way begins [rad]. Shape (28,).
+        middle: Half way as it is. Shape (28,).
+        second: Where it ends. Shape (28,).
+        limits: Limits of the joints, which the postures keep.
+    """
+    for angle, ways in _CHANGES:
+        yield (_changed(middle, angle, ways, limits),)
+    for arm in ARMS:
+        yield (_with_arm(first, arm, second),)
+    apart, rest = middle.copy(), middle.copy()
+    for arm in ARMS:
+        apart[list(LIMBS[arm])] = 0.0
+        rest[list(LIMBS[arm])] = REST[list(LIMBS[arm])]
+    for name, angle in _APART.items():
+        apart[COMMANDED_JOINTS.index(name)] = angle
+    for away in (apart, rest):
+        yield (away,)
+        for arm in ARMS:
+            yield away, _with_arm(away, arm, second)
+        for arm in ARMS:
+            yield _with_arm(first, arm, away), away
+            for later in ARMS:
+                yield _with_arm(first, arm, away), away, _with_arm(away, later, second)
+
+
+def _with_arm(posture: Array, arm: int, other: Array) -> Array:
+    """A posture with one arm of another."""
+    columns = list(LIMBS[arm])
+    mixed = posture.copy()
+    mixed[columns] = other[columns]
+    return mixed
+
+
+def _changed(posture: Array, angle: float, ways: tuple[dict[str, float], ...], limits: MotionLimits) -> Array:
+    changed = posture.copy()
+    for way in ways:
+        for name, sign in way.items():
+            changed[COMMANDED_JOINTS.index(name)] += sign * angle
+    kept: Array = np.clip(changed, limits.lower, limits.upper)
+    return kept
+
+
+def with_detour(route: Route, step: int, posture: Array) -> Route:
+    """Pass through another posture of the arms half way between two stations.
+
+    Args:
+        route: The stations.
+        step: The station before the detour.
+        posture: Positions to pass through [rad]; those of the arms are used. Shape (28,).
+    """
+    row = np.full(len(posture), np.nan)
+    columns = [column for arm in ARMS for column in LIMBS[arm]]
+    row[columns] = posture[columns]
+    half = route.nominal[step] / 2.0
+    return Route(
+        targets=np.insert(route.targets, step + 1, row, axis=0),
+        nominal=np.insert(
+            np.concatenate((route.nominal[:step], [half], route.nominal[step + 1 :])), step, half
+        ),
+        strokes=np.insert(route.strokes, step, route.strokes[step]),
+        spans=tuple(
+            dataclasses.replace(
+                span, first=span.first + (span.first > step), last=span.last + (span.last > step)
+            )
+            for span in route.spans
+        ),
+    )

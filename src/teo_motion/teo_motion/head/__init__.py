@@ -1,0 +1,1 @@
+"""The head's part in a sentence, laid over a plan."""

@@ -1,0 +1,175 @@
+"""Ways of a neck joint that make a gesture; each is given as several, the best first.
+
+Some may ask too much of the joint: `motion_splice` tells. The times of the hands are given, and it is the
+head that adapts: a gesture begins before its signs and ends after them where the neck needs longer, and has
+fewer swings where there is less room.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from itertools import accumulate, pairwise
+from typing import NamedTuple
+
+from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.trajectory.splice import Knot, position_at
+
+# How far the head turns to either side in a shake [rad], as in the table's sign NO. The front of TEO's head,
+# 0.1 m from the axis, moves by 42 mm then: more than a degree of sight for somebody 2 m away. A swing of
+# 24 deg takes the neck 0.68 s at 50 deg/s and 7 rad/s^2, so that it shakes at 0.7 Hz; people are about twice
+# as fast, and more than 12 deg would be slower still.
+_SHAKE = math.radians(12.0)
+
+# A nod [rad]: from a little up to down, as the table's SÍ, which goes from -6 to 8 deg.
+_NOD = (math.radians(-5.0), math.radians(9.0))
+
+# Times the least time of a move from rest to rest [1]: unhurried first, then as the limits allow; the last is
+# for a joint that is on its way already where the gesture begins.
+EASES = (1.5, 1.1, 2.5)
+
+# Swings of a shake take so many times their least time [1]: a little more, for they are seldom too slow.
+_SWING_EASE = 1.02
+
+# A position that is kept for less than this is not seen to be kept, and left out [s].
+_LEAST_HOLD = 0.3
+
+# The way into a sign's own motion, or out of it, which is a swing of the same shake where it has one [1].
+_JOIN_EASE = 1.1
+
+# Moves between equal positions still take a time [s].
+_LEAST_MOVE = 0.05
+
+# A shake turns to either side [1]: less than two swings is looking aside.
+_LEAST_SWINGS = 2
+
+
+class Way(NamedTuple):
+    """Where a joint goes instead of where it went."""
+
+    begin: float
+    """When it leaves its motion [s]."""
+    knots: tuple[Knot, ...]
+    """Where it stands for an instant."""
+    end: float
+    """When it is back on its motion [s]."""
+
+
+class Room(NamedTuple):
+    """The room for a gesture of one joint, between signs that move the joint themselves."""
+
+    begin: float
+    """Earliest instant at which the joint may leave its motion [s]."""
+    first: float
+    """When the gesture is to begin [s]."""
+    last: float
+    """When it is to end [s]."""
+    end: float
+    """Latest instant at which the joint must be back on its motion [s]."""
+    comes_from_sign: bool
+    """Whether the room begins where a sign that is part of the gesture ends."""
+    goes_on_into_sign: bool
+    """Whether it ends where such a sign begins."""
+    motion: JointMotion
+    """The joint's motion without the gesture; it may jump where the room begins and ends."""
+    least_time: Callable[[float], float]
+    """Time that the joint needs for a way from rest to rest [s]."""
+
+    def way_in(self, position: float, ease: float) -> float:
+        """Time to take for the way to a position [s]."""
+        left = self._position(max(self.begin, self.first - ease * self.least_time(position)))
+        return max(_LEAST_MOVE, ease * self.least_time(position - left))
+
+    def way_out(self, position: float, ease: float) -> float:
+        """Time to take for the way back from a position [s]."""
+        met = self._position(min(self.end, self.last + ease * self.least_time(position)))
+        return max(_LEAST_MOVE, ease * self.least_time(position - met))
+
+    @property
+    def before(self) -> float:
+        """Where the joint is as the room begins [rad]."""
+        return position_at(self.motion, self.begin, side="left")
+
+    @property
+    def behind(self) -> float:
+        """Where it is as the room ends [rad]."""
+        return position_at(self.motion, self.end, side="right")
+
+    def _position(self, time: float) -> float:
+        return self.before if time <= self.begin else position_at(self.motion, time, side="right")
+
+
+def hold_ways(position: float, room: Room) -> Iterator[Way]:
+    """Ways to keep a position [rad] over the whole gesture."""
+    for ease in EASES:
+        way_in, way_out = room.way_in(position, ease), room.way_out(position, ease)
+        arrival = max(room.first, room.begin + way_in)
+        departure = min(room.last, room.end - way_out)
+        if departure - arrival >= _LEAST_HOLD:
+            knots = (Knot(arrival, position), Knot(departure, position))
+            yield Way(arrival - way_in, knots, departure + way_out)
+
+
+def nod_ways(strength: float, room: Room) -> Iterator[Way]:
+    """Ways to nod: lowest in the middle of the sign, or as near to it as there is room."""
+    positions = tuple(strength * angle for angle in _NOD)
+    for ease in EASES:
+        for turns in (positions, positions[1:]):
+            steps = [later - earlier for earlier, later in pairwise((0.0, *turns, 0.0))]
+            takes = [ease * room.least_time(step) for step in steps]
+            earliest = (room.first + room.last) / 2.0 - sum(takes[:-1])
+            begin = max(room.begin, min(earliest, room.end - sum(takes)))
+            times = list(accumulate(takes, initial=begin))
+            if times[-1] <= room.end:
+                knots = tuple(Knot(time, turn) for time, turn in zip(times[1:-1], turns, strict=True))
+                yield Way(begin, knots, times[-1])
+
+
+def shake_ways(strength: float, room: Room) -> Iterator[Way]:
+    """Ways to shake the head over the whole gesture."""
+    swing = _SWING_EASE * room.least_time(2.0 * _SHAKE)
+    # Away from where the motion of a sign before or after is; else to the right first, as in NO.
+    right = -strength * _SHAKE
+    begins = math.copysign(right, -room.before) if room.comes_from_sign else right
+    ends = math.copysign(right, -room.behind) if room.goes_on_into_sign else right
+    for ease in EASES:
+        way_in = room.way_in(begins, min(ease, _JOIN_EASE) if room.comes_from_sign else ease)
+        way_out = room.way_out(ends, min(ease, _JOIN_EASE) if room.goes_on_into_sign else ease)
+        times = _turns(room, room.begin + way_in, room.end - way_out, swing)
+        if not times:
+            continue
+        turns = [begins * (-1.0) ** index for index in range(len(times))]
+        if room.goes_on_into_sign and turns[-1] != ends:
+            if room.comes_from_sign:  # one swing too many
+                times, turns = _evenly(times[0], times[-1], len(times) - 1), turns[:-1]
+            else:
+                turns = [-turn for turn in turns]
+        if turns:
+            knots = tuple(Knot(time, turn) for time, turn in zip(times, turns, strict=True))
+            begin = room.begin if room.comes_from_sign else times[0] - way_in
+            yield Way(begin, knots, room.end if room.goes_on_into_sign else times[-1] + way_out)
+
+
+def _turns(room: Room, earliest: float, latest: float, swing: float) -> list[float]:
+    """When a shake turns [s]: a swing apart, from about the gesture's beginning to about its end."""
+    most = math.floor((latest - earliest) / swing)
+    first, last = max(earliest, room.first), min(latest, room.last)
+    wanted = round((last - first) / swing)
+    if room.comes_from_sign and room.goes_on_into_sign:
+        return _evenly(earliest, latest, most + 1)
+    if room.comes_from_sign or room.goes_on_into_sign:
+        swings = min(max(wanted, 1), most)
+        begin = first if room.comes_from_sign else last - swings * swing
+    else:
+        swings = min(max(wanted, _LEAST_SWINGS), most)
+        if swings < _LEAST_SWINGS:
+            return []
+        begin = min(first, latest - swings * swing)
+    return [begin + index * swing for index in range(swings + 1)]
+
+
+def _evenly(first: float, last: float, count: int) -> list[float]:
+    """So many instants from the first to the last [s]; one alone is in the middle."""
+    if count == 1:
+        return [(first + last) / 2.0]
+    return [first + index * (last - first) / (count - 1) for index in range(count)]

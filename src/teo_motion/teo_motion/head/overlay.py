@@ -1,0 +1,238 @@
+"""Lays the head's part in a sentence over a plan; the hands do what they did, when they did it.
+
+A sign that turns a neck joint itself keeps that joint: its turn belongs to the sign, as the palm's direction
+does, and the neck's 10 deg forward and back leave no room for a sum. The other joint makes the gesture
+meanwhile: TEO shakes its head at a BEBER that bows.
+
+A head that would touch a hand gives way: it stays as the sign has it during that sign.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from bisect import bisect_right
+from collections.abc import Sequence
+
+import numpy as np
+
+from teo_description import HEAD, HOME
+from teo_description.clearance import HEAD_LINKS
+from teo_motion.collision.clearance_check import SelfCollision
+from teo_motion.collision.idle_limb_policy import fastest_moves
+from teo_motion.head.lean import Leaning, Times
+from teo_motion.head.neck_paths import Room, nod_ways, shake_ways
+from teo_motion.sentence.head_gestures import Gesture, GestureKind
+from teo_motion.sentence.plan import HeadGesture, Nearness, Plan, Samples, sample_at
+from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import Bounds
+from teo_motion.trajectory.splice import Splicer
+from teo_signs.lexicon import SignedToken
+from teo_signs.sign import Sign
+
+_YAW, _PITCH = (HEAD.index(name) for name in ("AxialNeck", "FrontalNeck"))
+
+# A neck joint that a sign turns by less than this is not turned by it [rad]: entries keep six decimals.
+_TURNED = 1e-3
+
+# Where the head leans in a question [rad]: forward all of the neck's 10 deg but one, which is left to the
+# control error, for they are few; back only slightly, but to be seen (the table's QUIÉN has 6 deg).
+_LEANS = {GestureKind.FORWARD: math.radians(9.0), GestureKind.BACK: math.radians(-8.0)}
+
+_MOVES = {GestureKind.SHAKE: (_YAW, shake_ways), GestureKind.NOD: (_PITCH, nod_ways)}
+
+
+class HeadMotion:
+    """Adds head gestures to plans."""
+
+    def __init__(
+        self,
+        collision_model: SelfCollision | None,
+        *,
+        limits: MotionLimits,
+        bounds: Bounds,
+        least_clearance: float,
+        strength: float,
+    ) -> None:
+        """Prepare.
+
+        Args:
+            collision_model: Distances between parts of the robot; None looks at none.
+            limits: Limits of the commanded joints.
+            bounds: The same with what the interpolation between points asks for.
+            least_clearance: Distance that parts of the robot keep [m].
+            strength: Times the usual angles, 0 to 1; 0 leaves the head alone.
+        """
+        self._collision_model = collision_model
+        self._limits = limits
+        self._least_clearance = least_clearance
+        self._strength = strength
+        self._columns = [limits.names.index(name) for name in HEAD]
+        self._splicers = [Splicer(bounds.of([column])) for column in self._columns]
+
+    def shown(self, plan: Plan, signed: Sequence[SignedToken], gestures: Sequence[Gesture]) -> Plan:
+        """A plan with head gestures.
+
+        Args:
+            plan: The motion without.
+            signed: What is signed, one for each of the plan's timings.
+            gestures: What the head is to do.
+        """
+        if not self._strength or not gestures:
+            return plan
+        kept = _KeptTimes(plan, signed)
+        while True:
+            found = self._laid_over(plan, gestures, kept)
+            if found is plan or found.nearest is None or found.nearest.distance >= self._least_clearance:
+                return found
+            if not kept.fix(found.nearest.time):
+                return plan
+
+    def _laid_over(self, plan: Plan, gestures: Sequence[Gesture], kept: _KeptTimes) -> Plan:
+        """The plan with those gestures for which there is time."""
+        motions = list(plan.motions)
+        shown: list[HeadGesture] = []
+        for gesture in gestures:
+            first, last = plan.timings[gesture.first], plan.timings[gesture.last]
+            during = first.start, last.start + last.duration
+            if gesture.kind in _LEANS:
+                shown += self._lean(gesture.kind, plan, motions, during, kept)
+            else:
+                shown += self._move(gesture.kind, motions, during, kept)
+        if not shown:
+            return plan
+        samples = self._sampled(plan, tuple(motions))
+        return dataclasses.replace(
+            plan,
+            motions=tuple(motions),
+            samples=samples,
+            nearest=self._nearest(plan, samples),
+            head=tuple(sorted(shown, key=lambda gesture: gesture.start)),
+        )
+
+    def _lean(
+        self, kind: GestureKind, plan: Plan, motions: list[JointMotion], during: Times, kept: _KeptTimes
+    ) -> list[HeadGesture]:
+        """Lean the head in the motions."""
+        column, angle = self._columns[_PITCH], self._strength * _LEANS[kind]
+        times = kept.times[_PITCH]
+        shifts = [0.0] * len(times)
+        for index, (begin, end) in enumerate(times):
+            if during[0] <= begin and end <= during[1] and (begin, end) not in kept.fixed:
+                within = (plan.times >= begin) & (plan.times <= end)
+                own = plan.positions[within, column] * math.copysign(1.0, angle)
+                # No further than the lean itself, which is as far as the neck should go.
+                shifts[index] = math.copysign(max(abs(angle) - max(float(own.max()), 0.0), 0.0), angle)
+        leaning = Leaning(self._splicers[_PITCH], functools.partial(self._least_time, _PITCH))
+        lean = leaning.leaned(motions[column], angle, during, times, shifts)
+        if lean is None:
+            return []
+        motions[column] = lean.motion
+        return [HeadGesture(kind=kind, start=lean.start, end=lean.end)]
+
+    def _move(
+        self, kind: GestureKind, motions: list[JointMotion], during: Times, kept: _KeptTimes
+    ) -> list[HeadGesture]:
+        """Shake or nod the head in the motions, wherever no sign turns the joint."""
+        axis, ways = _MOVES[kind]
+        column = self._columns[axis]
+        shown = []
+        for begin, end in kept.gaps(axis):
+            first, last = max(during[0], begin), min(during[1], end)
+            if first >= last:
+                continue
+            room = Room(
+                begin=begin,
+                first=first,
+                last=last,
+                end=end,
+                comes_from_sign=begin > during[0],
+                goes_on_into_sign=end < during[1],
+                motion=motions[column],
+                least_time=functools.partial(self._least_time, axis),
+            )
+            for way in ways(self._strength, room):
+                spliced = self._splicers[axis].spliced(motions[column], way.begin, way.knots, way.end)
+                if spliced is not None:
+                    motions[column] = spliced
+                    start, stop = way.knots[0].time, way.knots[-1].time
+                    shown.append(HeadGesture(kind=kind, start=start, end=stop))
+                    break
+        return shown
+
+    def _nearest(self, plan: Plan, samples: Samples) -> Nearness | None:
+        """The closest that parts come now."""
+        if self._collision_model is None or plan.nearest is None:
+            return None
+        head = self._collision_model.nearest(samples, head_alone=True)
+        others = plan.nearest  # all but the head is where it was
+        if not {others.first, others.second}.isdisjoint(HEAD_LINKS):
+            others = self._collision_model.nearest(samples)
+        return min(head, others, key=lambda near: near.distance)
+
+    def _least_time(self, axis: int, way: float) -> float:
+        return float(fastest_moves(np.array([way]), [self._columns[axis]], self._limits)[0])
+
+    def _sampled(self, plan: Plan, motions: tuple[JointMotion, ...]) -> Samples:
+        found = sample_at(tuple(motions[column] for column in self._columns), plan.times)
+        arrays = []
+        for before, changed in (
+            (plan.positions, found.positions),
+            (plan.velocities, found.velocities),
+            (plan.accelerations, found.accelerations),
+        ):
+            array = before.copy()
+            array[:-1, self._columns] = changed[:-1]  # at the end the plan is at rest to the digit
+            arrays.append(array)
+        # No further than the rounding that a splice allows.
+        np.clip(arrays[0], self._limits.lower, self._limits.upper, out=arrays[0])
+        for array in arrays:
+            array.setflags(write=False)
+        return Samples(times=plan.times, positions=arrays[0], velocities=arrays[1], accelerations=arrays[2])
+
+
+class _KeptTimes:
+    """When the neck's joints do as the plan has them."""
+
+    def __init__(self, plan: Plan, signed: Sequence[SignedToken]) -> None:
+        """Each joint during the signs that turn it themselves.
+
+        Attributes:
+            times: For each joint, in order.
+            fixed: Those of them that are kept to the digit.
+        """
+        self._duration = plan.duration
+        self._tokens = [(timing.start, timing.start + timing.duration) for timing in plan.timings]
+        self.times: tuple[list[Times], ...] = tuple([] for _ in HEAD)
+        self.fixed: set[Times] = set()
+        for item, times in zip(signed, self._tokens, strict=True):
+            for axis, name in enumerate(HEAD):
+                if item.sign is not None and _turns(item.sign, name):
+                    self.times[axis].append(times)
+
+    def fix(self, time: float) -> bool:
+        """Leave the head as it is during the token, or on the way between two, at a time; False if it is."""
+        edges = [0.0, *(edge for times in self._tokens for edge in times), self._duration]
+        after = min(bisect_right(edges, time), len(edges) - 1)
+        times = (edges[after - 1], edges[after])
+        if times in self.fixed:
+            return False
+        self.fixed.add(times)
+        for kept in self.times:
+            if times not in kept:
+                kept.append(times)
+                kept.sort()
+        return True
+
+    def gaps(self, axis: int) -> list[Times]:
+        """Times in which a joint is free for gestures, in order."""
+        edges = [0.0, *(edge for times in self.times[axis] for edge in times), self._duration]
+        return [(begin, end) for begin, end in zip(edges[::2], edges[1::2], strict=True) if begin < end]
+
+
+def _turns(sign: Sign, joint: str) -> bool:
+    if joint not in sign.joints:
+        return False
+    return bool(np.abs(sign.knots[:, sign.joints.index(joint)] - HOME[joint]).max() > _TURNED)

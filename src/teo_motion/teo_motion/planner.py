@@ -1,0 +1,250 @@
+"""Plans sentences: tokens in, motion out. See `composer`, `station_timing` and `clear_way` for how."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.robot import Robot
+from teo_motion.collision.clearance_check import SelfCollision
+from teo_motion.collision.collision_avoidance import ClearWay, TimedRoute
+from teo_motion.collision.detour import Route
+from teo_motion.head.overlay import HeadMotion
+from teo_motion.sentence.composition import REST, Composition, compose
+from teo_motion.sentence.head_gestures import head_gestures
+from teo_motion.sentence.plan import Plan, Samples, TokenTiming, sample_at, sample_times
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
+from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import ROUNDING, State
+from teo_motion.trajectory.waypoint_timing import StationTiming
+from teo_signs.errors import PlanError
+from teo_signs.lexicon import DEFAULT_STANDING, Lexicon
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import Standing
+from teo_signs.tokens import Token
+
+Array = NDArray[np.float64]
+
+# TEO's drives take a set-point with every CAN SYNC, 0.02 s apart: more points would not reach them.
+DEFAULT_PERIOD = 0.02  # [s]
+
+# Longest sentence [s]: some 150 letters. What is longer was not split into sentences, and 15,000 points of
+# 28 joints fill a message of 10 MB.
+DEFAULT_MAX_DURATION = 300.0
+
+# Parts of the robot keep this far apart [m]: signs touch, and the shapes of the collision model are larger
+# than the parts, so it is overlap that is refused.
+DEFAULT_CLEARANCE = 0.0
+
+# A start this far outside the limits is taken to be on the limit [rad]: encoders of 0.0015 rad and a control
+# error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).
+START_TOLERANCE = 0.01
+
+
+class Planner:
+    """Plans sentences of one look-up table for one robot."""
+
+    def __init__(
+        self,
+        signs: Mapping[str, Sign],
+        *,
+        limits: MotionLimits | None = None,
+        style: SigningStyle | None = None,
+        robot: Robot | None = None,
+        least_clearance: float = DEFAULT_CLEARANCE,
+        period: float = DEFAULT_PERIOD,
+        max_duration: float = DEFAULT_MAX_DURATION,
+        least_standing: Standing = DEFAULT_STANDING,
+    ) -> None:
+        """Prepare.
+
+        Args:
+            signs: The table.
+            limits: Limits of the 28 commanded joints; None for TEO's with the default acceleration and jerk.
+            style: Times of holds and pauses; None for the defaults.
+            robot: For distances between parts of the robot; None plans without looking at them.
+            least_clearance: Distance that parts of the robot keep [m].
+            period: Most time between two samples of a plan [s].
+            max_duration: A longer motion is refused [s].
+            least_standing: Signs of a lower standing are spelled.
+
+        Raises:
+            PlanError: The period or the duration is not above 0 ("bad_period"), or the limits leave no room
+                for interpolation between points that far apart ("bad_limits").
+        """
+        for name, value in (("period", period), ("max_duration", max_duration)):
+            if not value > 0.0:
+                raise PlanError("bad_period", f"{name}: expected a time above 0 s, got {value}")
+        self.limits = MotionLimits.of_robot() if limits is None else limits
+        self.style = SigningStyle() if style is None else style
+        self._bounds = self.limits.for_points(period)
+        self._lexicon = Lexicon(signs, least_standing)
+        self._collision_model = None if robot is None else SelfCollision(robot)
+        self._clear_way = ClearWay(
+            self._collision_model,
+            limits=self.limits,
+            least_clearance=least_clearance,
+            arm_rest=self.style.arm_rest,
+        )
+        self._head = HeadMotion(
+            self._collision_model,
+            limits=self.limits,
+            bounds=self._bounds,
+            least_clearance=least_clearance,
+            strength=self.style.head_motion,
+        )
+        self._period = period
+        self._max_duration = max_duration
+
+    def plan(
+        self, tokens: Sequence[Token], start: State | None = None, *, form: SentenceForm = STATEMENT
+    ) -> Plan:
+        """Plan a sentence.
+
+        Args:
+            tokens: What to sign, in order.
+            start: State of the 28 commanded joints; None for rest.
+            form: Type and negation, which the head shows.
+
+        Raises:
+            PlanError: The sentence cannot be signed; the code says why.
+        """
+        check_form(form)
+        signed = self._lexicon.resolve(tokens)
+        begin = self._checked(start)
+        composition = compose(
+            signed, start=begin.position, limits=self.limits, style=self.style.for_form(form)
+        )
+        plan = self._route(composition, begin)
+        return self._head.shown(plan, signed, head_gestures([item.token for item in signed], form))
+
+    def plan_to_rest(self, start: State) -> Plan:
+        """Plan the way to rest from any state, moving ones included.
+
+        Raises:
+            PlanError: There is no way that keeps the limits and the clearance; the code says why.
+        """
+        begin = self._checked(start)
+        composition = compose((), start=begin.position, limits=self.limits, style=self.style)
+        return self._route(composition, begin)
+
+    def _checked(self, start: State | None) -> State:
+        """The state to plan from, moved onto the limits where it is a little beyond them."""
+        joints = len(self.limits.names)
+        still = np.zeros(joints)
+        if start is None:
+            return State(position=REST, velocity=still, acceleration=still)
+        for name, values in (
+            ("position", start.position),
+            ("velocity", start.velocity),
+            ("acceleration", start.acceleration),
+        ):
+            if values.shape != (joints,):
+                message = f"start {name}: expected {joints} numbers, got shape {values.shape}"
+                raise PlanError("bad_start", message)
+            if not np.isfinite(values).all():
+                bad = self.limits.names[int(np.flatnonzero(~np.isfinite(values))[0])]
+                raise PlanError("bad_start", f"start {name}: expected finite numbers, got none for {bad}")
+        position = np.clip(start.position, self.limits.lower, self.limits.upper)
+        beyond = np.abs(position - start.position)
+        if (beyond > START_TOLERANCE).any():
+            worst = int(np.argmax(beyond))
+            raise PlanError(
+                "start_outside_limits",
+                f"expected {self.limits.names[worst]} within {self.limits.lower[worst]:.4f} .. "
+                f"{self.limits.upper[worst]:.4f} rad, got {start.position[worst]:.4f} rad; "
+                "move the robot back by other means",
+            )
+        bounds = self._bounds
+        return State(
+            position=position,
+            velocity=np.clip(start.velocity, -bounds.velocity, bounds.velocity),
+            acceleration=np.clip(start.acceleration, -bounds.acceleration, bounds.acceleration),
+        )
+
+    def _route(self, composition: Composition, start: State) -> Plan:
+        first_look = StationTiming(
+            composition.targets, composition.nominal, composition.strokes, start, self._bounds
+        )
+        return self._clear_way.plan(composition, first_look.times, lambda route: self._solve(route, start))
+
+    def _solve(self, route: Route, start: State) -> TimedRoute:
+        timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
+        timing.solve()
+        times = timing.times
+        if times[-1] > self._max_duration:
+            raise PlanError(
+                "too_long",
+                f"expected a sentence of at most {self._max_duration:.0f} s, got one of {times[-1]:.0f} s: "
+                "send it in parts",
+            )
+        motions = timing.motions()
+        self._check(motions)
+        timings = tuple(
+            TokenTiming(
+                token=span.token,
+                start=float(times[span.first]),
+                duration=float(times[span.last] - times[span.first]),
+                stretch=float(times[span.last] - times[span.first]) / span.asked,
+            )
+            for span in route.spans
+        )
+        asked = sum(span.asked for span in route.spans)
+        samples = self._sample(motions, times)
+        plan = Plan(
+            names=self.limits.names,
+            motions=motions,
+            samples=samples,
+            timings=timings,
+            stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
+            nearest=None if self._collision_model is None else self._collision_model.nearest(samples),
+        )
+        return TimedRoute(route, plan, times)
+
+    def _check(self, motions: tuple[JointMotion, ...]) -> None:
+        """Look at the extremes of the motion itself, whatever is known of how it was made."""
+        limits = self.limits
+        for joint, (name, motion) in enumerate(zip(limits.names, motions, strict=True)):
+            reached = motion.extremes()
+            lower, upper = float(limits.lower[joint]), float(limits.upper[joint])
+            if reached.least < lower - ROUNDING or reached.greatest > upper + ROUNDING:
+                raise PlanError(
+                    "outside_limits",
+                    f"expected {name} within {lower:.4f} .. {upper:.4f} rad, got {reached.least:.4f} .. "
+                    f"{reached.greatest:.4f} rad: the joint is too fast at the start to turn back in time",
+                )
+            for what, value, limit in (
+                ("velocity [rad/s]", reached.velocity, limits.velocity[joint]),
+                ("acceleration [rad/s^2]", reached.acceleration, limits.acceleration[joint]),
+                ("jerk [rad/s^3]", reached.jerk, limits.jerk[joint]),
+            ):
+                if value > limit * (1.0 + ROUNDING):
+                    raise PlanError(
+                        "outside_limits", f"{name}: expected at most {limit:.4f} of {what}, got {value:.4f}"
+                    )
+
+    def _sample(self, motions: tuple[JointMotion, ...], times: Array) -> Samples:
+        found = sample_at(motions, sample_times(times, self._period))
+        # No further than the rounding that `_check` allows; controllers want the end at rest to the digit.
+        positions = np.clip(found.positions, self.limits.lower, self.limits.upper)
+        velocities, accelerations = found.velocities.copy(), found.accelerations.copy()
+        positions[-1], velocities[-1], accelerations[-1] = REST, 0.0, 0.0
+        for array in (positions, velocities, accelerations):
+            array.setflags(write=False)
+        return Samples(
+            times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
+        )
+
+
+def plan(
+    tokens: Sequence[Token],
+    signs: Mapping[str, Sign],
+    limits: MotionLimits | None = None,
+    start: State | None = None,
+) -> Plan:
+    """Plan one sentence with the defaults, self-collision included; see `Planner` for more than one."""
+    return Planner(signs, limits=limits, robot=Robot.load()).plan(tokens, start)

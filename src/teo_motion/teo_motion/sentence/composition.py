@@ -1,0 +1,269 @@
+"""From signs to stations: the postures that a sentence passes through, from rest to rest.
+
+Every knot of every sign is a station, and so are the ends of holds and pauses. A station fixes the joints
+that the sign at hand uses and leaves the others free; `idle_rule` decides what the free ones do. Between
+two signs there is no station, except between equal postures: the hands go straight from the last knot of one
+to the first of the next, hand shape and arm together, and need not stop where the motion goes on.
+
+Within a sign, a stroke is a run of knots through which it moves without standing still.
+
+A sign fixes whole limbs: where it moves some joints of a head, trunk, arm or hand, the limb's other joints
+are at rest. An arm of which the sign moves the hand only stays where it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import (
+    COMMANDED_JOINTS,
+    HEAD,
+    HOME,
+    LEFT_ARM,
+    LEFT_HAND,
+    RIGHT_ARM,
+    RIGHT_HAND,
+    TRUNK,
+)
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.trajectory.limits import MotionLimits
+from teo_signs.errors import PlanError
+from teo_signs.lexicon import SignedToken
+from teo_signs.sign import Sign
+from teo_signs.sign_file import LIMIT_TOLERANCE
+from teo_signs.tokens import Token
+
+_INDEX = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
+LIMBS = tuple(
+    tuple(_INDEX[name] for name in limb) for limb in (HEAD, TRUNK, LEFT_ARM, RIGHT_ARM, LEFT_HAND, RIGHT_HAND)
+)
+"""Columns of head, trunk, left arm, right arm, left hand and right hand."""
+ARMS = (2, 3)
+_ARM_OF_HAND = {4: 2, 5: 3}
+_ELBOW = {2: _INDEX["FrontalLeftElbow"], 3: _INDEX["FrontalRightElbow"]}
+
+REST: NDArray[np.float64] = np.array([HOME[name] for name in COMMANDED_JOINTS])
+"""Where sentences begin and end [rad]. Shape (28,)."""
+REST.setflags(write=False)
+
+# Postures closer than this look the same [rad]: 3 deg, 2 cm at the hand.
+_SAME_POSTURE = 0.05
+
+# Knots closer than this to the last one are its hold, not movement [rad]: about half a degree.
+_STILL = 0.01
+
+
+@dataclass(frozen=True, kw_only=True)
+class TokenSpan:
+    """The stations between which a token is signed.
+
+    Attributes:
+        token: What is signed.
+        first: Station at which it begins.
+        last: Station at which it ends.
+        asked: Time from one to the other as recorded, times the token's scale [s].
+    """
+
+    token: Token
+    first: int
+    last: int
+    asked: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class IdleSpan:
+    """Stations between which a limb is not used: fixed at both, free in between."""
+
+    limb: int
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Composition:
+    """A sentence as stations.
+
+    Attributes:
+        targets: Positions [rad], NaN where a joint is free. Shape (n, 28); the first row is the start.
+        nominal: Time from each station to the next, as recorded or by the style [s]. Shape (n - 1,).
+        strokes: Number of the stroke to which each step from a station to the next belongs: steps near each
+            other in one stroke are stretched together. Shape (n - 1,).
+        spans: Where each token is signed, in order.
+        idle: Where limbs are not used.
+    """
+
+    targets: NDArray[np.float64]
+    nominal: NDArray[np.float64]
+    strokes: NDArray[np.intp]
+    spans: tuple[TokenSpan, ...]
+    idle: tuple[IdleSpan, ...]
+
+
+def compose(
+    signed: Sequence[SignedToken], *, start: NDArray[np.float64], limits: MotionLimits, style: SigningStyle
+) -> Composition:
+    """Lay a sentence out, from a start to rest.
+
+    Args:
+        signed: Signs and pauses, in order; at least one.
+        start: Positions at which the robot is [rad]. Shape (28,).
+        limits: Limits of the joints, which every station keeps.
+        style: Times of holds and pauses.
+
+    Raises:
+        PlanError: A sign has a knot outside the limits ("sign_outside_limits").
+    """
+    composer = _Composer(start, limits, style)
+    last_sign = max((index for index, item in enumerate(signed) if item.sign is not None), default=-1)
+    for index, item in enumerate(signed):
+        following = signed[index + 1] if index + 1 < len(signed) else None
+        if item.sign is None:
+            composer.add_pause(item.token)
+        else:
+            ends_word = item.token.spelled and not _same_word(item, following)
+            composer.add_sign(item.token, item.sign, ends_word=ends_word, ends_sentence=index == last_sign)
+            if ends_word and following is not None and following.sign is not None:
+                composer.stay(style.word_pause)
+    return composer.finish()
+
+
+def _same_word(item: SignedToken, following: SignedToken | None) -> bool:
+    return (
+        following is not None
+        and following.token.spelled
+        and following.token.word_index == item.token.word_index
+    )
+
+
+class _Composer:
+    """Adds station after station, and remembers where each limb was last."""
+
+    def __init__(self, start: NDArray[np.float64], limits: MotionLimits, style: SigningStyle) -> None:
+        self._limits = limits
+        self._style = style
+        self._posture = start.copy()
+        self._rows: list[NDArray[np.float64]] = [start.copy()]
+        self._nominal: list[float] = []
+        self._strokes: list[int] = []
+        self._spans: list[TokenSpan] = []
+        self._idle: list[IdleSpan] = []
+        self._fixed_at = [0] * len(LIMBS)  # station at which each limb was fixed last
+        self._used: tuple[int, ...] = ()  # limbs of the latest sign
+        self._signs = 0
+
+    def add_sign(self, token: Token, sign: Sign, *, ends_word: bool, ends_sentence: bool) -> None:
+        rows, limbs = self._rows_of(sign)
+        if self._signs and self._looks_the_same(rows[0], limbs):
+            self._release(limbs)
+        self._fix(self._style.transition, rows[0], limbs)
+        first = len(self._rows) - 1
+        scale = token.duration_scale
+        was_moving = False
+        for row, step in zip(rows[1:], np.diff(sign.times), strict=True):
+            moves = bool(np.abs(row - self._posture).max() > _STILL)
+            self._fix(float(step) * scale, row, limbs, same_stroke=moves and was_moving)
+            was_moving = moves
+        self._used = limbs
+        self._signs += 1
+        hold = self._hold(token, sign, ends_word=ends_word, ends_sentence=ends_sentence) * scale
+        self.stay(hold)
+        asked = sign.duration * scale + hold
+        self._spans.append(TokenSpan(token=token, first=first, last=len(self._rows) - 1, asked=asked))
+
+    def add_pause(self, token: Token) -> None:
+        first = len(self._rows) - 1
+        duration = self._style.pause * token.duration_scale
+        self._fix(duration, self._posture, self._used)
+        self._spans.append(TokenSpan(token=token, first=first, last=first + 1, asked=duration))
+
+    def stay(self, duration: float) -> None:
+        """Keep the limbs of the latest sign where they are [s]."""
+        if duration > 0.0:
+            self._fix(duration, self._posture, self._used)
+
+    def finish(self) -> Composition:
+        self._fix(self._style.transition, REST, tuple(range(len(LIMBS))))
+        return Composition(
+            targets=np.array(self._rows),
+            nominal=np.array(self._nominal),
+            strokes=np.array(self._strokes),
+            spans=tuple(self._spans),
+            idle=tuple(self._idle),
+        )
+
+    def _fix(
+        self,
+        nominal: float,
+        posture: NDArray[np.float64],
+        limbs: tuple[int, ...],
+        *,
+        same_stroke: bool = False,
+    ) -> None:
+        """Add a station at which these limbs are at the posture."""
+        row = np.full(REST.size, np.nan)
+        station = len(self._rows)
+        for limb in limbs:
+            columns = list(LIMBS[limb])
+            row[columns] = posture[columns]
+            self._posture[columns] = posture[columns]
+            if station - self._fixed_at[limb] > 1:
+                self._idle.append(IdleSpan(limb=limb, first=self._fixed_at[limb], last=station))
+            self._fixed_at[limb] = station
+        self._rows.append(row)
+        self._nominal.append(nominal)
+        self._strokes.append(self._strokes[-1] + (not same_stroke) if self._strokes else 0)
+
+    def _rows_of(self, sign: Sign) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+        """Knots of a sign as whole postures, and the limbs they fix."""
+        columns = [_INDEX[name] for name in sign.joints]
+        moved = {limb for limb, members in enumerate(LIMBS) if not set(members).isdisjoint(columns)}
+        held = {_ARM_OF_HAND[limb] for limb in moved & _ARM_OF_HAND.keys()} - moved
+        posture = REST.copy()
+        for limb in held:
+            posture[list(LIMBS[limb])] = self._posture[list(LIMBS[limb])]
+        rows = np.tile(posture, (len(sign.times), 1))
+        lower, upper = self._limits.lower[columns], self._limits.upper[columns]
+        # An entry keeps six decimals: half of the last one beyond the limit is the limit.
+        rows[:, columns] = np.clip(sign.knots, lower, upper)
+        outside = np.argwhere(np.abs(rows[:, columns] - sign.knots) > LIMIT_TOLERANCE)
+        if outside.size:
+            knot, joint = outside[0].tolist()
+            raise PlanError(
+                "sign_outside_limits",
+                f"{sign.gloss}: knots[{knot}]: expected {sign.joints[joint]} within {lower[joint]:.4f} .. "
+                f"{upper[joint]:.4f} rad, got {sign.knots[knot, joint]:.4f} rad",
+            )
+        return rows, tuple(sorted(moved | held))
+
+    def _hold(self, token: Token, sign: Sign, *, ends_word: bool, ends_sentence: bool) -> float:
+        """How long the last knot is held beyond what the sign itself holds it [s], at a scale of 1."""
+        moving = np.flatnonzero(np.abs(sign.knots - sign.knots[-1]).max(axis=1) > _STILL)
+        still = sign.duration - float(sign.times[moving[-1] + 1]) if moving.size else sign.duration
+        hold = still
+        if token.spelled:
+            hold = max(still, self._style.letter_hold) * (self._style.last_letter_hold if ends_word else 1.0)
+        elif not moving.size:
+            hold = max(still, self._style.posture_hold)
+        if ends_sentence:
+            hold = max(hold, self._style.final_hold)
+        return max(0.0, hold - still)
+
+    def _looks_the_same(self, posture: NDArray[np.float64], limbs: tuple[int, ...]) -> bool:
+        columns = [column for limb in limbs for column in LIMBS[limb]]
+        difference = np.abs(posture[columns] - self._posture[columns]).max()
+        return set(limbs) == set(self._used) and bool(difference < _SAME_POSTURE)
+
+    def _release(self, limbs: tuple[int, ...]) -> None:
+        """Part two equal postures: the elbows in use open a little, where they can, or else close."""
+        posture = self._posture.copy()
+        for limb in set(limbs) & _ELBOW.keys():
+            elbow = _ELBOW[limb]
+            angle = self._style.repeat_angle
+            # Towards the middle of the elbow's range, which for a raised forearm is opening it.
+            middle = (self._limits.lower[elbow] + self._limits.upper[elbow]) / 2.0
+            posture[elbow] += angle if posture[elbow] < middle else -angle
+        self._fix(self._style.repeat_time, posture, limbs)

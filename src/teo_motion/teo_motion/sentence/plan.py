@@ -1,0 +1,168 @@
+"""The result of planning: the motion of a sentence and when each token is signed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_motion.sentence.head_gestures import GestureKind
+from teo_motion.trajectory.joint_motion import JointMotion
+from teo_signs.tokens import Token
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class TokenTiming:
+    """When a token is signed.
+
+    Attributes:
+        token: What was signed: where the table lacked a sign, each letter that replaced it.
+        start: When the sign itself begins, after the transition into it [s].
+        duration: How long the sign itself lasts [s].
+        stretch: Duration over the duration asked for [1].
+    """
+
+    token: Token
+    start: float
+    duration: float
+    stretch: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nearness:
+    """The closest that parts of the robot come to each other.
+
+    Attributes:
+        distance: Least distance [m]; negative where they overlap.
+        time: When [s].
+        first: One part.
+        second: The other.
+    """
+
+    distance: float
+    time: float
+    first: str
+    second: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeadGesture:
+    """What the head says beside the hands.
+
+    Attributes:
+        kind: What it does.
+        start: When it is first where the gesture has it [s].
+        end: When it is last there [s].
+    """
+
+    kind: GestureKind
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Samples:
+    """A motion at instants. Arrays are read-only.
+
+    Attributes:
+        times: [s], strictly increasing from 0. Shape (n,).
+        positions: [rad]. Shape (n, m), as the two below.
+        velocities: [rad/s].
+        accelerations: [rad/s^2].
+    """
+
+    times: Array
+    positions: Array
+    velocities: Array
+    accelerations: Array
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Plan:
+    """A sentence as motion, from a start to rest.
+
+    Attributes:
+        names: Joints, in the order of all columns.
+        motions: The motion of each joint, exact at any time.
+        samples: The motion at every knot, and in between at most the planner's period apart.
+        timings: When each token is signed, in order; empty for a way back to rest.
+        stretch: Duration of all signs over the duration asked for; 1.0 as recorded.
+        nearest: The closest that parts of the robot come to each other; None if it was not looked at.
+        head: What the head says beside the hands, in order.
+    """
+
+    names: tuple[str, ...]
+    motions: tuple[JointMotion, ...]
+    samples: Samples
+    timings: tuple[TokenTiming, ...]
+    stretch: float
+    nearest: Nearness | None
+    head: tuple[HeadGesture, ...] = ()
+
+    @property
+    def duration(self) -> float:
+        """From the start to rest [s]."""
+        return self.motions[0].duration
+
+    @property
+    def times(self) -> Array:
+        """Times of the samples [s]. Shape (n,)."""
+        return self.samples.times
+
+    @property
+    def positions(self) -> Array:
+        """Positions of the samples [rad]. Shape (n, m)."""
+        return self.samples.positions
+
+    @property
+    def velocities(self) -> Array:
+        """Velocities of the samples [rad/s]. Shape (n, m)."""
+        return self.samples.velocities
+
+    @property
+    def accelerations(self) -> Array:
+        """Accelerations of the samples [rad/s^2]. Shape (n, m)."""
+        return self.samples.accelerations
+
+    def at(self, time: float) -> tuple[Array, Array, Array]:
+        """Positions [rad], velocities [rad/s] and accelerations [rad/s^2] at a time [s]. Shape (m,) each."""
+        found = sample_at(self.motions, np.array([time]))
+        return found.positions[0], found.velocities[0], found.accelerations[0]
+
+    def token_at(self, time: float) -> int | None:
+        """Index of the token being signed at a time [s]; None on the way between signs."""
+        for index, timing in enumerate(self.timings):
+            if timing.start <= time <= timing.start + timing.duration:
+                return index
+        return None
+
+
+def sample_times(stations: Array, period: float) -> Array:
+    """Times at which to sample a motion: at every station, and evenly in between.
+
+    With the stations among the samples every knot of every sign is one of them, and what a driver
+    interpolates stands still where the plan does.
+
+    Args:
+        stations: Times of the stations [s], increasing. Shape (n,).
+        period: The most between two samples [s].
+    """
+    steps = np.maximum(np.ceil(np.diff(stations) / period - 1e-9), 1.0).astype(int)
+    between = [
+        begin + (end - begin) * np.arange(count) / count
+        for begin, end, count in zip(stations[:-1], stations[1:], steps.tolist(), strict=True)
+    ]
+    return np.concatenate([*between, stations[-1:]])
+
+
+def sample_at(motions: tuple[JointMotion, ...], times: Array) -> Samples:
+    """A motion at given times [s]. Shape (n,)."""
+    positions, velocities, accelerations = (
+        np.stack(columns, axis=1) for columns in zip(*(motion.at(times) for motion in motions), strict=True)
+    )
+    for array in (times, positions, velocities, accelerations):
+        array.setflags(write=False)
+    return Samples(times=times, positions=positions, velocities=velocities, accelerations=accelerations)

@@ -1,0 +1,82 @@
+"""How signs follow one another: times of holds, pauses and transitions, each with its reason."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+
+from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_signs.errors import PlanError
+
+
+@dataclass(frozen=True, kw_only=True)
+class SigningStyle:
+    """The dials of a sentence's rhythm. Times are at a duration scale of 1.
+
+    "Measured" below is LSE-Health-UVigo: 15,098 annotated signs and 1,029 spelled words of 10 signers of LSE,
+    transitions left out of the intervals.
+    """
+
+    # Nominal time between two signs [s]: the measured median gap is 0.125 s. At 50 deg/s TEO mostly needs
+    # longer, so this is a lower bound that short moves keep.
+    transition: float = 0.125
+
+    # Least time for which a letter or number stands still [s]. Signers take 0.26 s for a letter with its
+    # transition; deaf testers of spelling animations asked for longer holds, and a hand that takes about a
+    # second from letter to letter must stop clearly for the letter to be told from the way to it.
+    letter_hold: float = 0.3
+
+    # The last letter of a word stands still so many times as long as the sign has it, or as `letter_hold`
+    # [1]: it marks the end of the word. Tools of the field double it; recorded letters stand still for 0.5 to
+    # 0.9 s already, of which half as much again is seen.
+    last_letter_hold: float = 1.5
+
+    # Time for which the hands stay still between a spelled word and what follows it [s]: one gap more.
+    word_pause: float = 0.125
+
+    # Time of a pause token [s]: deaf users ask for about half a second at a full stop.
+    pause: float = 0.5
+
+    # Time for which a sign of a single posture is held [s]: the measured median duration of a sign is 0.44 s.
+    posture_hold: float = 0.44
+
+    # Time for which the last sign of a sentence is held before the hands go down [s]: signers lengthen the
+    # last sign of a clause (Huenerfauth 2009), and without a hold its end is lost in the way down.
+    final_hold: float = 0.25
+
+    # The same for a yes/no question [s]: signers of LSE hold its last sign for an answer. Nobody has measured
+    # for how long; twice the other hold is told from it.
+    question_hold: float = 0.5
+
+    # How far the elbow opens, and closes again, between two equal postures [rad]: 10 deg move TEO's hand by
+    # about 6 cm, half a hand length, as signers bounce a doubled letter.
+    repeat_angle: float = math.radians(10.0)
+
+    # Nominal time of each half of that move [s]; at 50 deg/s 10 deg take a little longer.
+    repeat_time: float = 0.2
+
+    # An idle arm goes to rest only if it can stay there for this long before it is needed again [s]. Less
+    # than about a second down would look like a sign of its own, and wear the arm for nothing.
+    arm_rest: float = 1.0
+
+    # Size of the head's gestures, which tell question, negation and exclamation [1]: 1 makes them as large as
+    # `head_ways` says and why, 0 leaves them away. On by default: without them a yes/no question in LSE is a
+    # statement.
+    head_motion: float = 1.0
+
+    def __post_init__(self) -> None:
+        """Refuse what is no time or angle."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise PlanError(
+                    "bad_style", f"{field.name}: expected a finite number, 0 or more, got {value}"
+                )
+        if self.head_motion > 1.0:
+            raise PlanError("bad_style", f"head_motion: expected 0 to 1, got {self.head_motion}")
+
+    def for_form(self, form: SentenceForm) -> SigningStyle:
+        """The rhythm of a sentence of some type."""
+        if form.type != SentenceType.YES_NO_QUESTION:
+            return self
+        return replace(self, final_hold=max(self.final_hold, self.question_hold))

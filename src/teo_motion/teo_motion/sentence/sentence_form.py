@@ -1,0 +1,116 @@
+"""What kind of sentence it is, which the robot shows with its head; and which of its words tell."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from teo_signs.errors import PlanError
+from teo_signs.lexicon import without_accents
+from teo_signs.tokens import PRINTED_PAUSE, Kind, Token
+
+
+class SentenceType(enum.IntEnum):
+    """The numbers are those of `teo_sign_msgs/SignSentence`."""
+
+    STATEMENT = 0
+    YES_NO_QUESTION = 1
+    WH_QUESTION = 2
+    EXCLAMATION = 3
+
+
+@dataclass(frozen=True, kw_only=True)
+class SentenceForm:
+    """A sentence's type, and whether it is negated as a whole."""
+
+    type: SentenceType = SentenceType.STATEMENT
+    negated: bool = False
+
+
+STATEMENT = SentenceForm()
+
+_MARKS = "¿?¡!"
+
+# The accent tells CUÁNDO, which asks, from CUANDO; letters have none.
+_ASKING = frozenset(
+    {"QUÉ", "QUIÉN", "QUIÉNES", "CUÁL", "CUÁLES", "CÓMO", "CUÁNDO", "DÓNDE", "ADÓNDE"}
+    | {"CUÁNTO", "CUÁNTA", "CUÁNTOS", "CUÁNTAS"}
+)
+_ASKING_SPELLED = frozenset(without_accents(gloss) for gloss in _ASKING)
+
+# Without accents, whether spelled or not.
+_NEGATIVE = frozenset(
+    {"NO", "NI", "NUNCA", "JAMAS", "NADA", "NADIE", "NINGUN", "NINGUNO", "NINGUNA", "TAMPOCO"}
+)
+_NOT_NEGATIVE = frozenset({"DE_NADA"})  # "you are welcome"
+
+
+class Word(NamedTuple):
+    """A sign, or the letters and numbers that spell one word."""
+
+    first: int
+    """Index of its first token."""
+    last: int
+    """Index of its last token."""
+    text: str
+    """Its gloss, or what is spelled; empty for a pause between words."""
+    spelled: bool
+    """Whether it is made of letters and numbers."""
+
+    @property
+    def asks(self) -> bool:
+        """Whether it is a question word: POR_QUÉ and PARA_QUÉ ask as QUÉ does."""
+        asking = _ASKING_SPELLED if self.spelled else _ASKING
+        return not asking.isdisjoint(self.text.split(PRINTED_PAUSE))
+
+    @property
+    def negates(self) -> bool:
+        """Whether it is a negative sign: NO_HAY, HABER_NO and TODAVÍA_NO negate as NO does."""
+        plain = without_accents(self.text)
+        return plain not in _NOT_NEGATIVE and not _NEGATIVE.isdisjoint(plain.split(PRINTED_PAUSE))
+
+
+def words_of(tokens: Sequence[Token]) -> tuple[Word, ...]:
+    """Group tokens by words: letters, numbers and the pauses among them by their word index."""
+    words: list[Word] = []
+    for index, token in enumerate(tokens):
+        joins = token.spelled or (
+            token.kind == Kind.PAUSE and 0 < index < len(tokens) - 1 and tokens[index + 1].spelled
+        )
+        text = PRINTED_PAUSE if joins and not token.spelled else token.gloss
+        if joins and words and words[-1].spelled and tokens[index - 1].word_index == token.word_index:
+            words[-1] = words[-1]._replace(last=index, text=words[-1].text + text)
+        else:
+            gloss = "" if token.kind == Kind.PAUSE else token.gloss
+            words.append(Word(index, index, gloss, token.spelled))
+    return tuple(words)
+
+
+def printed_form(text: str, tokens: Sequence[Token]) -> SentenceForm:
+    """The form of a sentence in the printed form: its marks and signs tell, as far as they can."""
+    words = words_of(tokens)
+    sentence_type = SentenceType.STATEMENT
+    if "?" in text:
+        asking = any(word.asks for word in words)
+        sentence_type = SentenceType.WH_QUESTION if asking else SentenceType.YES_NO_QUESTION
+    elif "!" in text:
+        sentence_type = SentenceType.EXCLAMATION
+    return SentenceForm(type=sentence_type, negated=any(word.negates for word in words))
+
+
+def without_marks(text: str) -> str:
+    """The printed form without question and exclamation marks."""
+    return text.translate({ord(mark): None for mark in _MARKS})
+
+
+def check_form(form: SentenceForm) -> None:
+    """Refuse a type that is none.
+
+    Raises:
+        PlanError: "bad_type".
+    """
+    if form.type not in tuple(SentenceType):
+        names = ", ".join(f"{item.value} {item.name.lower()}" for item in SentenceType)
+        raise PlanError("bad_type", f"expected a type of sentence of {names}, got {form.type}")

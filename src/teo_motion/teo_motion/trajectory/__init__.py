@@ -1,0 +1,1 @@
+"""Joints between waypoints: limits, Ruckig segments, timing, splicing, stopping."""

@@ -1,0 +1,104 @@
+"""What the planned motion must stay within."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_motion.trajectory.ruckig_segment import Bounds
+from teo_signs.errors import PlanError
+
+# A joint is at 50 deg/s, its greatest velocity, after 0.19 s and 4.8 deg. TEO's drives default to 10 deg/s^2,
+# with which 10 deg take 2 s: no sign would be known again; TEO's own gestures were played at 25 deg/s^2 and
+# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 12 N m (3.2
+# at the elbow, 0.8 at the wrist) beside the at most 27 N m with which it carries the arm. Signers reach
+# several times as much, but letters that shake gain little from more: they are short of velocity.
+DEFAULT_ACCELERATION = 7.0  # [rad/s^2], 401 deg/s^2
+
+# The acceleration builds up in 0.07 s, more than three of the 0.02 s at which TEO's drives are sent
+# set-points, so that it reaches them as a ramp and not as a step.
+DEFAULT_JERK = 105.0  # [rad/s^3], 6016 deg/s^3
+
+# The driver interpolates between the points of a trajectory with the quintic that meets position, velocity
+# and acceleration at both. Where the plan's jerk changes in between, the two differ, by at most these numbers
+# times jerk, and period squared or period: the integral of the size of the Peano kernel of the error.
+_VELOCITY_SWING = 0.02206  # [1]
+_ACCELERATION_SWING = 5.0 / 24.0  # [1]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class MotionLimits:
+    """Limits of every commanded joint.
+
+    Attributes:
+        names: Joints, in the order of the arrays.
+        lower: Least position [rad]. Shape (n,), as all below.
+        upper: Greatest position [rad].
+        velocity: Greatest speed [rad/s].
+        acceleration: Greatest acceleration, either way [rad/s^2].
+        jerk: Greatest jerk, either way [rad/s^3].
+    """
+
+    names: tuple[str, ...]
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+    velocity: NDArray[np.float64]
+    acceleration: NDArray[np.float64]
+    jerk: NDArray[np.float64]
+
+    @classmethod
+    def of_robot(
+        cls, *, acceleration: float = DEFAULT_ACCELERATION, jerk: float = DEFAULT_JERK
+    ) -> MotionLimits:
+        """Positions and velocities of the robot description, with one acceleration and jerk for all joints.
+
+        Args:
+            acceleration: [rad/s^2], above 0.
+            jerk: [rad/s^3], above 0.
+
+        Raises:
+            PlanError: Not finite or not above 0 ("bad_limits").
+        """
+        for name, value in (("acceleration", acceleration), ("jerk", jerk)):
+            if not (math.isfinite(value) and value > 0.0):
+                message = f"{name}: expected a finite number above 0, got {value}"
+                raise PlanError("bad_limits", message)
+        limits = joint_limits(COMMANDED_JOINTS)
+        return cls(
+            names=tuple(limits.names),
+            lower=limits.lower,
+            upper=limits.upper,
+            velocity=limits.velocity,
+            acceleration=np.full(len(limits.names), acceleration),
+            jerk=np.full(len(limits.names), jerk),
+        )
+
+    def for_points(self, period: float) -> Bounds:
+        """Bounds of a plan such that also what is interpolated between its points keeps the limits.
+
+        Velocity and acceleration are lower by what the interpolation may add. Its jerk is not bounded so: it
+        reaches up to 2.2 times the plan's.
+
+        Args:
+            period: The most between two points [s].
+
+        Raises:
+            PlanError: The limits leave less than half of themselves ("bad_limits").
+        """
+        velocity = self.velocity - _VELOCITY_SWING * self.jerk * period**2
+        acceleration = self.acceleration - _ACCELERATION_SWING * self.jerk * period
+        if (velocity < self.velocity / 2.0).any() or (acceleration < self.acceleration / 2.0).any():
+            raise PlanError(
+                "bad_limits",
+                "expected a jerk that changes the acceleration by less than its limit within "
+                f"{period:g} s, got {self.jerk.max():g} rad/s^3 with an acceleration of "
+                f"{self.acceleration.min():g} rad/s^2: "
+                "lower the jerk or shorten the period",
+            )
+        return Bounds(
+            lower=self.lower, upper=self.upper, velocity=velocity, acceleration=acceleration, jerk=self.jerk
+        )

@@ -1,0 +1,164 @@
+"""Ruckig, state to state, behind checks that it lacks.
+
+The community build of Ruckig reads beyond lists that are too short, ignores position limits, and sends
+intermediate positions to a web service: this is the only module that calls it, with neither of the two. Its
+`position_extrema` (of 0.19.4) misses a joint that turns while its acceleration is constant, so that extremes
+are taken from the pieces of the move here.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+import ruckig
+from numpy.typing import NDArray
+
+from teo_motion.trajectory.joint_motion import Pieces
+from teo_signs.errors import PlanError
+
+Array = NDArray[np.float64]
+
+# A motion may be beyond a position limit by this much, from the rounding of its sums [rad].
+ROUNDING = 1e-8
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Bounds:
+    """Limits of one move: position [rad], velocity [rad/s], acceleration [rad/s^2], jerk [rad/s^3].
+
+    Ruckig keeps the last three. Positions are for whoever calls it to check. Shape (m,) each.
+    """
+
+    lower: Array
+    upper: Array
+
+    velocity: Array
+    acceleration: Array
+    jerk: Array
+
+    def of(self, columns: list[int]) -> Bounds:
+        """The limits of some of the joints."""
+        return Bounds(
+            lower=self.lower[columns],
+            upper=self.upper[columns],
+            velocity=self.velocity[columns],
+            acceleration=self.acceleration[columns],
+            jerk=self.jerk[columns],
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class State:
+    """Position [rad], velocity [rad/s] and acceleration [rad/s^2] of joints. Shape (m,) each."""
+
+    position: Array
+    velocity: Array
+    acceleration: Array
+
+    def of(self, columns: list[int]) -> State:
+        """The state of some of the joints."""
+        return State(
+            position=self.position[columns],
+            velocity=self.velocity[columns],
+            acceleration=self.acceleration[columns],
+        )
+
+    def key(self) -> bytes:
+        """The numbers, to compare."""
+        return self.position.tobytes() + self.velocity.tobytes() + self.acceleration.tobytes()
+
+
+class Move:
+    """A move of some joints."""
+
+    def __init__(self, trajectory: ruckig.Trajectory, start: State) -> None:
+        """Keep what Ruckig calculated."""
+        self._trajectory = trajectory
+        self._start = start
+
+    @property
+    def duration(self) -> float:
+        """How long the move takes [s]."""
+        return float(self._trajectory.duration)
+
+    @functools.cached_property
+    def pieces(self) -> Pieces:
+        """Row for row the pieces of each joint, in order; some have no length. Shape (m, k)."""
+        # The brake comes first: what brings a joint that starts beyond its limits back within them.
+        table = np.array(
+            [
+                (
+                    (*brake.t, *item.t),
+                    (*brake.p, *item.p[:-1]),
+                    (*brake.v, *item.v[:-1]),
+                    (*brake.a, *item.a[:-1]),
+                    (*brake.j, *item.j),
+                )
+                for brake, item in ((item.brake, item) for item in self._trajectory.profiles[0])
+            ]
+        )
+        lengths, positions = table[:, 0], table[:, 1]
+        return Pieces(
+            lengths=lengths,
+            positions=np.where(lengths > 0.0, positions, self._start.position[:, None]),
+            velocities=table[:, 2],
+            accelerations=table[:, 3],
+            jerks=table[:, 4],
+        )
+
+
+class Mover:
+    """Calculates moves of a fixed number of joints that start and end together."""
+
+    def __init__(self, joints: int) -> None:
+        """Prepare for moves of so many joints."""
+        self._joints = joints
+        self._generator = ruckig.Ruckig(joints)
+        self._input = ruckig.InputParameter(joints)
+        self._bounds: Bounds | None = None  # as given last
+
+    def move(self, start: State, end: State, bounds: Bounds, *, duration: float) -> Move | None:
+        """The move from one state to another that takes a given time, or as little more as it must.
+
+        Args:
+            start: Where the joints are.
+            end: Where they go.
+            bounds: Limits, all above 0.
+            duration: Least duration [s].
+
+        Returns:
+            The move, or None where the solver finds none.
+
+        Raises:
+            PlanError: An array is of the wrong length or holds a number that is not finite ("bad_state").
+        """
+        given = self._input
+        given.current_position = self._list("start position", start.position)
+        given.current_velocity = self._list("start velocity", start.velocity)
+        given.current_acceleration = self._list("start acceleration", start.acceleration)
+        given.target_position = self._list("end position", end.position)
+        given.target_velocity = self._list("end velocity", end.velocity)
+        given.target_acceleration = self._list("end acceleration", end.acceleration)
+        if bounds is not self._bounds:
+            given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
+            given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
+            given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
+            self._bounds = bounds
+        given.minimum_duration = duration
+        trajectory = ruckig.Trajectory(self._joints)
+        try:
+            result = self._generator.calculate(given, trajectory)
+        except ruckig.RuckigError:
+            return None
+        return Move(trajectory, start) if result in (ruckig.Result.Working, ruckig.Result.Finished) else None
+
+    def _list(self, name: str, values: Array, *, positive: bool = False) -> list[float]:
+        if values.shape != (self._joints,):
+            raise PlanError("bad_state", f"{name}: expected {self._joints} numbers, got shape {values.shape}")
+        if not np.isfinite(values).all() or (positive and not (values > 0.0).all()):
+            kind = "finite numbers above 0" if positive else "finite numbers"
+            raise PlanError("bad_state", f"{name}: expected {kind}, got {values.tolist()}")
+        numbers: list[float] = values.tolist()
+        return numbers

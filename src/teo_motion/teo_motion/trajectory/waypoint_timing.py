@@ -1,0 +1,180 @@
+"""When the robot can be at each station, and how its joints move from one to the next.
+
+Each joint goes from fixed station to fixed station, state to state, and need not stop where it goes on. Where
+a joint needs longer than recorded, all joints take longer: a stroke of a sign is slowed evenly, so that its
+rhythm stays, while holds and other strokes keep their time.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
+from teo_motion.trajectory.ruckig_segment import Bounds, Move, State
+from teo_motion.trajectory.waypoint_chain import JointChain, joint_chains
+from teo_signs.errors import PlanError
+
+Array = NDArray[np.float64]
+
+# No two stations are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
+_LEAST_STEP = 1e-3
+
+# A move fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
+_FITS = 1e-9
+
+# Most by which a stroke is stretched in one round of the search [1]: how the knots are passed is found anew
+# before it is stretched further, so that a first guess that passes them badly does not make it too slow.
+_PATIENT_STRETCH = 1.15
+
+# How fast the stretch of a step fades in the steps beside it [s]: a fraction of a stroke of a hand.
+# Without it a sign would change pace from knot to knot; an even stretch would slow it all for one instant.
+_NEAR = 0.1
+
+# A little more than a move asks for [1]: its ends change with the times, and would else ask again and again.
+_SPARE = 1.01
+
+# After so many rounds, whatever still does not fit is passed at a standstill, which always ends the search.
+_PATIENT_ROUNDS = 25
+_ROUNDS = 60
+
+
+class StationTiming:
+    """Times the stations of one motion."""
+
+    def __init__(
+        self, targets: Array, nominal: Array, strokes: NDArray[np.intp], start: State, bounds: Bounds
+    ) -> None:
+        """Prepare a motion.
+
+        Args:
+            targets: Positions [rad], NaN where a joint is free; first and last row without NaN. Shape (n, m).
+            nominal: Least time from each station to the next [s]. Shape (n - 1,).
+            strokes: Number of the stroke of each step from station to station, ascending. Shape (n - 1,).
+            start: State at the first station; its position is the first row of `targets`.
+            bounds: Limits of the m joints.
+        """
+        self._joints = targets.shape[1]
+        self._durations = np.maximum(nominal, _LEAST_STEP)
+        self._strokes = strokes
+        self._chains = joint_chains(targets, start, bounds)
+        self._wanted = np.zeros(len(nominal))  # logarithm of the factor for each step
+        # Moves from a station to the next first: a move that passes stations may find time enough then.
+        for single in (True, False):
+            for chain in self._chains:
+                ways = np.abs(np.diff(chain.positions, axis=0)) / chain.bounds.velocity
+                for index, needed in enumerate(ways.max(axis=1).tolist()):
+                    if chain.is_single(index) == single:
+                        self._want(chain, index, needed)
+            self._durations *= np.exp(self._wanted)
+            self._wanted[:] = 0.0
+
+    @property
+    def times(self) -> Array:
+        """When each station is reached, as far as known [s]. Shape (n,)."""
+        return np.concatenate(([0.0], np.cumsum(self._durations)))
+
+    def solve(self) -> None:
+        """Find times at which every move is possible within its bounds.
+
+        Raises:
+            PlanError: The solver of moves gives up, which no known input makes it do ("no_timing").
+        """
+        exact = False
+        for round_number in range(_ROUNDS):
+            patient = round_number < _PATIENT_ROUNDS
+            times = self.times
+            changed = False
+            for chain in self._chains:
+                chain.pass_at(times)
+            for single in (True, False):
+                for chain in self._chains:
+                    for index in chain.to_try(exact=exact):
+                        if chain.is_single(index) == single:
+                            changed |= self._try(chain, index, patient=patient)
+                if self._wanted.any():
+                    break  # see what that gives the moves that pass stations
+            changed |= self._stretch()
+            if exact and not changed:
+                return
+            exact = not changed
+        raise PlanError("no_timing", f"expected times that fit within {_ROUNDS} rounds, got none")
+
+    def motions(self) -> tuple[JointMotion, ...]:
+        """The motion of every joint, in the order of the columns; after `solve`."""
+        times = self.times
+        builders = [JointMotionBuilder() for _ in range(self._joints)]
+        for chain in self._chains:
+            moving = set(chain.moving.tolist())
+            for index in range(len(chain.stations) - 1):
+                begin = float(times[chain.stations[index]])
+                if index in moving:
+                    pieces = self._final_move(chain, index).pieces
+                    for row, column in enumerate(chain.columns):
+                        builders[column].add(begin, take(pieces, row))
+                elif index == 0 or index - 1 in moving:  # else the joints stand still already
+                    for column, position in zip(chain.columns, chain.positions[index].tolist(), strict=True):
+                        builders[column].hold(begin, position)
+        return tuple(builder.build(float(times[-1])) for builder in builders)
+
+    def _want(self, chain: JointChain, index: int, needed: float, *, most: float = math.inf) -> bool:
+        """Ask for the time that a move needs, at most by a factor at once; whether it has too little."""
+        under = slice(chain.stations[index], chain.stations[index + 1])
+        given = float(self._durations[under].sum())
+        if needed <= given + _FITS:
+            return False
+        spare = 1.0 if chain.is_rest_to_rest(index) else _SPARE
+        self._wanted[under] = np.maximum(self._wanted[under], math.log(min(spare * needed / given, most)))
+        return True
+
+    def _stretch(self) -> bool:
+        """Give the steps what their moves asked for, and part of it to the steps near them in a stroke."""
+        wanted = self._wanted
+        if not wanted.any():
+            return False
+        apart = (self._durations[:-1] + self._durations[1:]) / 2.0
+        fading = np.exp(-apart / _NEAR) * (self._strokes[1:] == self._strokes[:-1])
+        for index in range(1, len(wanted)):
+            wanted[index] = max(wanted[index], wanted[index - 1] * fading[index - 1])
+        for index in range(len(wanted) - 2, -1, -1):
+            wanted[index] = max(wanted[index], wanted[index + 1] * fading[index])
+        self._durations *= np.exp(wanted)
+        wanted[:] = 0.0
+        return True
+
+    def _try(self, chain: JointChain, index: int, *, patient: bool) -> bool:
+        """Try a move; where it does not fit, ask for time or pass its knots more slowly; whether it did."""
+        slower = 0.5 if patient else 0.0
+        move = chain.move(index)
+        if move is None:
+            if chain.is_rest_to_rest(index):
+                raise PlanError("no_timing", "expected a move from rest to rest, got none")
+            chain.slow(index, slice(None), slower)
+            return True
+        if self._want(chain, index, move.duration, most=_PATIENT_STRETCH if patient else math.inf):
+            if not patient:
+                chain.slow(index, slice(None), slower)
+            return True
+        beyond = chain.beyond(index, move)
+        if chain.is_too_fast(index, move):
+            beyond[:] = True
+        if beyond.any():
+            chain.slow(index, beyond, slower)
+            return True
+        chain.fits(index)
+        return False
+
+    def _final_move(self, chain: JointChain, index: int) -> Move:
+        """The move with the least acceleration and jerk that still takes its time."""
+        for ease in (1.3, 2.0, 4.0, None):
+            move = chain.move(index, ease)
+            if (
+                move is not None
+                and move.duration <= chain.duration(index) + _FITS
+                and not chain.beyond(index, move).any()
+                and not chain.is_too_fast(index, move)
+            ):
+                return move
+        raise PlanError("no_timing", "expected a move that was found before, got none")

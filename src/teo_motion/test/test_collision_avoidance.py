@@ -1,0 +1,102 @@
+"""Sentences in which TEO's arms are in each other's way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
+from teo_description.robot import Robot
+from teo_motion.collision.clearance_check import SelfCollision
+from teo_motion.planner import Planner
+from teo_motion.sentence.composition import REST
+from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_signs.errors import PlanError
+from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.sign import Sign
+from teo_signs.tokens import Token
+
+BOTH = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
+OPEN = np.radians([0.0, -25.0, 7.0, 7.0, 7.0, 7.0])
+
+MakeSign = Callable[..., Sign]
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def lut() -> Lut:
+    return Lut.open(default_lut_directory())
+
+
+def arms(lut: Lut, gloss: str, knot: int) -> tuple[np.ndarray, np.ndarray]:
+    """Right and left arm of a sign at a knot."""
+    pose = lut[gloss].pose(knot)
+    right, left = (np.array([pose[joint] for joint in arm]) for arm in (RIGHT_ARM, LEFT_ARM))
+    return right, left
+
+
+def without_looking(signs: dict[str, Sign], glosses: str, robot: Robot) -> float:
+    """How near parts come if nobody looks [m]."""
+    plan = Planner(signs).plan([Token(gloss=gloss) for gloss in glosses.split()])
+    return SelfCollision(robot).nearest(plan.samples).distance
+
+
+def test_an_idle_left_hand_in_the_way_goes_to_rest_first(make_sign: MakeSign, lut: Lut, robot: Robot) -> None:
+    right, left = arms(lut, "AMIGO", 0)
+    signs = {
+        "TWO": make_sign("TWO", [[*right, *OPEN, *left, *OPEN]], joints=BOTH),
+        # Where the left hand waits in the meantime, seen in a mirror: across the body, on the other's arm.
+        "ONE": make_sign("ONE", [[*mirrored(left), *OPEN]]),
+    }
+    sentence = "TWO ONE TWO"
+    assert without_looking(signs, sentence, robot) < -0.005
+    plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in sentence.split()])
+    assert SelfCollision(robot).nearest(plan.samples).distance >= 0.0
+    one = plan.timings[1]
+    position, _, _ = plan.at(one.start + one.duration / 2.0)
+    shown = dict(zip(plan.names, position - REST, strict=True))
+    assert max(abs(shown[joint]) for joint in LEFT_ARM) < 0.05
+
+
+def test_two_hands_pass_each_other(make_sign: MakeSign, lut: Lut, robot: Robot) -> None:
+    right, left = arms(lut, "TRABAJAR", 0)
+    signs = {
+        "OVER": make_sign("OVER", [[*right, *OPEN, *left, *OPEN]], joints=BOTH),
+        "UNDER": make_sign("UNDER", [[*mirrored(left), *OPEN, *mirrored(right), *OPEN]], joints=BOTH),
+    }
+    sentence = "OVER UNDER OVER"
+    assert without_looking(signs, sentence, robot) < -0.005
+    plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in sentence.split()])
+    assert SelfCollision(robot).nearest(plan.samples).distance >= 0.0
+    for timing in plan.timings:
+        sign = signs[timing.token.gloss]
+        shown = dict(zip(plan.names, plan.at(timing.start)[0], strict=True))
+        for joint, position in sign.pose(0).items():
+            assert shown[joint] == pytest.approx(position, abs=1e-3)
+
+
+def test_nearly_every_random_sentence_of_the_table_has_a_way(lut: Lut, robot: Robot) -> None:
+    words = [gloss for gloss in lut.glosses() if lut[gloss].kind == "lexical"]
+    planner = Planner(lut, robot=robot, least_standing="sketched")
+    looking = SelfCollision(robot)
+    random = np.random.default_rng(5)
+    refused: list[str] = []
+    for _ in range(60):
+        glosses = [str(gloss) for gloss in random.choice(words, 2)]
+        try:
+            plan = planner.plan([Token(gloss=gloss) for gloss in glosses])
+        except PlanError as error:
+            assert error.code == "self_collision"
+            refused.append(f"{' '.join(glosses)}: {error}")
+            continue
+        # A tenth of the plans is looked at sample by sample, by a look that does not trust the planner's.
+        if random.integers(10) == 0:
+            for row in plan.positions[::3]:
+                assert not looking.is_nearer(row, -0.003), glosses
+    assert len(refused) <= 2, refused

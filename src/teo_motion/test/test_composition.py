@@ -1,0 +1,168 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
+from teo_motion.sentence.composition import REST, Composition, compose
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.trajectory.limits import MotionLimits
+from teo_signs.errors import PlanError
+from teo_signs.lexicon import Lexicon
+from teo_signs.sign import Sign
+from teo_signs.tokens import Token, parse_printed
+
+STYLE = SigningStyle()
+LIMITS = MotionLimits.of_robot()
+ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
+RIGHT_ARM_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Right" in name]
+LEFT_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Left" in name]
+
+
+def composed(table: Mapping[str, Sign], text: str | list[Token], style: SigningStyle = STYLE) -> Composition:
+    tokens = parse_printed(text) if isinstance(text, str) else text
+    return compose(Lexicon(table).resolve(tokens), start=REST, limits=LIMITS, style=style)
+
+
+def held(composition: Composition, index: int) -> float:
+    """Nominal time of the last step of a token: its hold."""
+    return float(composition.nominal[composition.spans[index].last - 1])
+
+
+def test_a_sentence_goes_from_rest_through_every_knot_to_rest(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "TÚ")
+    sign = table["TÚ"]
+    columns = [COMMANDED_JOINTS.index(name) for name in sign.joints]
+    np.testing.assert_array_equal(composition.targets[0], REST)
+    np.testing.assert_array_equal(composition.targets[1:4, columns], sign.knots)
+    np.testing.assert_array_equal(composition.targets[-1], REST)
+    np.testing.assert_allclose(composition.nominal[1:3], np.diff(sign.times))
+
+
+def test_between_signs_there_is_no_station(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "TÚ CASA")
+    first, second = composition.spans
+    assert second.first == first.last + 1
+    assert composition.nominal[first.last] == STYLE.transition
+
+
+def test_the_arm_stays_up_between_letters(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "A-N-C")
+    arm = composition.targets[1:-1, RIGHT_ARM_COLUMNS[:6]]
+    assert not np.isnan(arm).any(), "the arm is fixed at every station of a word"
+    assert (arm[:, 3] < -1.0).all(), "and bent at each of them"
+
+
+def test_letters_are_held_and_the_last_of_a_word_longer(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "A-N C-A 1-7")
+    holds = [held(composition, index) for index in range(6)]
+    single, last = STYLE.letter_hold, STYLE.letter_hold * STYLE.last_letter_hold
+    assert holds == pytest.approx([single, last, single, last, single, last])
+
+
+def test_a_hold_that_the_sign_has_itself_counts(
+    table: Mapping[str, Sign], make_sign: Callable[..., Sign]
+) -> None:
+    knots = table["A"].knots[[0, 0, 0]]
+    knots[0, 4] += 0.2
+    own = {"B": make_sign("B", knots, [0.0, 0.3, 0.5], kind="letter")}
+    composition = composed(own | dict(table), "B-A")
+    assert composition.spans[0].asked == pytest.approx(0.3 + STYLE.letter_hold)
+    long = {"B": make_sign("B", knots, [0.0, 0.3, 1.5], kind="letter")}
+    assert composed(long | dict(table), "B-A").spans[0].asked == pytest.approx(1.5)
+    assert composed(long | dict(table), "B").spans[0].asked == pytest.approx(
+        0.3 + 1.2 * STYLE.last_letter_hold
+    )
+
+
+def test_the_hands_stay_a_little_after_a_spelled_word(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "A-N TÚ")
+    word, sign = composition.spans[1], composition.spans[2]
+    assert sign.first == word.last + 2, "one step to stay, one to go"
+    assert composition.nominal[word.last] == STYLE.word_pause
+
+
+def test_a_duration_scale_scales_the_sign_and_its_hold(table: Mapping[str, Sign]) -> None:
+    quick, slow = (composed(table, [Token(gloss="LL", duration_scale=scale)]) for scale in (1.0, 2.0))
+    assert slow.spans[0].asked == pytest.approx(2.0 * quick.spans[0].asked)
+
+
+def test_equal_letters_are_parted_by_a_move_of_the_elbow(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "A-A")
+    first, second = composition.spans
+    assert second.first == first.last + 2
+    between = composition.targets[first.last + 1]
+    letter = composition.targets[first.last]
+    assert between[ELBOW] - letter[ELBOW] == pytest.approx(STYLE.repeat_angle)
+    moved = np.flatnonzero(between != letter)
+    assert set(moved) - set(np.flatnonzero(np.isnan(between))) == {ELBOW}, "the hand keeps its shape"
+
+
+def test_a_letter_that_ends_elsewhere_needs_no_parting(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "A-N")
+    assert composition.spans[1].first == composition.spans[0].last + 1
+
+
+def test_a_single_posture_is_held_and_the_last_sign_of_all(
+    table: Mapping[str, Sign], make_sign: Callable[..., Sign]
+) -> None:
+    signs = {"YO": make_sign("YO", table["A"].knots)} | dict(table)
+    composition = composed(signs, "YO TÚ")
+    assert composition.spans[0].asked == pytest.approx(STYLE.posture_hold)
+    assert held(composition, 1) == pytest.approx(STYLE.final_hold)
+    assert held(composed(table, "TÚ CASA"), 0) == pytest.approx(0.25), "no other sign is held"
+
+
+def test_a_pause_keeps_the_hands_where_they_are(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "TÚ _ CASA")
+    sign, pause, _ = composition.spans
+    assert (pause.first, pause.last) == (sign.last, sign.last + 1)
+    assert pause.asked == pytest.approx(STYLE.pause)
+    columns = RIGHT_ARM_COLUMNS
+    np.testing.assert_array_equal(
+        composition.targets[pause.last, columns], composition.targets[sign.last, columns]
+    )
+
+
+def test_joints_of_a_limb_that_a_sign_leaves_out_are_at_rest(make_sign: Callable[..., Sign]) -> None:
+    one = {"X": make_sign("X", [[-1.0]], joints=("FrontalLeftElbow",))}
+    row = composed(one, "X").targets[1]
+    columns = [COMMANDED_JOINTS.index(name) for name in LEFT_ARM]
+    expected = REST[columns].copy()
+    expected[3] = -1.0
+    np.testing.assert_array_equal(row[columns], expected)
+
+
+def test_an_arm_stays_for_a_sign_of_its_hand_alone(
+    table: Mapping[str, Sign], make_sign: Callable[..., Sign]
+) -> None:
+    shape = make_sign("X", [np.radians([0, 60, 60, 60, 60, 60])], joints=RIGHT_HAND)
+    composition = composed({"X": shape} | dict(table), "TÚ X")
+    before, after = (
+        composition.targets[composition.spans[0].last],
+        composition.targets[composition.spans[1].first],
+    )
+    np.testing.assert_array_equal(before[RIGHT_ARM_COLUMNS[:6]], after[RIGHT_ARM_COLUMNS[:6]])
+
+
+def test_limbs_that_a_sign_does_not_use_are_free_and_listed_as_idle(table: Mapping[str, Sign]) -> None:
+    composition = composed(table, "CASA TÚ CASA")
+    middle = composition.spans[1]
+    assert np.isnan(composition.targets[middle.first : middle.last + 1, LEFT_COLUMNS]).all()
+    spans = {(span.first, span.last) for span in composition.idle if span.limb in (2, 4)}
+    assert (composition.spans[0].last, composition.spans[2].first) in spans
+
+
+def test_a_knot_outside_the_limits_is_refused_by_name(make_sign: Callable[..., Sign]) -> None:
+    bad = {"X": make_sign("X", [[-3.0]], joints=("FrontalRightElbow",))}
+    with pytest.raises(PlanError, match="FrontalRightElbow") as refusal:
+        composed(bad, "X")
+    assert refusal.value.code == "sign_outside_limits"
+
+
+@pytest.mark.parametrize("value", [-0.1, np.nan, np.inf])
+def test_a_style_of_impossible_times_is_refused(value: float) -> None:
+    with pytest.raises(PlanError, match="letter_hold"):
+        SigningStyle(letter_hold=value)

@@ -1,0 +1,265 @@
+"""What the head does in sentences of the package's table and of random ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from teo_description.robot import Robot
+from teo_motion.planner import Planner
+from teo_motion.sentence.composition import REST
+from teo_motion.sentence.head_gestures import GestureKind
+from teo_motion.sentence.plan import Plan, TokenTiming
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import State
+from teo_motion.trajectory.stopping import stop
+from teo_signs.errors import PlanError
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign
+from teo_signs.tokens import Kind, Token, parse_printed
+
+LIMITS = MotionLimits.of_robot()
+YAW, PITCH = (LIMITS.names.index(name) for name in ("AxialNeck", "FrontalNeck"))
+HEAD = [YAW, PITCH]
+HANDS = [column for column in range(28) if column not in HEAD]
+STILL = SigningStyle(head_motion=0.0)
+KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
+FORMS = [
+    SentenceForm(type=type_, negated=negated)
+    for type_ in SentenceType
+    for negated in (False, True)
+    if type_ or negated
+]
+YES_NO = SentenceForm(type=SentenceType.YES_NO_QUESTION)
+WH = SentenceForm(type=SentenceType.WH_QUESTION)
+EXCLAMATION = SentenceForm(type=SentenceType.EXCLAMATION)
+NEGATED = SentenceForm(negated=True)
+
+
+@pytest.fixture(scope="module")
+def lut() -> Lut:
+    return Lut.open()
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+def during(plan: Plan, timing: TokenTiming) -> np.ndarray:
+    """Yaw and pitch [deg] at fifty instants of a token. Shape (50, 2)."""
+    times = np.linspace(timing.start, timing.start + timing.duration, 50)
+    return np.degrees(np.stack([plan.motions[column].at(times)[0] for column in HEAD], axis=1))
+
+
+def sides(angles: np.ndarray) -> int:
+    """How often an angle changes its sign, however little it is beyond 3 deg."""
+    signs = np.sign(angles[np.abs(angles) > 3.0])
+    return int((np.diff(signs) != 0.0).sum())
+
+
+def random_sentence(rng: np.random.Generator, table: Mapping[str, Sign]) -> list[Token]:
+    glosses = rng.choice(sorted(table), rng.integers(1, 5)).tolist()
+    return [
+        Token(gloss=gloss, kind=KINDS[table[gloss].kind], word_index=index)
+        for index, gloss in enumerate(glosses)
+    ]
+
+
+def check(plan: Plan, without: Plan, driver_view: type) -> None:
+    """What is promised of every plan, and that the hands do what they did."""
+    np.testing.assert_array_equal(plan.times, without.times)
+    assert (plan.timings, plan.stretch) == (without.timings, without.stretch)
+    for now, before in (
+        (plan.positions, without.positions),
+        (plan.velocities, without.velocities),
+        (plan.accelerations, without.accelerations),
+    ):
+        np.testing.assert_array_equal(now[:, HANDS], before[:, HANDS])
+    np.testing.assert_array_equal(plan.positions[-1], REST)
+    for column in HEAD:
+        motion = plan.motions[column]
+        reached = motion.extremes()
+        assert LIMITS.lower[column] - 1e-8 <= reached.least <= reached.greatest <= LIMITS.upper[column] + 1e-8
+        assert reached.velocity <= LIMITS.velocity[column]
+        assert reached.acceleration <= LIMITS.acceleration[column]
+        assert reached.jerk <= LIMITS.jerk[column] * (1.0 + 1e-9)
+        pieces = motion.pieces
+        begins = (pieces.positions, pieces.velocities, pieces.accelerations)
+        for end, begin in zip(pieces.after(pieces.lengths), begins, strict=True):
+            np.testing.assert_allclose(end[:-1], begin[1:], atol=1e-6)
+        np.testing.assert_allclose(motion.at(plan.times)[0], plan.positions[:, column], atol=1e-6)
+    view = driver_view(plan, looks=4)
+    assert (np.abs(view.velocities) <= LIMITS.velocity).all()
+    assert (np.abs(view.accelerations) <= LIMITS.acceleration).all()
+
+
+@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(seed=st.integers(0, 2**32 - 1), form=st.sampled_from(FORMS), strength=st.sampled_from([0.3, 1.0]))
+def test_the_head_keeps_its_limits_and_the_hands_their_times(
+    lut: Lut, driver_view: type, seed: int, form: SentenceForm, strength: float
+) -> None:
+    tokens = random_sentence(np.random.default_rng(seed), lut)
+    plan = Planner(lut, style=SigningStyle(head_motion=strength), least_standing="sketched").plan(
+        tokens, form=form
+    )
+    check(plan, Planner(lut, style=STILL, least_standing="sketched").plan(tokens, form=form), driver_view)
+
+
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(seed=st.integers(0, 2**32 - 1), form=st.sampled_from(FORMS))
+def test_so_it_does_with_signs_that_no_person_makes_from_any_start(
+    random_table: Callable[..., dict[str, Sign]], driver_view: type, seed: int, form: SentenceForm
+) -> None:
+    rng = np.random.default_rng(seed)
+    table = random_table(rng)
+    tokens = random_sentence(rng, table)
+    still = np.zeros(28)
+    start = State(position=rng.uniform(LIMITS.lower, LIMITS.upper), velocity=still, acceleration=still)
+    plan, without = (
+        Planner(table, max_duration=1e4, style=style).plan(tokens, start, form=form)
+        for style in (SigningStyle(), STILL)
+    )
+    check(plan, without, driver_view)
+
+
+def test_a_statement_is_planned_to_the_digit_as_without_head_motion(lut: Lut) -> None:
+    rng = np.random.default_rng(7)
+    for _ in range(5):
+        tokens = random_sentence(rng, lut)
+        plan, without = (Planner(lut, style=style).plan(tokens) for style in (SigningStyle(), STILL))
+        assert plan.head == ()
+        for now, before in (
+            (plan.positions, without.positions),
+            (plan.velocities, without.velocities),
+            (plan.accelerations, without.accelerations),
+        ):
+            assert now.tobytes() == before.tobytes()
+
+
+@pytest.mark.parametrize("verb", ["VENIR", "BEBER", "ENTENDER", "IR", "COMER"])
+def test_the_head_shakes_over_verb_and_negation(lut: Lut, verb: str) -> None:
+    plan = Planner(lut).plan(parse_printed(f"YO {verb} NO"), form=NEGATED)
+    subject, *_, negation = plan.timings
+    assert sides(during(plan, negation)[:, 0]) >= 2
+    assert np.abs(during(plan, subject)[:, 0]).max() < 12.5
+    verb_start = next(timing.start for timing in plan.timings if timing.token.word_index == 1)
+    times = np.arange(verb_start, negation.start + negation.duration, 0.01)
+    yaw = np.degrees(plan.motions[YAW].at(times)[0])
+    turned = times[np.abs(yaw) > 9.0]
+    assert np.diff(turned).max() < 1.0, "it does not stop on the way"
+    assert turned[0] - verb_start < 0.5
+    assert yaw.max() > 11.9 and yaw.min() < -11.9
+    assert sides(yaw) >= (times[-1] - times[0]) / 0.7 - 2.0, "a swing takes 0.7 s"
+
+
+def test_a_spelled_negation_is_shaken_at_all_along(lut: Lut) -> None:
+    plan = Planner(lut).plan(parse_printed("YO VENIR NUNCA"), form=NEGATED)
+    letters = [timing for timing in plan.timings if timing.token.kind == Kind.LETTER]
+    times = np.arange(letters[0].start, letters[-1].start + letters[-1].duration, 0.01)
+    assert sides(np.degrees(plan.motions[YAW].at(times)[0])) >= (times[-1] - times[0]) / 0.7 - 2.0
+
+
+def test_a_single_negation_shakes_as_its_entry_has_it(lut: Lut) -> None:
+    planner = Planner(lut)
+    plan = planner.plan(parse_printed("NO"), form=NEGATED)
+    assert sides(during(plan, plan.timings[0])[:, 0]) == 2
+    np.testing.assert_array_equal(plan.positions, planner.plan(parse_printed("NO")).positions)
+
+
+def test_the_head_is_forward_until_a_yes_no_question_has_ended(lut: Lut) -> None:
+    plan = Planner(lut).plan(parse_printed("TÚ COLEGIO IR"), form=YES_NO)
+    first, last = plan.timings[0], plan.timings[-1]
+    times = np.linspace(first.start, last.start + last.duration, 200)
+    np.testing.assert_allclose(np.degrees(plan.motions[PITCH].at(times)[0]), 9.0, atol=1e-6)
+    (gesture,) = plan.head
+    assert gesture.kind == GestureKind.FORWARD
+    assert gesture.start <= first.start + 1e-9 and gesture.end >= last.start + last.duration - 1e-9
+
+
+def test_the_last_sign_of_a_yes_no_question_is_held(lut: Lut) -> None:
+    planner, tokens = Planner(lut), parse_printed("TÚ MANO")
+    statement, question = (planner.plan(tokens, form=form).timings[-1] for form in (STATEMENT, YES_NO))
+    assert question.duration == pytest.approx(statement.duration + 0.25)
+
+
+def test_signs_that_bow_or_raise_the_head_do_so_from_a_head_that_is_forward(lut: Lut) -> None:
+    tokens = parse_printed("HOY TÚ ENFERMO")
+    planner = Planner(lut)
+    plan, without = (planner.plan(tokens, form=form) for form in (YES_NO, STATEMENT))
+    for index, expected in ((0, (1.0, 9.0)), (2, (3.0, 3.0))):
+        pitch = during(plan, plan.timings[index])[:, 1]
+        assert (pitch.min(), pitch.max()) == pytest.approx(expected, abs=0.01)
+        # As far up and down as in a statement.
+        assert np.ptp(pitch) == pytest.approx(np.ptp(during(without, without.timings[index])[:, 1]), abs=1e-6)
+
+
+def test_the_head_is_back_at_the_question_word_alone(lut: Lut) -> None:
+    plan = Planner(lut).plan(parse_printed("TÚ NOMBRE QUÉ"), form=WH)
+    np.testing.assert_allclose(during(plan, plan.timings[2])[:, 1], -8.0, atol=0.01)
+    assert (during(plan, plan.timings[0])[:, 1] == 0.0).all()
+
+
+def test_an_exclamation_ends_with_a_nod(lut: Lut) -> None:
+    plan = Planner(lut).plan(parse_printed("TÚ VENTANA ROMPER"), form=EXCLAMATION)
+    pitch = during(plan, plan.timings[-1])[:, 1]
+    assert pitch.max() == pytest.approx(9.0, abs=0.1)
+    whole = np.degrees(plan.positions[:, PITCH])
+    assert whole.min() == pytest.approx(-5.0, abs=0.1), "up before it goes down"
+    assert (during(plan, plan.timings[0])[:, 1] == 0.0).all()
+
+
+def test_half_the_strength_is_half_the_way(lut: Lut) -> None:
+    planner = Planner(lut, style=SigningStyle(head_motion=0.5))
+    plan = planner.plan(parse_printed("YO CASA"), form=NEGATED)
+    assert np.degrees(np.abs(plan.positions[:, YAW]).max()) == pytest.approx(6.0, abs=0.05)
+
+
+def test_a_head_that_would_touch_a_hand_stays_as_the_sign_has_it(lut: Lut, robot: Robot) -> None:
+    # The hand of VERANO is so near to the forehead that a head bowed by 9 deg would touch it.
+    planner, tokens = Planner(lut, robot=robot), parse_printed("VERANO CASA")
+    plan, without = (planner.plan(tokens, form=form) for form in (YES_NO, STATEMENT))
+    assert plan.nearest is not None and plan.nearest.distance >= 0.0
+    # Seen by somebody else: every point, not only those that the planner looks at.
+    first, casa = plan.timings
+    for position in plan.positions[plan.times <= casa.start][::2]:
+        named = dict(zip(plan.names, position.tolist(), strict=True))
+        assert robot.clearance(robot.configuration(named)).distance >= 0.0
+    np.testing.assert_allclose(during(plan, first), during(without, without.timings[0]), atol=1e-6)
+    assert during(plan, casa)[:, 1].max() == pytest.approx(9.0)
+
+
+@pytest.mark.parametrize("text", ["MADRE ENTENDER NO", "TÚ DELGADO"])
+def test_signs_at_the_face_stay_clear_of_the_head(lut: Lut, robot: Robot, text: str) -> None:
+    for form in (YES_NO, NEGATED):
+        plan = Planner(lut, robot=robot).plan(parse_printed(text), form=form)
+        assert plan.nearest is not None and plan.nearest.distance >= 0.0
+        near = plan.nearest
+        point = plan.positions[int(np.searchsorted(plan.times, near.time))]
+        found = robot.clearance(robot.configuration(dict(zip(plan.names, point.tolist(), strict=True))))
+        assert found.distance == pytest.approx(near.distance, abs=1e-5)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.7])
+def test_a_robot_that_is_stopped_in_a_gesture_finds_its_way_to_rest(lut: Lut, share: float) -> None:
+    planner = Planner(lut)
+    form = SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True)
+    plan = planner.plan(parse_printed("HOY VENIR NO"), form=form)
+    position, velocity, acceleration = plan.at(share * plan.duration)
+    assert np.abs(position[HEAD]).max() > 0.01
+    end, _ = stop(State(position=position, velocity=velocity, acceleration=acceleration), LIMITS)
+    back = planner.plan_to_rest(end)
+    assert back.head == ()
+    np.testing.assert_allclose(back.at(back.duration)[0], REST, atol=1e-6)
+
+
+def test_a_strength_that_the_neck_does_not_have_is_refused() -> None:
+    with pytest.raises(PlanError, match=r"head_motion: expected 0 to 1, got 1\.5") as refusal:
+        SigningStyle(head_motion=1.5)
+    assert refusal.value.code == "bad_style"

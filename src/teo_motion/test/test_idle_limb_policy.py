@@ -1,0 +1,103 @@
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
+from teo_motion.collision.idle_limb_policy import fastest_moves
+from teo_motion.planner import Planner
+from teo_motion.sentence.composition import REST
+from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import Bounds, Mover, State
+from teo_signs.sign import Sign
+from teo_signs.tokens import parse_printed
+
+
+def columns(names: tuple[str, ...]) -> list[int]:
+    return [COMMANDED_JOINTS.index(name) for name in names]
+
+
+def during(plan: Plan, token: int, names: tuple[str, ...]) -> np.ndarray:
+    timing = plan.timings[token]
+    inside = (plan.times >= timing.start - 1e-9) & (plan.times <= timing.start + timing.duration + 1e-9)
+    return plan.positions[inside][:, columns(names)]
+
+
+def test_an_arm_that_is_needed_again_at_once_waits_where_it_is(table: Mapping[str, Sign]) -> None:
+    plan = Planner(table).plan(parse_printed("CASA TÚ CASA"))
+    waiting = during(plan, 1, LEFT_ARM)
+    assert (waiting == waiting[0]).all()
+    assert np.abs(waiting[0] - REST[columns(LEFT_ARM)]).max() > 0.5
+
+
+def test_its_hand_goes_to_rest_meanwhile(table: Mapping[str, Sign]) -> None:
+    plan = Planner(table).plan(parse_printed("CASA TÚ CASA"))
+    np.testing.assert_allclose(during(plan, 1, LEFT_HAND)[-1], REST[columns(LEFT_HAND)], atol=1e-9)
+
+
+def test_an_arm_that_is_not_needed_for_long_goes_to_rest_and_stays_there(table: Mapping[str, Sign]) -> None:
+    plan = Planner(table).plan(parse_printed("CASA A-N-A-L CASA"))
+    last_letter = during(plan, 4, LEFT_ARM)
+    np.testing.assert_allclose(
+        last_letter, np.tile(REST[columns(LEFT_ARM)], (len(last_letter), 1)), atol=1e-9
+    )
+
+
+def test_an_arm_on_its_way_to_rest_does_not_hold_up_the_other(table: Mapping[str, Sign]) -> None:
+    planner = Planner(table)
+    alone, after = (planner.plan(parse_printed(text)) for text in ("TÚ A-N-A", "CASA A-N-A"))
+    for token in (2, 3):
+        gaps = [plan.timings[token].start - plan.timings[token - 1].start for plan in (alone, after)]
+        assert gaps[1] == pytest.approx(gaps[0], abs=1e-6)
+
+
+def test_how_long_an_arm_must_rest_can_be_chosen(table: Mapping[str, Sign]) -> None:
+    plan = Planner(table, style=SigningStyle(arm_rest=30.0)).plan(parse_printed("CASA A-N-A-L CASA"))
+    waiting = during(plan, 4, LEFT_ARM)
+    assert np.abs(waiting - REST[columns(LEFT_ARM)]).max() > 0.5
+
+
+def test_no_arm_goes_down_between_the_letters_of_a_word(table: Mapping[str, Sign]) -> None:
+    plan = Planner(table).plan(parse_printed("A-N-A-LL-A-A"))
+    begin, end = plan.timings[0].start, plan.timings[-1].start
+    inside = (plan.times >= begin) & (plan.times <= end)
+    shoulder = plan.positions[inside, columns(RIGHT_ARM)[0]]
+    assert (shoulder < np.radians(-70.0)).all()
+
+
+@settings(max_examples=200)
+@given(
+    way=st.floats(-3.0, 3.0).filter(lambda way: abs(way) > 1e-6),
+    velocity=st.floats(0.05, 2.0),
+    acceleration=st.floats(0.1, 20.0),
+    jerk=st.floats(0.5, 500.0),
+)
+def test_fastest_moves_take_the_time_that_ruckig_finds(
+    way: float, velocity: float, acceleration: float, jerk: float
+) -> None:
+    one = np.ones(1)
+    limits = MotionLimits(
+        names=("joint",),
+        lower=-10 * one,
+        upper=10 * one,
+        velocity=velocity * one,
+        acceleration=acceleration * one,
+        jerk=jerk * one,
+    )
+    bounds = Bounds(
+        lower=-10 * one,
+        upper=10 * one,
+        velocity=limits.velocity,
+        acceleration=limits.acceleration,
+        jerk=limits.jerk,
+    )
+    states = [State(position=p * one, velocity=0 * one, acceleration=0 * one) for p in (0.0, way)]
+    move = Mover(1).move(*states, bounds, duration=0.0)
+    assert move is not None
+    assert fastest_moves(way * one, [0], limits)[0] == pytest.approx(move.duration, rel=1e-5)

@@ -1,0 +1,187 @@
+"""No plan breaks a limit, whatever the signs: looked at in the motion itself and through a driver's eyes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from teo_description import COMMANDED_JOINTS
+from teo_motion.planner import Planner
+from teo_motion.sentence.composition import REST
+from teo_motion.sentence.plan import Plan
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import State
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.sign import Sign
+from teo_signs.tokens import Kind, Token
+
+KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
+PERIOD = 0.02
+
+
+def random_tokens(rng: np.random.Generator, table: Mapping[str, Sign], most: int) -> list[Token]:
+    tokens = []
+    for _ in range(rng.integers(1, most + 1)):
+        sign = table[str(rng.choice(sorted(table)))]
+        pause = rng.random() < 0.1
+        tokens.append(
+            Token(
+                gloss="" if pause else sign.gloss,
+                kind=Kind.PAUSE if pause else KINDS[sign.kind],
+                duration_scale=float(rng.choice([0.001, 0.3, 1.0, 2.0])),
+                word_index=int(rng.integers(3)),
+            )
+        )
+    return tokens
+
+
+def check(
+    plan: Plan, tokens: list[Token], table: Mapping[str, Sign], start: np.ndarray, driver_view: type
+) -> None:
+    """Everything that is promised of every plan."""
+    limits = MotionLimits.of_robot()
+
+    # The motion itself, sampled densely, with jerk by finite differences.
+    times = np.linspace(0.0, plan.duration, 3000)
+    dense = [motion.at(times) for motion in plan.motions]
+    positions, velocities, accelerations = (np.stack(column, axis=1) for column in zip(*dense, strict=True))
+    assert (positions >= limits.lower - 1e-8).all() and (positions <= limits.upper + 1e-8).all()
+    assert (np.abs(velocities) <= limits.velocity).all()
+    assert (np.abs(accelerations) <= limits.acceleration).all()
+    step = times[1]
+    jerk = np.abs(np.diff(accelerations, axis=0)) / step
+    assert (jerk <= limits.jerk * (1.0 + 1e-6)).all()
+    # Derivatives belong together: the mean velocity over a step is between those at its ends, but for jerk.
+    mean = np.diff(positions, axis=0) / step
+    between = np.maximum(velocities[:-1], velocities[1:]) + limits.jerk * step**2
+    assert (mean <= between + 1e-6).all()
+    assert (mean >= np.minimum(velocities[:-1], velocities[1:]) - limits.jerk * step**2 - 1e-6).all()
+
+    # What a driver makes of the points.
+    view = driver_view(plan)
+    assert (view.positions >= limits.lower - 6e-6).all() and (view.positions <= limits.upper + 6e-6).all()
+    assert (np.abs(view.velocities) <= limits.velocity).all()
+    assert (np.abs(view.accelerations) <= limits.acceleration).all()
+
+    assert (np.diff(plan.times) > 0.0).all() and np.diff(plan.times).max() <= PERIOD + 1e-9
+    assert plan.times[0] == 0.0 and plan.times[-1] == pytest.approx(plan.duration)
+    np.testing.assert_allclose(plan.positions[0], start, atol=1e-12)
+    np.testing.assert_array_equal(plan.positions[-1], REST)
+    assert (plan.velocities[-1] == 0.0).all() and (plan.accelerations[-1] == 0.0).all()
+    for found, expected in zip(plan.at(plan.duration), (REST, 0.0, 0.0), strict=True):
+        np.testing.assert_allclose(found, expected, atol=1e-6)
+
+    # Every token once, in order, and every knot of its sign passed in between.
+    assert [timing.token for timing in plan.timings] == tokens
+    end = 0.0
+    for timing in plan.timings:
+        assert timing.start >= end - 1e-9 and timing.duration > 0.0 and timing.stretch >= 1.0 - 1e-9
+        end = timing.start + timing.duration
+        if timing.token.kind == Kind.PAUSE:
+            continue
+        sign = table[timing.token.gloss]
+        columns = [COMMANDED_JOINTS.index(name) for name in sign.joints]
+        inside = (plan.times >= timing.start - 1e-9) & (plan.times <= end + 1e-9)
+        passed = plan.positions[inside][:, columns]
+        at = 0
+        for knot in sign.knots:
+            near = np.abs(passed[at:] - knot).max(axis=1) <= 1e-6
+            assert near.any(), f"{sign.gloss}: a knot is not passed"
+            at += int(np.argmax(near))
+    assert end <= plan.duration
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(seed=st.integers(0, 2**32 - 1))
+def test_no_limit_is_broken_by_random_signs(
+    random_table: Callable[..., dict[str, Sign]], driver_view: type, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    table = random_table(rng)
+    tokens = random_tokens(rng, table, most=5)
+    check(Planner(table, max_duration=1e4).plan(tokens), tokens, table, REST, driver_view)
+
+
+def test_no_limit_is_broken_by_a_thousand_random_sentences(
+    random_table: Callable[..., dict[str, Sign]], driver_view: type
+) -> None:
+    limits = MotionLimits.of_robot()
+    rng = np.random.default_rng(0)
+    planner, table = None, {}
+    for number in range(1000):
+        if number % 10 == 0:
+            table = random_table(rng, signs=6)
+            planner = Planner(table, max_duration=1e4)
+        assert planner is not None
+        tokens = random_tokens(rng, table, most=2)
+        plan = planner.plan(tokens)
+        assert [timing.token for timing in plan.timings] == tokens
+        for joint, motion in enumerate(plan.motions):
+            reached = motion.extremes()
+            assert reached.least >= limits.lower[joint] - 1e-8
+            assert reached.greatest <= limits.upper[joint] + 1e-8
+            assert reached.jerk <= limits.jerk[joint] * (1.0 + 1e-9)
+        view = driver_view(plan, looks=4)
+        assert (np.abs(view.velocities) <= limits.velocity).all()
+        assert (np.abs(view.accelerations) <= limits.acceleration).all()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_no_limit_is_broken_from_any_start(
+    random_table: Callable[..., dict[str, Sign]], driver_view: type, seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    table = random_table(rng)
+    limits = MotionLimits.of_robot()
+    tokens = random_tokens(rng, table, most=3)
+    start = rng.uniform(limits.lower, limits.upper)
+    still = np.zeros_like(start)
+    state = State(position=start, velocity=still, acceleration=still)
+    check(Planner(table, max_duration=1e4).plan(tokens, state), tokens, table, start, driver_view)
+
+
+def test_no_limit_is_broken_by_thousands_of_tokens(table: Mapping[str, Sign]) -> None:
+    rng = np.random.default_rng(1)
+    names = sorted(table)
+    tokens = [
+        Token(gloss=gloss, kind=KINDS[table[gloss].kind], word_index=index // 7)
+        for index, gloss in enumerate(rng.choice(names, 1000).tolist())
+    ]
+    plan = Planner(table, max_duration=1e5).plan(tokens)
+    limits = MotionLimits.of_robot()
+    for joint, motion in enumerate(plan.motions):
+        reached = motion.extremes()
+        assert reached.least >= limits.lower[joint] - 1e-8 and reached.greatest <= limits.upper[joint] + 1e-8
+        assert reached.velocity <= limits.velocity[joint]
+        assert reached.acceleration <= limits.acceleration[joint]
+        assert reached.jerk <= limits.jerk[joint] * (1.0 + 1e-9)
+    assert [timing.token for timing in plan.timings] == tokens
+
+
+def test_no_limit_is_broken_by_the_table_of_the_package(driver_view: type) -> None:
+    try:
+        table = Lut.open()
+    except LutError:
+        pytest.skip(f"no table at {default_lut_directory.__name__}")
+    if not len(table):
+        pytest.skip("the package's table is empty")
+    rng = np.random.default_rng(2)
+    planner = Planner(table, max_duration=1e4, least_standing="sketched")
+    for _ in range(15):
+        tokens = random_tokens(rng, table, most=8)
+        check(planner.plan(tokens), tokens, table, REST, driver_view)
+
+
+def test_lower_limits_are_kept_too(random_table: Callable[..., dict[str, Sign]], driver_view: type) -> None:
+    rng = np.random.default_rng(3)
+    table = random_table(rng)
+    limits = MotionLimits.of_robot(acceleration=1.0, jerk=4.0)
+    plan = Planner(table, limits=limits, max_duration=1e5).plan(random_tokens(rng, table, most=4))
+    view = driver_view(plan)
+    assert (np.abs(view.accelerations) <= 1.0).all() and (np.abs(view.velocities) <= limits.velocity).all()
+    assert max(motion.extremes().jerk for motion in plan.motions) <= 4.0 * (1.0 + 1e-9)

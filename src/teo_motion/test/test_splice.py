@@ -1,0 +1,97 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
+from teo_motion.trajectory.ruckig_segment import Bounds, Mover, State
+from teo_motion.trajectory.splice import Knot, Splicer, position_at, rest_after, shifted
+
+BOUNDS = Bounds(
+    lower=np.array([-0.5]),
+    upper=np.array([0.5]),
+    velocity=np.array([0.87]),
+    acceleration=np.array([6.5]),
+    jerk=np.array([105.0]),
+)
+
+
+def there_and_back(angle: float = 0.3) -> JointMotion:
+    """At 0 for 1 s, to an angle in 1 s, there for 1 s, back in 1 s, and 1 s more at 0."""
+    builder, mover = JointMotionBuilder(), Mover(1)
+    zero = np.zeros(1)
+    at = [State(position=np.array([turn]), velocity=zero, acceleration=zero) for turn in (0.0, angle)]
+    for start, first, second in ((1.0, 0, 1), (3.0, 1, 0)):
+        builder.hold(start - 1.0, float(at[first].position[0]))
+        move = mover.move(at[first], at[second], BOUNDS, duration=1.0)
+        assert move is not None
+        builder.add(start, take(move.pieces, 0))
+    builder.hold(4.0, 0.0)
+    return builder.build(5.0)
+
+
+def jumps(motion: JointMotion) -> float:
+    """The most by which position, velocity or acceleration differ where two pieces meet."""
+    pieces = motion.pieces
+    begins = (pieces.positions, pieces.velocities, pieces.accelerations)
+    ends = pieces.after(pieces.lengths)
+    return max(float(np.abs(end[:-1] - begin[1:]).max()) for end, begin in zip(ends, begins, strict=True))
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    begin=st.floats(0.0, 3.0),
+    length=st.floats(1.5, 2.0),
+    position=st.floats(-0.2, 0.2),
+)
+def test_another_way_is_left_and_met_smoothly(begin: float, length: float, position: float) -> None:
+    motion = there_and_back()
+    end = begin + length
+    knot = Knot((begin + end) / 2.0, position)
+    changed = Splicer(BOUNDS).spliced(motion, begin, [knot], end)
+    if changed is None:  # the joint may have too far to go
+        assert abs(position - 0.3) > 0.3
+        return
+    assert jumps(changed) < 1e-6
+    assert changed.duration == motion.duration
+    at, speed, _ = changed.at(np.array([knot.time]))
+    assert at[0] == pytest.approx(position, abs=1e-6) and speed[0] == pytest.approx(0.0, abs=1e-6)
+    outside = np.linspace(0.0, 5.0, 501)
+    outside = outside[(outside < begin) | (outside > end)]
+    np.testing.assert_allclose(changed.at(outside)[0], motion.at(outside)[0], atol=1e-6)
+    reached = changed.extremes()
+    assert reached.velocity <= 0.87 * (1.0 + 1e-8)
+    assert reached.acceleration <= 6.5 * (1.0 + 1e-8) and reached.jerk <= 105.0 * (1.0 + 1e-8)
+
+
+def test_a_way_that_the_joint_cannot_make_is_none() -> None:
+    splicer, motion = Splicer(BOUNDS), there_and_back()
+    assert splicer.spliced(motion, 2.2, [Knot(2.3, -0.3)], 2.9) is None, "too fast"
+    assert splicer.spliced(motion, 2.0, [Knot(2.5, 0.6)], 3.0) is None, "outside the limits"
+
+
+def test_a_way_without_knots_goes_straight() -> None:
+    changed = Splicer(BOUNDS).spliced(there_and_back(), 0.5, [], 4.5)
+    assert changed is not None
+    np.testing.assert_allclose(changed.at(np.linspace(0.0, 5.0, 50))[0], 0.0, atol=1e-12)
+
+
+def test_a_turned_part_jumps_at_its_ends_and_a_splice_bridges_that() -> None:
+    motion = shifted(there_and_back(), 2.0, 3.0, 0.1)
+    assert position_at(motion, 2.0, side="left") == pytest.approx(0.3)
+    assert position_at(motion, 2.0, side="right") == pytest.approx(0.4)
+    assert motion.at(np.array([2.5]))[0][0] == pytest.approx(0.4)
+    splicer = Splicer(BOUNDS)
+    bridged = splicer.spliced(motion, 1.0, [], 2.0)
+    bridged = bridged and splicer.spliced(bridged, 3.0, [], 4.0)
+    assert bridged is not None and jumps(bridged) < 1e-6
+    assert bridged.extremes().greatest == pytest.approx(0.4, abs=1e-6)
+
+
+def test_when_a_joint_rests_again_is_found() -> None:
+    motion = there_and_back()
+    assert rest_after(motion, 0.3) == pytest.approx(0.3)
+    assert rest_after(motion, 1.5) == pytest.approx(2.0)
+    assert rest_after(motion, 3.5) == pytest.approx(4.0)

@@ -1,0 +1,54 @@
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = "teo_sign_capture"
+
+setup(
+    name=PACKAGE,
+    version="0.2.0",
+    packages=find_packages(exclude=["test", "test.*"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        (f"share/{PACKAGE}/scores/lse", sorted(map(str, Path("scores/lse").glob("*.yaml")))),
+    ],
+    install_requires=[
+        "setuptools",
+        "casadi",
+        "distributed",
+        "numpy",
+        "opencv-python-headless",
+        "pin",
+        "pose-format",
+        "pydantic",
+        "PyYAML",
+        "rich",
+        "rosbags",
+        "scipy",
+        "threadpoolctl",
+        "typer",
+    ],
+    zip_safe=False,
+    maintainer="TEO signing project",
+    maintainer_email="teo-sign@example.org",
+    description="From a person to a sign: recordings, tracks, retargeting, entries, sign scores.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+    entry_points={
+        "console_scripts": [
+            "capture_demonstration = teo_sign_capture.cli.capture_table:demonstration_main",
+            "capture_letters = teo_sign_capture.cli.capture_table:letters_main",
+            "capture_node = teo_sign_capture.node.capture_node:main",
+            "capture_numbers = teo_sign_capture.cli.capture_table:numbers_main",
+            "capture_scores = teo_sign_capture.cli.capture_table:scores_main",
+            "perform_scores = teo_sign_capture.cli.perform_scores:main",
+        ],
+        "teo_lut_executor.lut_commands": [
+            "capture = teo_sign_capture.cli.capture:capture",
+            "import = teo_sign_capture.cli.import_pose:import_pose",
+            "record = teo_sign_capture.cli.record:record",
+        ],
+    },
+)

@@ -1,0 +1,1 @@
+"""From a person to a sign of the robot."""

@@ -1,0 +1,147 @@
+"""Commands that fill the look-up table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+from rich.console import Console
+
+from teo_description.robot import Robot
+from teo_signs.errors import LutError
+from teo_signs.sign import Sign
+from teo_signs.sign_file import save_sign
+
+Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
+Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
+
+_output = Console(highlight=False)
+_errors = Console(stderr=True, highlight=False)
+
+
+def capture_letters(
+    out: Out,
+    only: Annotated[
+        list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
+    ] = None,
+    replace: Replace = False,
+) -> None:
+    """Capture the manual alphabet from the recordings in the package spoken-to-signed."""
+    from teo_sign_capture.alphabet.letters import capture_letter, read_alphabet
+    from teo_sign_capture.recordings.letter_clips import load_letter_clips
+
+    robot = Robot.load()
+    try:
+        clips = load_letter_clips()
+    except LutError as error:
+        _fail(error)
+    unknown = [letter for letter in only or [] if letter not in clips]
+    if unknown:
+        message = f"expected letters among {', '.join(clips)}; got {', '.join(unknown)}"
+        _fail(LutError("unknown_letter", message))
+    alphabet = read_alphabet(robot, clips)
+    _save((capture_letter(robot, alphabet, letter) for letter in only or clips), out, replace=replace)
+
+
+def capture_numbers(out: Out, replace: Replace = False) -> None:
+    """Write the numbers 0 to 10 from measured handshapes, and from them 11 to 20, the tens and 100."""
+    from teo_sign_capture.alphabet.higher_numbers import higher_number_signs
+    from teo_sign_capture.alphabet.numbers import digit_signs
+
+    robot = Robot.load()
+    digits = digit_signs(robot)
+    higher = higher_number_signs(robot, {sign.gloss: sign for sign in digits})
+    _save([*digits, *higher], out, replace=replace)
+
+
+def capture_demonstration(out: Out, replace: Replace = False) -> None:
+    """Write HOLA, MI and NOMBRE from the poses of TEO's own public demonstration."""
+    from teo_sign_capture.alphabet.demonstration import demonstrated_signs
+
+    _save(demonstrated_signs(Robot.load()), out, replace=replace)
+
+
+def capture_scores(
+    out: Out,
+    scores: Annotated[
+        Path | None, typer.Option(help="Directory of scores (YAML); the package's without it.")
+    ] = None,
+    only: Annotated[
+        list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
+    ] = None,
+    replace: Replace = False,
+) -> None:
+    """Bring sign scores, written descriptions of signs, onto TEO."""
+    from teo_sign_capture.notation.score_file import default_scores_directory, read_scores
+    from teo_sign_capture.notation.score_retarget import score_sign
+
+    robot = Robot.load()
+    try:
+        found = {score.gloss: score for score in read_scores(scores or default_scores_directory())}
+        unknown = [gloss for gloss in only or [] if gloss not in found]
+        if unknown:
+            message = f"expected glosses with a score ({len(found)} there are), got {', '.join(unknown)}"
+            raise LutError("unknown_sign", message)
+    except LutError as error:
+        _fail(error)
+    failed: list[str] = []
+
+    def signs() -> Iterator[Sign]:
+        for gloss in only or found:
+            try:
+                yield score_sign(robot, found[gloss])
+            except LutError as error:
+                failed.append(gloss)
+                _errors.print(f"{error.code}: {error}", soft_wrap=True)
+
+    _save(signs(), out, replace=replace)
+    if failed:
+        _errors.print(f"{len(failed)} of {len(only or found)} scores left out: {', '.join(failed)}")
+        raise typer.Exit(1)
+
+
+def letters_main() -> None:
+    """Run `capture_letters`."""
+    _run(capture_letters)
+
+
+def numbers_main() -> None:
+    """Run `capture_numbers`."""
+    _run(capture_numbers)
+
+
+def demonstration_main() -> None:
+    """Run `capture_demonstration`."""
+    _run(capture_demonstration)
+
+
+def scores_main() -> None:
+    """Run `capture_scores`."""
+    _run(capture_scores)
+
+
+def _run(command: Callable[..., None]) -> None:
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app.command()(command)
+    app()
+
+
+def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
+    for sign in signs:
+        try:
+            path = save_sign(out, sign, replace=replace)
+        except LutError as error:
+            _fail(error)
+        except OSError as error:
+            _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+        figures = "  ".join(f"{name} {value:g}" for name, value in sign.quality.items())
+        _output.print(
+            f"{path.name:12} {len(sign.times):2} knots {sign.duration:5.2f} s  {figures}", soft_wrap=True
+        )
+
+
+def _fail(error: LutError) -> NoReturn:
+    _errors.print(f"{error.code}: {error}", soft_wrap=True)
+    raise typer.Exit(1) from error

@@ -1,0 +1,114 @@
+"""`lut record`: a sign from the person before the camera, now."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.live import Live
+from rich.text import Text
+
+from teo_sign_capture.cli.capture import (
+    KindOption,
+    Licence,
+    Notes,
+    Picture,
+    Replace,
+    StandingOption,
+    TableDirectory,
+    fail,
+    tell,
+)
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import default_lut_directory
+
+if TYPE_CHECKING:
+    from teo_sign_capture.recordings.live_take import LiveState, LiveTake
+
+_SPIN = 0.05  # [s] between two looks at the clock
+_output = Console(highlight=False)
+
+
+def record(
+    gloss: Annotated[str, typer.Option(help="Name of the sign.")],
+    countdown: Annotated[float, typer.Option(help="Seconds until the sign is to begin.")] = 3.0,
+    lut: TableDirectory = None,
+    replace: Replace = False,
+    kind: KindOption = "lexical",
+    standing: StandingOption = "recorded",
+    licence: Licence = "not stated: ask the person who signs before passing it on",
+    notes: Notes = "",
+    picture: Picture = None,
+    keep: Annotated[
+        Path | None, typer.Option(help="Where the recording is kept; the user's cache without it.")
+    ] = None,
+) -> None:
+    """Record a sign of the person before the camera, and capture it. retriever_node must be running.
+
+    Hands at rest during the countdown; then sign, and let the hands return to rest.
+    """
+    from teo_description.robot import Robot
+    from teo_sign_capture.entries.bag_capture import Settings, check_free
+    from teo_sign_capture.entries.live_capture import default_recordings, keep_and_capture
+
+    try:
+        table = lut or default_lut_directory()
+        settings = Settings(
+            table=table,
+            replace=replace,
+            kind=kind,
+            standing=standing,
+            licence=licence,
+            notes=notes,
+            pictures=picture or table,
+        )
+        check_free(gloss, settings)
+        messages = _listen(countdown)
+        _output.print(f"{len(messages)} images recorded")
+        tell(keep_and_capture(Robot.load(), gloss, messages, keep or default_recordings(), settings))
+    except LutError as error:
+        fail(error)
+
+
+def _listen(countdown: float) -> list[Any]:
+    """Messages on `skeletons` from the countdown to the end of the sign."""
+    import rclpy
+    from teo_sign_msgs.msg import SkeletonArray
+
+    from teo_sign_capture.recordings.live_take import LiveTake
+
+    rclpy.init()
+    try:
+        node = rclpy.create_node("lut_record")
+        take = LiveTake(started=time.monotonic(), countdown=countdown)
+        node.create_subscription(
+            SkeletonArray, "skeletons", lambda message: take.add(message, time.monotonic()), 10
+        )
+        with Live(console=_output, transient=True) as live:
+            return _follow(take, lambda: rclpy.spin_once(node, timeout_sec=_SPIN), live)
+    finally:
+        rclpy.try_shutdown()
+
+
+def _follow(take: LiveTake, spin: Any, live: Live) -> list[Any]:
+    from teo_sign_capture.recordings.live_take import Phase
+
+    while True:
+        spin()
+        state = take.step(time.monotonic())
+        if state.problem is not None:
+            raise state.problem
+        if state.phase is Phase.DONE:
+            return take.messages
+        live.update(_shown(state))
+
+
+def _shown(state: LiveState) -> Text:
+    from teo_sign_capture.recordings.live_take import Phase
+
+    if state.phase is Phase.COUNTDOWN:
+        return Text(f"hands at rest … {state.remaining:.0f}", style="bold yellow")
+    return Text(f"sign now, then hands at rest ({state.remaining:.0f} s left)", style="bold green")

@@ -1,0 +1,1 @@
+"""From takes to entries of the table: gates, evidence, pictures, batches."""

@@ -1,0 +1,220 @@
+"""From bags to an entry of the table: what the command, the batch, the live capture and the node all do."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+
+from teo_description.robot import Robot
+from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
+from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
+from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_sign_capture.recordings.recording import Recording, default_cache, open_recording, track_of
+from teo_signs.errors import LutError
+from teo_signs.sign import gloss_key
+from teo_signs.sign_file import read_sign, save_sign
+from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
+
+DIGEST = 16
+"""Hexadecimal digits of SHA-256 that tell one recording from another."""
+_SOURCE = re.compile(r"sha256 ([0-9a-f]{16})(, cut \S+ to \S+ s)?")
+
+Progress = Callable[[str, int, int], None]
+"""Told what is done, how much of it, of how much."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """One sign to capture.
+
+    Attributes:
+        gloss: Its name.
+        bags: Recordings of it, a take each.
+        cut: The part of each recording to look at.
+        handedness: Hands that make it; those that leave rest without.
+        person: Id of the person; None for the signer.
+    """
+
+    gloss: str
+    bags: tuple[Path, ...]
+    cut: Cut = field(default_factory=Cut)
+    handedness: Handedness | None = None
+    person: int | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """What all captures of a run share.
+
+    Attributes:
+        table: Directory of the table.
+        replace: Whether entries that are there already may be replaced.
+        kind: Of the signs.
+        standing: How well founded the forms are; None for "recorded", or "sketched" of what a program drew.
+        licence: Terms of the recordings.
+        notes: For every entry.
+        topic: Topic of the skeletons; None finds it.
+        cache: Directory of skeletons found in images.
+        pictures: Directory of the pictures; None makes none.
+        film: Whether a film is made beside each picture.
+    """
+
+    table: Path
+    replace: bool = False
+    kind: Kind = "lexical"
+    standing: Standing | None = None
+    licence: str = "not stated: ask the person who signs before passing it on"
+    notes: str = ""
+    topic: str | None = None
+    cache: Path = field(default_factory=default_cache)
+    pictures: Path | None = None
+    film: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Saved:
+    """What a capture left behind.
+
+    Attributes:
+        captured: The sign.
+        path: Its entry.
+        picture: Demonstration and robot side by side, if it was asked for.
+        warnings: What could not be used, a sentence each.
+    """
+
+    captured: Captured
+    path: Path
+    picture: Path | None
+    warnings: tuple[str, ...]
+
+
+def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progress | None = None) -> Saved:
+    """Capture a sign from its takes and save it.
+
+    Args:
+        robot: The robot.
+        job: The sign.
+        settings: Where to and how.
+        on_progress: Told of the progress.
+
+    Raises:
+        LutError: "exists", "not_written", or why a recording is no good. Of several takes, those that are no
+            good are left out, with the reason in the entry's notes.
+    """
+    check_free(job.gloss, settings)
+    recordings = [open_recording(bag) for bag in job.bags]
+    takes: list[Take] = []
+    warnings: list[str] = []
+    failed: list[LutError] = []
+    for recording in recordings:
+
+        def told(done: int, total: int, name: str = recording.name) -> None:
+            if on_progress is not None:
+                on_progress(f"looking for keypoints in {name}", done, total)
+
+        try:
+            track, found = track_of(
+                recording, cache=settings.cache, topic=settings.topic, person=job.person, on_progress=told
+            )
+            warnings += found
+            takes.append(capture_take(robot, track, cut=job.cut, handedness=job.handedness))
+        except LutError as error:
+            failed.append(error)
+    if not takes:
+        raise failed[0]
+    left_out = [f"Left out: {error.code}: {error}" for error in failed]
+    origin = _origin(job, settings, recordings, left_out)
+    captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind)
+    path = save_captured(captured, settings)
+    saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out))
+    return saved if settings.pictures is None else _with_picture(saved, recordings, settings)
+
+
+def is_captured(job: Job, table: Path) -> bool:
+    """Whether the table's entry was made from these very recordings, cut like this."""
+    path = table / f"{gloss_key(job.gloss)}.json"
+    if not path.is_file():
+        return False
+    try:
+        source = read_sign(path).provenance.source
+        wanted = [_named(recording, job.cut) for recording in map(open_recording, job.bags)]
+    except LutError:
+        return False
+    return _SOURCE.findall(source) == _SOURCE.findall("; ".join(wanted))
+
+
+def check_free(gloss: str, settings: Settings) -> None:
+    """Say that a gloss is taken, or none, before minutes are spent on it.
+
+    Raises:
+        LutError: "exists", "bad_gloss", or "not_written" if the table cannot be looked at.
+    """
+    try:
+        TypeAdapter(Gloss).validate_python(gloss_key(gloss))
+    except ValidationError as error:
+        reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
+        raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
+    path = settings.table / f"{gloss_key(gloss)}.json"
+    try:
+        taken = path.exists()
+    except OSError as error:
+        raise LutError(
+            "not_written", f"{settings.table}: expected a place to write to, got: {error}"
+        ) from error
+    if taken and not settings.replace:
+        raise LutError(
+            "exists",
+            f"{path.name}: expected a gloss that {settings.table} does not hold, got {gloss!r}: --replace "
+            "takes its place",
+        )
+
+
+def _origin(job: Job, settings: Settings, recordings: Sequence[Recording], left_out: Sequence[str]) -> Origin:
+    rendered = any(recording.rendered for recording in recordings)
+    return Origin(
+        source="; ".join(_named(recording, job.cut) for recording in recordings),
+        standing=settings.standing or ("sketched" if rendered else "recorded"),
+        licence=settings.licence,
+        notes=" ".join(filter(None, (settings.notes, *left_out))),
+    )
+
+
+def _named(recording: Recording, cut: Cut) -> str:
+    name = f"{recording.name}, sha256 {recording.digest[:DIGEST]}"
+    if cut == Cut():
+        return name
+    ends = (
+        "beginning" if cut.start is None else f"{cut.start:g}",
+        "end" if cut.end is None else f"{cut.end:g}",
+    )
+    return f"{name}, cut {ends[0]} to {ends[1]} s"
+
+
+def save_captured(captured: Captured, settings: Settings) -> Path:
+    """Write the entry, and return where it is."""
+    try:
+        return save_sign(settings.table, captured.sign, replace=settings.replace)
+    except OSError as error:
+        raise LutError(
+            "not_written", f"{settings.table}: expected a directory to write to, got: {error}"
+        ) from error
+
+
+def _with_picture(saved: Saved, recordings: Sequence[Recording], settings: Settings) -> Saved:
+    """Draw; an entry that is saved is not lost with its picture."""
+    assert settings.pictures is not None
+    captured = saved.captured
+    recording = next(one for one in recordings if one.name == captured.take.source)
+    picture = settings.pictures / f"{captured.sign.gloss}.png"
+    try:
+        settings.pictures.mkdir(parents=True, exist_ok=True)
+        save_capture_picture(picture, captured, recording, settings.cache)
+        if settings.film:
+            save_capture_film(picture.with_suffix(".mp4"), captured, recording, settings.cache)
+    except OSError as error:
+        return replace(saved, warnings=(*saved.warnings, f"{picture}: not drawn: {error}"))
+    return replace(saved, picture=picture)

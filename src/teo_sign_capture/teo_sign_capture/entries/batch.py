@@ -1,0 +1,250 @@
+"""Folders of recordings: which signs they hold, and capturing them all, here or on a cluster.
+
+The work goes to a `concurrent.futures.Executor`: this machine's processes, or those of a Dask cluster, whose
+workers see the same files under the same names. What was captured before is left as it is, so that a run that
+was stopped goes on where it was.
+"""
+
+from __future__ import annotations
+
+import csv
+import functools
+import multiprocessing
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, get_args
+
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
+
+from teo_description.robot import Robot
+from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags, is_captured
+from teo_sign_capture.entries.take import Cut
+from teo_sign_capture.recordings.recording import is_bag
+from teo_signs.errors import LutError
+from teo_signs.sign import gloss_key
+from teo_signs.sign_schema import Handedness
+
+_TAKE = re.compile(r"_\d+$")
+"""Ends the names of several takes of one sign: HOLA_1, HOLA_2."""
+_COLUMNS = ("bag", "gloss", "start", "end", "hands", "person")
+CAPTURED, UNCHANGED = "captured", "unchanged"
+_CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer, or has no worker, by then will not
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """How the capture of one sign ended.
+
+    Attributes:
+        gloss: The sign.
+        code: "captured", "unchanged", or why it failed.
+        message: A sentence; what the entry was made of where it went well.
+    """
+
+    gloss: str
+    code: str
+    message: str
+
+    @property
+    def failed(self) -> bool:
+        """Whether there is no good entry now."""
+        return self.code not in (CAPTURED, UNCHANGED)
+
+
+def find_jobs(folder: Path) -> list[Job]:
+    """The signs of a folder: each bag, or sub-folder of bags, is named after its gloss, by gloss.
+
+    Raises:
+        LutError: "no_bag" if there are none.
+    """
+    takes: dict[str, list[Path]] = {}
+    for path in sorted(folder.iterdir() if folder.is_dir() else ()):
+        if path.name.startswith("."):
+            continue
+        if is_bag(path):
+            takes.setdefault(_gloss_of(path), []).append(path)
+        elif path.is_dir():
+            bags = [inside for inside in sorted(path.iterdir()) if is_bag(inside)]
+            if bags:
+                takes.setdefault(gloss_key(path.name), []).extend(bags)
+    if not takes:
+        raise LutError(
+            "no_bag", f"expected a folder of bags that are named after their glosses, got none in {folder}"
+        )
+    return [Job(gloss=gloss, bags=tuple(bags)) for gloss, bags in sorted(takes.items())]
+
+
+def read_manifest(path: Path) -> list[Job]:
+    """The signs of a CSV file with a row for each take: bag and gloss; start, end, hands, person if needed.
+
+    Bags are named relative to the file. Rows of one gloss are takes of one sign, and agree in the rest.
+
+    Raises:
+        LutError: "bad_manifest", naming the line.
+    """
+    jobs: dict[str, Job] = {}
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            rows = csv.DictReader(file)
+            unknown = sorted(set(rows.fieldnames or ()) - set(_COLUMNS))
+            if unknown or not {"bag", "gloss"} <= set(rows.fieldnames or ()):
+                raise _bad_manifest(path, 1, f"the columns {', '.join(_COLUMNS)}", f"{rows.fieldnames}")
+            for row in rows:
+                job = _job(path, rows.line_num, row)
+                known = jobs.setdefault(job.gloss, job)
+                if known is job:
+                    continue
+                if (known.cut, known.handedness, known.person) != (job.cut, job.handedness, job.person):
+                    expected = f"the same start, end, hands and person in every take of {job.gloss}"
+                    raise _bad_manifest(path, rows.line_num, expected, "others")
+                jobs[job.gloss] = Job(
+                    gloss=job.gloss,
+                    bags=known.bags + job.bags,
+                    cut=job.cut,
+                    handedness=job.handedness,
+                    person=job.person,
+                )
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise LutError("bad_manifest", f"{path}: expected a CSV file, got: {error}") from error
+    if not jobs:
+        raise LutError("bad_manifest", f"{path}: expected a row for each take, got none")
+    return sorted(jobs.values(), key=lambda job: job.gloss)
+
+
+def run_jobs(
+    executor: Executor, jobs: Sequence[Job], settings: Settings, on_done: Callable[[Outcome], None]
+) -> list[Outcome]:
+    """Capture signs; one that fails stops no other.
+
+    Args:
+        executor: Where the work is done.
+        jobs: The signs.
+        settings: For all of them.
+        on_done: Told of each as it ends.
+
+    Returns:
+        The outcomes, by gloss.
+    """
+    # A worker may have been started elsewhere: names must not depend on where this is.
+    here = replace(
+        settings,
+        table=settings.table.absolute(),
+        cache=settings.cache.absolute(),
+        pictures=settings.pictures and settings.pictures.absolute(),
+    )
+    futures = {}
+    for job in jobs:
+        located = replace(job, bags=tuple(bag.absolute() for bag in job.bags))
+        futures[executor.submit(capture_job, located, here)] = job
+    outcomes = []
+    try:
+        for future in as_completed(futures):
+            try:
+                outcome = future.result()
+            except Exception as error:  # the process died: out of memory, or killed
+                message = f"expected a process that ends well, got {type(error).__name__} {error}"
+                outcome = Outcome(gloss=futures[future].gloss, code="crashed", message=message)
+            outcomes.append(outcome)
+            on_done(outcome)
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
+    return sorted(outcomes, key=lambda outcome: outcome.gloss)
+
+
+def capture_job(job: Job, settings: Settings) -> Outcome:
+    """Capture one sign, in whatever process this is."""
+    try:
+        if not settings.replace and is_captured(job, settings.table):
+            return Outcome(gloss=job.gloss, code=UNCHANGED, message="made from these recordings before")
+        saved = capture_bags(_robot(), job, settings)
+    except LutError as error:
+        return Outcome(gloss=job.gloss, code=error.code, message=str(error))
+    except Exception as error:  # a mistake of ours in one of hundreds is no reason to lose the others
+        return Outcome(gloss=job.gloss, code="crashed", message=f"{type(error).__name__}: {error}")
+    quality = saved.captured.sign.quality
+    message = f"palm {quality['palm_error_p95_deg']:.0f} deg, place {quality['place_error_p95_mm']:.0f} mm"
+    return Outcome(gloss=job.gloss, code=CAPTURED, message="; ".join((message, *saved.warnings)))
+
+
+@contextmanager
+def workers(count: int, dask: str | None) -> Iterator[Executor]:
+    """Processes of this machine, or of the Dask cluster at an address such as "tcp://host:8786".
+
+    Raises:
+        LutError: "no_cluster" if no scheduler answers there.
+    """
+    if dask is None:
+        # Fresh processes: a fork would take over locks and threads of whatever runs here.
+        context = multiprocessing.get_context("spawn")
+        # The processes are as many as there are cores: one thread of linear algebra each.
+        with ProcessPoolExecutor(
+            count, mp_context=context, initializer=threadpool_limits, initargs=(1,)
+        ) as pool:
+            yield pool
+        return
+    from distributed import Client
+
+    try:
+        client: Any = Client(dask, timeout=_CONNECT_TIMEOUT)  # type: ignore[no-untyped-call]  # typed in part
+    except (OSError, ValueError) as error:
+        raise LutError(
+            "no_cluster", f"expected the scheduler of a Dask cluster at {dask}, got: {error}"
+        ) from error
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=_CONNECT_TIMEOUT)
+        except TimeoutError as error:
+            raise LutError(
+                "no_cluster", f"expected a Dask cluster at {dask} that has workers, got: {error}"
+            ) from error
+        with client.get_executor(pure=False, retries=0) as pool:
+            yield pool
+
+
+def failures(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """Those that left no good entry."""
+    return [outcome for outcome in outcomes if outcome.failed]
+
+
+def _gloss_of(path: Path) -> str:
+    name = path.stem if path.is_file() else path.name
+    return gloss_key(_TAKE.sub("", name) or name)
+
+
+def _job(path: Path, line: int, row: dict[str, str | None]) -> Job:
+    cells = {name: (row.get(name) or "").strip() for name in _COLUMNS}
+    if not cells["bag"] or not cells["gloss"] or None in row:
+        raise _bad_manifest(path, line, "a bag and a gloss", str(list(row.values())))
+    try:
+        cut = Cut(
+            start=float(cells["start"]) if cells["start"] else None,
+            end=float(cells["end"]) if cells["end"] else None,
+        )
+        person = int(cells["person"]) if cells["person"] else None
+    except ValueError as error:
+        raise _bad_manifest(path, line, "start and end in seconds, person a number", str(error)) from error
+    if cells["hands"] and cells["hands"] not in get_args(Handedness):
+        raise _bad_manifest(path, line, f"hands of {', '.join(get_args(Handedness))}", cells["hands"])
+    return Job(
+        gloss=gloss_key(cells["gloss"]),
+        bags=(path.parent / cells["bag"],),
+        cut=cut,
+        handedness=cells["hands"] or None,  # type: ignore[arg-type]  # checked above
+        person=person,
+    )
+
+
+def _bad_manifest(path: Path, line: int, expected: str, got: str) -> LutError:
+    return LutError("bad_manifest", f"{path.name}: line {line}: expected {expected}, got {got}")
+
+
+@functools.cache
+def _robot() -> Robot:
+    """One for each process: loading it takes longer than a frame."""
+    return Robot.load()

@@ -1,0 +1,172 @@
+"""From takes to a sign of the table, with what is to be said of it."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import description_hash
+from teo_description.robot import Robot
+from teo_sign_capture.entries.playback import Playback, play
+from teo_sign_capture.entries.take import Take
+from teo_sign_capture.entries.takes import Combined, combine
+from teo_sign_capture.retarget.knot_reduction import TOLERANCE, deviations, reduce_to_knots
+from teo_sign_capture.retarget.measures import limit_margin_deg
+from teo_sign_capture.retarget.motion_smoothing import gentlest, is_finger
+from teo_signs.errors import LutError
+from teo_signs.sign import Sign, gloss_key
+from teo_signs.sign_schema import Kind, Provenance, Standing
+
+Array = NDArray[np.float64]
+
+_SAID_OUT_OF_REACH = 0.12
+"""[m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
+apart."""
+_SHARE = 95.0
+"""[%] Of the frames, so that a single one decides nothing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Origin:
+    """What an entry says of where it comes from, beside what the recording itself knows.
+
+    Attributes:
+        source: Name of the recording, and what tells it from others.
+        standing: How well founded the form is.
+        licence: Terms of the recording.
+        notes: What a reader must know; may be empty.
+    """
+
+    source: str
+    standing: Standing
+    licence: str
+    notes: str = ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Captured:
+    """A sign, and what it was made of.
+
+    Attributes:
+        sign: The entry.
+        takes: Every take that was looked at.
+        combined: Which of them the entry is made of, and why.
+    """
+
+    sign: Sign
+    takes: tuple[Take, ...]
+    combined: Combined
+
+    @property
+    def take(self) -> Take:
+        """The take that leads."""
+        return self.takes[self.combined.leader]
+
+
+def make_sign(
+    robot: Robot, gloss: str, takes: Sequence[Take], origin: Origin, *, kind: Kind = "lexical"
+) -> Captured:
+    """Make an entry of takes of one sign.
+
+    Args:
+        robot: The robot.
+        gloss: Name of the sign.
+        takes: At least one.
+        origin: For the provenance.
+        kind: Of the sign.
+
+    Raises:
+        LutError: "takes_differ", or what the planner says of a sign that it cannot play.
+    """
+    combined = combine(robot, [take.motion for take in takes], [take.source for take in takes])
+    used = [takes[index] for index in combined.used]
+    sign = Sign(
+        gloss=gloss_key(gloss),
+        language="lse",
+        kind=kind,
+        handedness=takes[combined.leader].span.handedness,
+        joints=combined.joints,
+        times=combined.times,
+        knots=combined.positions,
+        provenance=_provenance(origin, takes, combined),
+        quality={},
+    )
+    sign, playback = _played(robot, sign)
+    away = deviations(combined.times, combined.positions, sign.times, sign.knots).max(axis=0)
+    quality = _quality(used, sign, playback, away) | {"takes_count": float(len(takes))}
+    return Captured(sign=replace(sign, quality=quality), takes=tuple(takes), combined=combined)
+
+
+def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
+    """The sign in fewer knots, gently moved, and what the planner makes of it."""
+    for share in (1.0, 0.5, 0.25, 0.0):
+        gentle = gentlest(whole.times, whole.joints, whole.knots, share=share)
+        knots = reduce_to_knots(whole.times, gentle, share * TOLERANCE)
+        sign = replace(whole, times=whole.times[knots], knots=gentle[knots])
+        try:
+            return sign, play(robot, sign, whole.times, whole.knots)
+        except LutError as error:
+            # A hand that all but touches has no room for a tube, nor for a spline between far knots.
+            if error.code != "self_collision" or share == 0.0:
+                raise
+    raise AssertionError("the last share returns or raises")
+
+
+def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Provenance:
+    take = takes[combined.leader]
+    gaps = [gap for index in combined.used for gap in takes[index].gaps]
+    filled = "; ".join(f"{gap.part.replace('_', ' ')} {gap.start:.2f} to {gap.end:.2f} s" for gap in gaps)
+    away = float(np.nanmax(take.motion.place_error))
+    notes = (
+        combined.reason if len(takes) > 1 else "",
+        f"Lost and filled in: {filled}." if filled else "",
+        f"A hand is up to {100.0 * away:.0f} cm from where it belongs." if away > _SAID_OUT_OF_REACH else "",
+        origin.notes,
+    )
+    return Provenance(
+        standing=origin.standing,
+        source=origin.source,
+        method=(
+            "keypoints in space smoothed by their sigma, stroke cut out, brought onto TEO frame by frame, "
+            "reduced to knots (lut capture)"
+        ),
+        recorded=take.recorded,
+        created=datetime.date.today().isoformat(),
+        licence=origin.licence,
+        description_hash=description_hash(),
+        notes=" ".join(filter(None, notes)),
+    )
+
+
+def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array) -> dict[str, float]:
+    def usual(errors: str) -> float:
+        """The worse hand's error that 95 of 100 frames keep below, mean of the takes."""
+        found = [getattr(take.motion, errors) for take in takes]
+        hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
+        return float(np.mean([np.nanpercentile(array, _SHARE, axis=0).max() for array in hands]))
+
+    fingers = np.array([is_finger(joint) for joint in sign.joints])
+    figures = {
+        "place_error_p95_mm": 1000.0 * usual("place_error"),
+        "palm_error_p95_deg": np.degrees(usual("palm_error")),
+        "finger_error_p95_deg": np.degrees(usual("finger_error")),
+        "flexion_error_p95_deg": np.degrees(usual("flexion_error")),
+        "smoothing_mm": 1000.0 * max(take.smoothing for take in takes),
+        "lost_percent": 100.0 * max(take.lost for take in takes),
+        "knots_error_deg": np.degrees(away[~fingers].max(initial=0.0)),
+        "finger_knots_error_deg": np.degrees(away[fingers].max(initial=0.0)),
+        "played_error_deg": np.degrees(playback.path_error[~fingers].max(initial=0.0)),
+        "finger_played_error_deg": np.degrees(playback.path_error[fingers].max(initial=0.0)),
+        "stretch_times": playback.stretch,
+        "clearance_mm": 1000.0 * playback.clearance,
+        "limit_margin_deg": limit_margin_deg(sign.joints, sign.knots),
+    }
+    # Adding zero takes the sign from -0.0.
+    return {
+        name: round(float(value), 2 if name == "stretch_times" else 1) + 0.0
+        for name, value in figures.items()
+    }

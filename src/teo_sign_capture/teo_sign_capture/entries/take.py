@@ -1,0 +1,192 @@
+"""One demonstration of a sign: found in a recording, and brought onto TEO."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.robot import Robot
+from teo_sign_capture.retarget.motion import RobotMotion, retarget_motion
+from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_track
+from teo_signs.errors import LutError
+from teo_signs.sign_schema import Handedness
+
+Array = NDArray[np.float64]
+
+MOST_OUT_OF_REACH = 0.30
+"""[m] A hand that is farther than this from where it belongs is at another part of the body: from the crown
+to the shoulder."""
+_CONTEXT = 1.0
+"""[s] Of the recording around a cut, from which keypoints that are lost at its edges are filled in."""
+_SHARE = 95.0
+"""[%] Of the frames, so that a single one decides nothing."""
+_SEEN = 0.5
+"""Share of a hand's keypoints of which its shape is known."""
+_ROUNDING = 1e-4
+"""[s] Of sums of times and of stamps; frames are a hundred times as far apart."""
+_HANDS = {"right": ("right_hand",), "left": ("left_hand",), "both": ("right_hand", "left_hand")}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cut:
+    """Which part of a recording to look at, in its own time; None for its beginning or end [s]."""
+
+    start: float | None = None
+    end: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Take:
+    """One demonstration of a sign, on TEO.
+
+    Attributes:
+        source: Name of the recording.
+        recorded: Day of the recording if it is known.
+        span: Where the sign is in the recording.
+        track: The person during the stroke, smoothed; its times begin at 0.
+        motion: TEO during the stroke.
+        gaps: Times in the recording in which a hand that signs was lost and is filled in.
+        lost: Share of the stroke's frames in which a hand that signs was lost [1].
+        smoothing: By how much smoothing moved the keypoints of the hands that sign, root mean square [m].
+    """
+
+    source: str
+    recorded: str | None
+    span: SignSpan
+    track: SkeletonTrack
+    motion: RobotMotion
+    gaps: tuple[Gap, ...]
+    lost: float
+    smoothing: float
+
+
+def capture_take(
+    robot: Robot, track: SkeletonTrack, *, cut: Cut | None = None, handedness: Handedness | None = None
+) -> Take:
+    """Find the sign in a recording and bring it onto TEO.
+
+    Args:
+        robot: The robot.
+        track: The person, as recorded.
+        cut: The part to look at; all of it without.
+        handedness: Hands that make the sign; those that leave rest without.
+
+    Raises:
+        LutError: "outside_recording", "no_motion", "several_signs", "too_long", "hand_lost", "unreachable",
+            or what `retarget_motion` raises.
+    """
+    cut = cut or Cut()
+    offset, raw, smoothed = _cut(track, cut)
+    span = the_sign(
+        smoothed.track, offset=offset, cut_start=cut.start is not None, cut_end=cut.end is not None
+    )
+    handedness = handedness or span.handedness
+    span = replace(span, handedness=handedness)
+    gaps = tuple(
+        gap
+        for gap in smoothed.gaps
+        if gap.part in _HANDS[handedness] and gap.start < span.end and gap.end > span.start
+    )
+    stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
+    _check_seen(stroke, handedness, offset + span.start)
+    motion = retarget_motion(robot, stroke, handedness=handedness, person=measure_person(track))
+    _check_reach(track.source, motion, offset + span.start)
+    return Take(
+        source=track.source,
+        recorded=track.recorded,
+        span=_moved(span, offset),
+        track=stroke,
+        motion=motion,
+        gaps=tuple(replace(gap, start=gap.start + offset, end=gap.end + offset) for gap in gaps),
+        lost=_lost(raw, span),
+        smoothing=_difference(raw, smoothed.track, span),
+    )
+
+
+def _cut(track: SkeletonTrack, cut: Cut) -> tuple[float, SkeletonTrack, Smoothed]:
+    """When the part begins [s], the part as recorded, and smoothed; gaps in the time of the part."""
+    last = float(track.times[-1])
+    start, end = 0.0 if cut.start is None else cut.start, last if cut.end is None else cut.end
+    if not 0.0 <= start < end <= last + _ROUNDING:
+        raise LutError(
+            "outside_recording",
+            f"{track.source}: expected --start before --end, both between 0 and {last:.2f} s, got {start:g} "
+            f"and {end:g} s",
+        )
+    times = track.times
+    first, stop = np.searchsorted(times, (start - _ROUNDING, end + _ROUNDING)).tolist()
+    if stop - first < 2:
+        raise LutError(
+            "outside_recording", f"{track.source}: expected frames from {start:g} to {end:g} s, got none"
+        )
+    offset = float(times[first])
+    before = float(times[np.searchsorted(times, start - _CONTEXT)])
+    smoothed = smooth_track(track.between(before, end + _CONTEXT))
+    gaps = tuple(
+        replace(gap, start=gap.start + before - offset, end=gap.end + before - offset)
+        for gap in smoothed.gaps
+    )
+    inside = smoothed.track.between(offset - before - _ROUNDING, times[stop - 1] - before + _ROUNDING)
+    raw = track.between(offset - _ROUNDING, times[stop - 1] + _ROUNDING)
+    return offset, raw, Smoothed(track=inside, gaps=gaps)
+
+
+def _moved(span: SignSpan, offset: float) -> SignSpan:
+    """A span in the time of the recording."""
+    return replace(
+        span,
+        leaves=span.leaves + offset,
+        start=span.start + offset,
+        end=span.end + offset,
+        returns=span.returns + offset,
+        pauses=tuple(pause + offset for pause in span.pauses),
+    )
+
+
+def _check_seen(stroke: SkeletonTrack, handedness: Handedness, start: float) -> None:
+    """Refuse a stroke in which a hand is lost and cannot be filled in."""
+    end = start + float(stroke.times[-1])
+    for part in _HANDS[handedness]:
+        lost = seen(getattr(stroke, part).positions).mean(axis=1) < _SEEN
+        for first, last in runs(lost):
+            raise LutError(
+                "hand_lost",
+                f"{stroke.source}: expected the {part.replace('_', ' ')} in view from {start:.2f} to "
+                f"{end:.2f} s, got it lost from {start + stroke.times[first]:.2f} to "
+                f"{start + stroke.times[last]:.2f} s: record it again, or name the hands with --hands",
+            )
+
+
+def _check_reach(source: str, motion: RobotMotion, start: float) -> None:
+    away = np.nanmax(motion.place_error, axis=1)
+    if np.percentile(away, _SHARE) > MOST_OUT_OF_REACH:
+        worst = int(np.argmax(away))
+        raise LutError(
+            "unreachable",
+            f"{source}: expected hands at places that TEO reaches within {100.0 * MOST_OUT_OF_REACH:.0f} cm, "
+            f"got one {100.0 * away[worst]:.0f} cm off at {start + motion.times[worst]:.2f} s: show the sign "
+            "farther before the body, or leave this part out with --start and --end",
+        )
+
+
+def _stroke(raw: SkeletonTrack, span: SignSpan) -> NDArray[np.bool_]:
+    return (raw.times >= span.start - _ROUNDING) & (raw.times <= span.end + _ROUNDING)
+
+
+def _lost(raw: SkeletonTrack, span: SignSpan) -> float:
+    hands = [getattr(raw, part).positions[_stroke(raw, span)] for part in _HANDS[span.handedness]]
+    return float(max(((~seen(hand)).mean(axis=1) > 0.5).mean() for hand in hands))
+
+
+def _difference(raw: SkeletonTrack, smooth: SkeletonTrack, span: SignSpan) -> float:
+    """By how much the hands of the stroke were moved, root mean square [m]."""
+    away = [
+        (getattr(smooth, part).positions - getattr(raw, part).positions)[_stroke(raw, span)]
+        for part in _HANDS[span.handedness]
+    ]
+    return float(np.sqrt(np.nanmean(np.square(np.concatenate(away, axis=1)).sum(axis=2))))

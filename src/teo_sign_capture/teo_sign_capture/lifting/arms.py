@@ -1,0 +1,197 @@
+"""The depth of elbows and wrists in a clip, from the lengths of the arms.
+
+A limb of known length that looks short in the picture points at the viewer or away, and one camera cannot
+tell which (Taylor, "Reconstruction of Articulated Objects from Point Correspondences in a Single
+Uncalibrated Image", 2000, has a person choose). What bodies can do decides here: elbows are hardly behind the
+back, hands are not inside trunk or head and mostly where one signs, elbows and wrists bend only so far, and
+nothing jumps from one side to the other between two frames. The cheapest of all courses through the clip is
+taken.
+
+The view is taken as from far away: all of a person has the same scale.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sign_capture.lifting.body_measure import BodyMeasure
+from teo_sign_capture.lifting.depth_smoothing import smooth_depth
+from teo_sign_capture.viterbi import cheapest_way
+
+Array = NDArray[np.float64]
+
+_SIGNS = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]])
+"""Upper arm and forearm: towards the viewer or away."""
+
+_CHEST, _FACE, _BACK = 0.09, 0.06, -0.05
+"""[m] How far in front of the shoulders' centres a wrist is at least: before the trunk, before the head, and
+beside both. A trunk is some 0.2 m deep and its shoulders in the middle of it."""
+_TRUNK_HALF, _HEAD_HALF, _HEAD_FROM, _HEAD_TO = 0.15, 0.09, 0.10, 0.35
+"""[m] Half the breadth of trunk and head; where the head begins and ends above the shoulders."""
+_TRUNK_TO = -0.45
+"""[m] The trunk ends at the hips, this far below the shoulders."""
+_ELBOW_BACK = -0.10
+"""[m] Elbows of arms that hang are so far behind the shoulders, those of signing arms are not."""
+_RAISED, _HANGING = (0.22, 0.12), (0.03, 0.05)
+"""[m] Where wrists mostly are in front of the shoulders, and its deviation: of forearms that are raised, in
+the space where one signs, and of arms that hang."""
+_HANGS = 0.85
+"""Share of both limbs' lengths that a hanging arm has downwards."""
+_INSIDE = 0.03
+"""[m] Deviation of all of these from person to person."""
+_FOLDED = np.radians(35.0)
+"""[rad] An elbow does not close beyond this angle between upper arm and forearm."""
+_FOLDED_DEVIATION = np.radians(8.0)
+_WRIST, _WRIST_DEVIATION = np.radians(40.0), np.radians(25.0)
+"""[rad] Wrists are bent by less than the first in nine postures of ten (their end is at 70 to 80 deg)."""
+_HAND_COST = 4.0
+"""At most this counts a wrist that is bent too far: the hand's depth is an estimate too."""
+_DETECTOR, _FORWARD = 0.5, 0.3
+"""Cost of a forearm against what the detector guesses of its depth, and of one that points away: hands mostly
+sign in front of their elbows."""
+_SPEED = 1.5
+"""[m/s] Deviation of the speed of elbow and wrist along the view."""
+_JITTER = 0.02
+"""[m] What a depth trembles in any case."""
+_ACCELERATION = 15.0
+"""[m/s^2] Deviation of a signing wrist's acceleration: 1 Hz over 0.4 m has 8, shakes have 30."""
+_POINT_SIGMA = (0.008, 0.05)
+"""[m] Of a point across the view, of one that the detector is sure of and of one that it guesses."""
+_LENGTH_SIGMA = (0.07, 0.12)
+"""Share of a limb's length by which it is off, measured and by proportion."""
+
+
+class LiftedArm(NamedTuple):
+    """How far elbow and wrist are in front of the shoulders."""
+
+    elbow: Array
+    """[m] Shape (T,)."""
+    wrist: Array
+    """[m] Shape (T,)."""
+    elbow_sigma: Array
+    """Across the view and along it [m]. Shape (T, 2)."""
+    wrist_sigma: Array
+    """Likewise. Shape (T, 2)."""
+
+
+def lift_arm(
+    *,
+    shoulder: Array,
+    elbow: Array,
+    wrist: Array,
+    confidence: Array,
+    guess: Array,
+    hand: Array,
+    measure: BodyMeasure,
+    period: float,
+) -> LiftedArm:
+    """Find the depth of one arm.
+
+    Args:
+        shoulder: Left of the middle of the shoulders and up from it [m]. Shape (T, 2), as elbow and wrist.
+        elbow: NaN where not seen.
+        wrist: Likewise.
+        confidence: Of elbow and wrist, 0 to 1. Shape (T, 2).
+        guess: What the detector takes the wrist to be in front of the elbow, in any unit; NaN if
+            unknown. Shape (T,).
+        hand: Direction from wrist to knuckles, forward, left, up; NaN if unknown. Shape (T, 3).
+        measure: Lengths of the arm.
+        period: Between two frames [s].
+    """
+    lengths = np.array([measure.upper_arm, measure.forearm])
+    across = np.stack([elbow - shoulder, wrist - elbow], axis=1)
+    seen = np.linalg.norm(across, axis=2)
+    depth = np.sqrt(np.maximum(lengths**2 - seen**2, 0.0))
+    point = _POINT_SIGMA[1] + (_POINT_SIGMA[0] - _POINT_SIGMA[1]) * np.sqrt(confidence)
+    shares = np.where(measure.seen, *_LENGTH_SIGMA)
+    # First order where the limb is foreshortened; where it lies across, the depth is the root of what the
+    # length is off by.
+    error = np.sqrt((np.minimum(seen, lengths) * point) ** 2 + (lengths**2 * shares) ** 2)
+    sigma = error / np.maximum(depth, np.sqrt(error))
+    candidates = depth[:, None] * _SIGNS  # (T, 4, 2)
+    costs = _costs(candidates, across, shoulder, guess, hand, lengths)
+    places = np.full_like(depth, np.nan)  # in front of the shoulders: elbow, wrist
+    known = np.isfinite(costs).all(axis=1)
+    if known.any():
+        reached = np.cumsum(candidates[known], axis=2)
+        places[known] = cheapest_way(costs[known], reached, 1.0 / (_JITTER + _SPEED * period) ** 2)
+    sigma[:, 1] = np.hypot(sigma[:, 0], sigma[:, 1])
+    places[:, 1], sigma[:, 1] = _with_usual(places[:, 1], sigma[:, 1], across, lengths)
+    places[:, 1] = np.maximum(places[:, 1], _least_depth(wrist))
+    places = smooth_depth(places, sigma, period=period, acceleration=_ACCELERATION)
+    return LiftedArm(
+        elbow=np.clip(places[:, 0], -lengths[0], lengths[0]),
+        wrist=places[:, 1],
+        elbow_sigma=np.column_stack([point[:, 0], sigma[:, 0]]),
+        wrist_sigma=np.column_stack([point[:, 1], sigma[:, 1]]),
+    )
+
+
+def _with_usual(depths: Array, sigma: Array, across: Array, lengths: Array) -> tuple[Array, Array]:
+    """Depths of wrists and what is usual, each by how sure it is; the usual where no depth is known.
+
+    What is measured says little where a limb lies across the view or an elbow is guessed.
+    """
+    usual, deviation = _usual_depth(across, lengths)
+    weight = np.where(np.isfinite(depths), 1.0 / sigma**2, 0.0)
+    total = weight + 1.0 / deviation**2
+    mean = (weight * np.where(weight > 0.0, depths, 0.0) + usual / deviation**2) / total
+    return mean, np.sqrt(1.0 / total)
+
+
+def _costs(
+    candidates: Array,
+    across: Array,
+    shoulder: Array,
+    guess: Array,
+    hand: Array,
+    lengths: Array,
+) -> Array:
+    """How unlikely each pair of signs is in each frame, by itself. Shape (T, 4)."""
+    elbow, wrist = candidates[..., 0], candidates.sum(axis=2)
+    place = shoulder + across.sum(axis=1)
+    behind = np.minimum(elbow - _ELBOW_BACK, 0.0) / _INSIDE
+    inside = np.minimum(wrist - _least_depth(place)[:, None], 0.0) / _INSIDE
+    limbs = np.concatenate(
+        [candidates[..., None], np.broadcast_to(across[:, None], (*candidates.shape, 2))], axis=3
+    )
+    upper, fore = limbs[:, :, 0], limbs[:, :, 1]
+    folded = np.minimum(_angle(-upper, fore) - _FOLDED, 0.0) / _FOLDED_DEVIATION
+    bent = np.maximum(_angle(fore, hand[:, None]) - _WRIST, 0.0) / _WRIST_DEVIATION
+    bent = np.minimum(np.where(np.isfinite(bent), bent, 0.0) ** 2, _HAND_COST)
+    away = np.clip(-candidates[..., 1] / lengths[1], 0.0, 1.0)
+    against = np.where(np.isfinite(guess), np.sign(guess), 0.0)[:, None] * candidates[..., 1] < 0.0
+    usual, deviation = _usual_depth(across, lengths)
+    unusual = (wrist - usual[:, None]) / deviation[:, None]
+    costs: Array = (
+        unusual**2 + behind**2 + inside**2 + folded**2 + bent + _FORWARD * away + _DETECTOR * against
+    )
+    return costs
+
+
+def _usual_depth(across: Array, lengths: Array) -> tuple[Array, Array]:
+    """Where a wrist mostly is in front of the shoulders, and the deviation [m]. Shapes (T,)."""
+    hangs = -across[..., 1].sum(axis=1) > _HANGS * lengths.sum()  # no limb that is not seen hangs
+    usual = np.where(hangs, _HANGING[0], _RAISED[0])
+    return usual, np.where(hangs, _HANGING[1], _RAISED[1])
+
+
+def _least_depth(place: Array) -> Array:
+    """How far forward a wrist is at least, by where it is in the view [m]. Shape (T,)."""
+    aside, height = np.abs(place[:, 0]), place[:, 1]
+    least = np.full(len(place), _BACK)
+    least[(aside < _TRUNK_HALF) & (height > _TRUNK_TO) & (height <= _HEAD_FROM)] = _CHEST
+    least[(aside < _HEAD_HALF) & (height > _HEAD_FROM) & (height < _HEAD_TO)] = _FACE
+    return least
+
+
+def _angle(first: Array, second: Array) -> Array:
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cosine = (first * second).sum(axis=-1) / (
+            np.linalg.norm(first, axis=-1) * np.linalg.norm(second, axis=-1)
+        )
+    angles: Array = np.arccos(np.clip(cosine, -1.0, 1.0))
+    return angles

@@ -1,0 +1,162 @@
+"""From a person's points in a picture to a track of keypoints in space.
+
+The view is taken as from far away, the person as facing it: what is left and up is seen, what is forward
+follows from the lengths of limbs (`arm_lifting`), of a hand's bones (`hand_lifting`) and from the shape of a
+head (`head_lifting`). Shoulders and hips are in one plane across the view.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sign_capture.lifting.arms import lift_arm
+from teo_sign_capture.lifting.body_measure import BodyMeasure, measure_body
+from teo_sign_capture.lifting.hands import LiftedHand, has_depth, lift_hand
+from teo_sign_capture.lifting.head import POINTS, lift_head
+from teo_sign_capture.recordings.pose_file import PoseClip
+from teo_sign_capture.tracks.body_axes import in_body_axes
+from teo_sign_capture.tracks.hand_model import MIDDLE, RING, WRIST
+from teo_sign_capture.tracks.skeleton_track import (
+    ELBOW,
+    FACE,
+    HIP,
+    MID_HIP,
+    NECK,
+    SHOULDER,
+    Keypoints,
+    SkeletonTrack,
+)
+from teo_sign_capture.tracks.skeleton_track import WRIST as BODY_WRIST
+
+Array = NDArray[np.float64]
+
+_OPTIMISED, _LOST = 3, 0
+"""`Keypoint3D.STATUS_*`: seen, its depth follows from limb lengths; or not known."""
+_SIDES = ("right", "left")
+_TRUNK_SIGMA = 0.04
+"""[m] Of shoulders and hips along the view: of a trunk that is turned by 15 deg."""
+_ACROSS_SIGMA = 0.01
+"""[m] Of a point of the body across the view."""
+
+
+def lift_clip(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:
+    """Lift a clip.
+
+    Args:
+        clip: A person who faces the viewer, one shoulder and one hand seen at least in some frames.
+        recorded: Day of the recording, YYYY-MM-DD; None if not known.
+
+    Raises:
+        LutError: "no_torso", see `in_body_axes`.
+    """
+    measure = measure_body(clip.body)
+    period = 1.0 / clip.rate
+    places = measure.scale * clip.body.places
+    places[..., 0] = np.nan
+    sigma = np.full((*places.shape[:2], 2), np.nan)
+    middle = _filled(places[:, [SHOULDER["left"], SHOULDER["right"]], 1:].mean(axis=1))
+    # Hands are found finer than wrists of bodies.
+    for side in _SIDES:
+        wrists = measure.scale * clip.hand(side).places[:, WRIST, 1:]
+        seen = np.isfinite(wrists).all(axis=1)
+        places[seen, BODY_WRIST[side], 1:] = wrists[seen]
+    places[..., 1:] -= middle[:, None]
+    for point in (*SHOULDER.values(), *HIP.values()):
+        known = np.isfinite(places[:, point, 1])
+        places[known, point, 0] = 0.0
+        sigma[known, point] = _ACROSS_SIGMA, _TRUNK_SIGMA
+    depths, head_sigma = lift_head(places[:, POINTS, 1:])
+    places[:, POINTS, 0] = np.where(np.isfinite(places[:, POINTS, 1]), depths, np.nan)
+    sigma[:, POINTS] = np.stack([np.full_like(head_sigma, _ACROSS_SIGMA), head_sigma], axis=-1)
+    hands = {side: _lift_side(clip, side, places, sigma, measure) for side in _SIDES}
+    for point, pair in ((NECK, SHOULDER), (MID_HIP, HIP)):
+        places[:, point] = places[:, list(pair.values())].mean(axis=1)
+        sigma[:, point] = sigma[:, list(pair.values())].mean(axis=1)
+    places[..., 1:] += middle[:, None]
+    return in_body_axes(
+        times=np.arange(len(places), dtype=np.float64) * period,
+        body=_keypoints(places, _mean(sigma), _body_confidence(clip)),
+        left_hand=_hand(clip, "left", places, sigma, hands["left"]),
+        right_hand=_hand(clip, "right", places, sigma, hands["right"]),
+        face=Keypoints.lost(len(places), FACE),
+        source=clip.source,
+        recorded=recorded,
+        up=(0.0, 0.0, 1.0),
+    )
+
+
+def _lift_side(clip: PoseClip, side: str, places: Array, sigma: Array, measure: BodyMeasure) -> LiftedHand:
+    """Fill in depths and deviations of elbow and wrist of one side; the hand about its wrist."""
+    shoulder, elbow, wrist = SHOULDER[side], ELBOW[side], BODY_WRIST[side]
+    period = 1.0 / clip.rate
+    unknown = np.full(len(places), np.nan)
+
+    def hand_along(forearm: Array) -> LiftedHand:
+        points, right = clip.hand(side), side == "right"
+        return lift_hand(points, scale=measure.scale, period=period, right=right, forearm=forearm)
+
+    # A hand that has depth says which way the forearm points; one that has none goes on as its forearm.
+    hand = hand_along(unknown)
+    knuckles = hand.points[:, [MIDDLE, RING]].mean(axis=1)
+    arm = lift_arm(
+        shoulder=_filled(places[:, shoulder, 1:]),
+        elbow=places[:, elbow, 1:],
+        wrist=places[:, wrist, 1:],
+        confidence=clip.body.confidence[:, [elbow, wrist]],
+        guess=clip.body.places[:, wrist, 0] - clip.body.places[:, elbow, 0],
+        hand=knuckles if has_depth(clip.hand(side)) else np.full_like(knuckles, np.nan),
+        measure=measure,
+        period=period,
+    )
+    if not has_depth(clip.hand(side)):
+        hand = hand_along((arm.wrist - arm.elbow) / measure.forearm)
+    for point, depth, deviation in (
+        (elbow, arm.elbow, arm.elbow_sigma),
+        (wrist, arm.wrist, arm.wrist_sigma),
+    ):
+        known = np.isfinite(places[:, point, 1])
+        places[known, point, 0] = depth[known]
+        places[~known, point] = np.nan
+        sigma[known, point] = deviation[known]
+    return hand
+
+
+def _hand(clip: PoseClip, side: str, places: Array, sigma: Array, hand: LiftedHand) -> Keypoints:
+    """A hand at the end of its arm."""
+    wrist = BODY_WRIST[side]
+    points = hand.points + places[:, wrist, None]
+    spread = np.hypot(hand.sigma, _mean(sigma[:, wrist, None]))
+    return _keypoints(points, spread, clip.hand(side).confidence)
+
+
+def _keypoints(positions: Array, sigma: Array, confidence: Array) -> Keypoints:
+    known = np.asarray(np.isfinite(positions).all(axis=2))
+    return Keypoints(
+        positions=np.where(known[..., None], positions, np.nan),
+        sigma=np.where(known, sigma, np.nan),
+        confidence=np.where(known, confidence, 0.0),
+        status=np.where(known, _OPTIMISED, _LOST).astype(np.uint8),
+    )
+
+
+def _body_confidence(clip: PoseClip) -> Array:
+    confidence = clip.body.confidence.copy()
+    for point, pair in ((NECK, SHOULDER), (MID_HIP, HIP)):
+        confidence[:, point] = confidence[:, list(pair.values())].min(axis=1)
+    return confidence
+
+
+def _mean(sigma: Array) -> Array:
+    """Root mean over the axes of a deviation across the view, twice, and along it. Shape (..., 2)."""
+    mean: Array = np.sqrt((2.0 * sigma[..., 0] ** 2 + sigma[..., 1] ** 2) / 3.0)
+    return mean
+
+
+def _filled(places: Array) -> Array:
+    """Places over time, with gaps filled in straight lines; known at least once. Shape (T, 2)."""
+    known = np.isfinite(places).all(axis=1)
+    if not known.any():
+        return places
+    frames = np.arange(len(places))
+    return np.column_stack([np.interp(frames, frames[known], column[known]) for column in places.T])

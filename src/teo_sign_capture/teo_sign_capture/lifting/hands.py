@@ -1,0 +1,219 @@
+"""The depth of a hand's points in a clip, from the lengths of its bones.
+
+Across the view a point is good to a pixel or two. Its depth is what a detector guesses, or nothing at all.
+For each bone, the depth that fits its length and the guess best is taken; the guess says above all which
+way. The palm is then made rigid: one shape for all frames, laid into each (Kabsch 1976).
+
+`hand_model.fit_hand` is the thorough way, for the few hands of a letter: it takes half a second for each.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sign_capture.lifting.depth_smoothing import smooth_depth
+from teo_sign_capture.recordings.pose_file import Points
+from teo_sign_capture.tracks.hand_model import INDEX, KNUCKLES, LITTLE, PALM, THUMB, WRIST, palm_axes
+
+Array = NDArray[np.float64]
+
+BONES = tuple(
+    (WRIST if bone == 0 else first + bone - 1, first + bone)
+    for first in (THUMB, *KNUCKLES)
+    for bone in range(4)
+)
+"""Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out."""
+
+BONE_LENGTHS = 1e-3 * np.array(
+    [
+        *(36.0, 46.2, 31.6, 21.7),
+        *(95.0, 39.8, 22.4, 15.8),
+        *(92.0, 44.6, 26.3, 17.4),
+        *(86.0, 41.4, 25.7, 17.3),
+        *(81.0, 32.7, 18.1, 16.0),
+    ]
+)
+"""[m] Of an adult. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand Segments", Int. J.
+Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and of 27 mm of carpal
+bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in the clips of
+`letter_clips`."""
+
+_PERCENTILE = 90.0
+"""A bone lies across the view in some frames: its length is what 9 of 10 do not exceed."""
+_SIZE = (0.75, 1.35)
+"""Hands are within these shares of an adult's that suits the body; what is outside was found wrong."""
+_LEAST_SHARE, _GREATEST_SHARE = 0.85, 1.25
+"""Of a bone of that size: never seen at full length below, found wrong above."""
+_SCALES = np.geomspace(0.05, 20000.0, 120)
+"""Units of the clip for a unit of its depth: pixels for pixels have 1, pixels for widths of the picture some
+hundreds."""
+_LEAST_TURN = 0.02
+"""A guess of depth must make the bones' lengths more even than none by this share, or it is noise."""
+_LENGTH_SHARE = 0.08
+"""Deviation of a bone's length as a share of it."""
+_GUESS_SHARE = np.where(np.arange(len(BONES)) % 4 == 0, 0.15, 0.3)
+"""Deviation of the detector's guess of a depth as a share of the bone's length: of the palm's bones, which a
+detector sees whole, and of fingers, which hide each other. Shape (20,)."""
+_NO_GUESS_SHARE, _BENT = 0.6, 0.4
+"""Where there is no guess, a hand goes on as its forearm, give or take this share of a bone's length; bones
+of fingers are bent out of it to the palm's side by that share."""
+_STEPS = np.linspace(-1.0, 1.0, 81)
+"""Depths that are tried, in lengths of the bone."""
+_ACCELERATION = 12.0
+"""[m/s^2] Deviation of the acceleration of a bone's end about its beginning, along the view."""
+_POINT_SIGMA = 0.004
+"""[m] Of a point across the view: two pixels of a person who is 500 pixels high."""
+_MIRROR = np.array([1.0, -1.0, 1.0])
+
+
+class LiftedHand(NamedTuple):
+    """A hand's points relative to its wrist, forward, left and up."""
+
+    points: Array
+    """[m]; NaN where not seen. Shape (T, 21, 3)."""
+    sigma: Array
+    """Standard deviation, root mean over the axes [m]. Shape (T, 21)."""
+
+
+def has_depth(hand: Points) -> bool:
+    """Whether the detector guessed depths of a hand's points."""
+    return bool(np.isfinite(hand.places[..., 0]).any())
+
+
+def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm: Array) -> LiftedHand:
+    """Find the depth of a hand's points.
+
+    Args:
+        hand: In the picture; frames in which a point is missing count as not seen.
+        scale: Metres for a unit of the clip.
+        period: Between two frames [s].
+        right: Whether it is a right hand.
+        forearm: How far its forearm comes forward for each of its lengths, where the detector guesses no
+            depth; may be NaN where it does. Shape (T,).
+    """
+    seen: NDArray[np.bool_] = np.asarray(hand.seen.all(axis=1))
+    points = np.full((*hand.seen.shape, 3), np.nan)
+    sigma = np.full(hand.seen.shape, np.nan)
+    if not seen.any():
+        return LiftedHand(points, sigma)
+    # A left hand is lifted as the right hand that its mirror image is.
+    places = hand.places[seen] * (1.0 if right else _MIRROR)
+    places = places - places[:, WRIST, None]
+    lengths = _bone_lengths(places, scale)
+    guess = _guess(places, scale)
+    if guess is None:
+        expected, share = _expected(places, forearm[seen]) * lengths, np.full(len(BONES), _NO_GUESS_SHARE)
+    else:
+        expected, share = _along(guess), _GUESS_SHARE
+    depths, bone_sigma = _bone_depths(scale * places[..., 1:], expected, share * lengths, lengths)
+    every = np.full((len(seen), len(BONES)), np.nan)
+    every[seen] = depths
+    sigmas = np.full_like(every, np.nan)
+    sigmas[seen] = bone_sigma
+    depths = smooth_depth(every, sigmas, period=period, acceleration=_ACCELERATION)[seen]
+    lifted = np.zeros_like(places)
+    lifted[..., 1:] = scale * places[..., 1:]
+    spread = np.zeros(lifted.shape[:2])
+    for bone, (first, second) in enumerate(BONES):
+        lifted[:, second, 0] = lifted[:, first, 0] + np.clip(depths[:, bone], -lengths[bone], lengths[bone])
+        spread[:, second] = np.hypot(spread[:, first], bone_sigma[:, bone])
+    lifted = _with_rigid_palm(lifted)
+    points[seen] = lifted * (1.0 if right else _MIRROR)
+    sigma[seen] = np.sqrt((2.0 * _POINT_SIGMA**2 + spread**2) / 3.0)
+    return LiftedHand(points, sigma)
+
+
+def _bone_lengths(places: Array, scale: float) -> Array:
+    """[m] Shape (20,)."""
+    across = np.stack([places[:, second, 1:] - places[:, first, 1:] for first, second in BONES], axis=1)
+    longest = scale * np.percentile(np.linalg.norm(across, axis=2), _PERCENTILE, axis=0)
+    # Half of the bones at least lay across the view; those say how large the hand is.
+    size = float(np.clip(np.percentile(longest / BONE_LENGTHS, 60.0), *_SIZE))
+    usual = size * BONE_LENGTHS
+    lengths: Array = np.clip(longest, _LEAST_SHARE * usual, _GREATEST_SHARE * usual)
+    return lengths
+
+
+def _guess(places: Array, scale: float) -> Array | None:
+    """The detector's depths in metres, in the unit in which bones keep their lengths best. Shape (T, 21).
+
+    None if it gives no depth, or one with which the lengths are no more even than without.
+    """
+    depths = places[..., 0]
+    if not np.isfinite(depths).all() or np.ptp(depths) == 0.0:
+        return None
+    bones = np.stack([places[:, second] - places[:, first] for first, second in BONES], axis=1)
+    across, along = (bones[..., 1:] ** 2).sum(axis=2), bones[..., 0] ** 2
+
+    def unevenness(unit: float) -> float:
+        lengths = np.sqrt(across + unit**2 * along)
+        return float((lengths.std(axis=0) / lengths.mean(axis=0)).mean())
+
+    uneven = [unevenness(unit) for unit in _SCALES]
+    best = int(np.argmin(uneven))
+    if uneven[best] > (1.0 - _LEAST_TURN) * unevenness(0.0):
+        return None
+    return scale * float(_SCALES[best]) * depths
+
+
+def _along(depths: Array) -> Array:
+    """How far each bone's end is in front of its beginning. Shape (T, 20)."""
+    return np.stack([depths[:, second] - depths[:, first] for first, second in BONES], axis=1)
+
+
+def _bone_depths(
+    across: Array, expected: Array, expected_sigma: Array, lengths: Array
+) -> tuple[Array, Array]:
+    """How far each bone's end is in front of its beginning, and how sure that is [m]. Shapes (T, 20)."""
+    seen = np.stack(
+        [np.linalg.norm(across[:, second] - across[:, first], axis=1) for first, second in BONES], axis=1
+    )
+    tried = _STEPS * lengths[:, None]  # (20, steps)
+    long = np.hypot(seen[..., None], tried) - lengths[:, None]
+    cost = (long / (_LENGTH_SHARE * lengths[:, None])) ** 2
+    cost += ((tried - expected[..., None]) / expected_sigma[:, None]) ** 2
+    weights = np.exp(-0.5 * (cost - cost.min(axis=2, keepdims=True)))
+    # The best depth, and the spread of all that are likely about it: two where front and back look alike.
+    best = tried[np.arange(len(lengths)), cost.argmin(axis=2)]
+    around = (weights * (tried - best[..., None]) ** 2).sum(axis=2) / weights.sum(axis=2)
+    return best, np.sqrt(around) + _POINT_SIGMA
+
+
+def _expected(places: Array, forearm: Array) -> Array:
+    """How far each bone comes forward where nobody guessed, for each of its lengths. Shape (T, 20).
+
+    A palm that is seen has fingers that bend towards the viewer, a back of a hand has them bend away.
+    """
+    across = places[..., 1:]
+    index, little = across[:, INDEX] - across[:, WRIST], across[:, LITTLE] - across[:, WRIST]
+    palm_seen = index[:, 0] * little[:, 1] - index[:, 1] * little[:, 0] > 0.0
+    bend = np.where(palm_seen, _BENT, -_BENT)
+    of_finger = np.arange(len(BONES)) % 4 > 0
+    forward = np.where(np.isfinite(forearm), forearm, 0.0)
+    return np.asarray(np.clip(forward[:, None] + bend[:, None] * of_finger, -1.0, 1.0))
+
+
+def _with_rigid_palm(points: Array) -> Array:
+    """Lay one palm into all frames; the fingers go with their knuckles."""
+    palm = list(PALM)
+    axes = palm_axes(points)
+    local = np.einsum("tij,tki->tkj", axes, points[:, palm])
+    shape = np.median(local, axis=0)
+    shape = shape - shape.mean(axis=0)
+    middle = points[:, palm].mean(axis=1, keepdims=True)
+    u, _, vt = np.linalg.svd(np.einsum("tki,kj->tij", points[:, palm] - middle, shape))
+    sign = np.linalg.det(u @ vt)
+    u[:, :, 2] *= sign[:, None]
+    laid = np.einsum("tij,kj->tki", u @ vt, shape) + middle
+    moved = points.copy()
+    for at, point in enumerate(palm):
+        away = laid[:, at] - points[:, point]
+        last = point + 4 if point != WRIST else point + 1
+        moved[:, point:last] += away[:, None]
+    # The thumb's first joint is of the palm too, but moves in it: it goes with the wrist.
+    moved[:, THUMB : THUMB + 4] += (laid[:, 0] - points[:, WRIST])[:, None]
+    rigid: Array = moved - moved[:, WRIST, None]
+    return rigid

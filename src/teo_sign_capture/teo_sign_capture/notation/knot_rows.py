@@ -1,0 +1,71 @@
+"""Postures as knots of a sign: the arms that were found, hands as shaped, what wiggles, the head."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_sign_capture.notation.arm_solver import Reach
+from teo_sign_capture.notation.score_schema import Score
+from teo_sign_capture.notation.targets import HandTarget, Posture
+from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
+
+Array = NDArray[np.float64]
+
+_ARM_SWINGS = {"wrist": 5, "forearm": 4, "elbow": 3}
+_HAND_SWINGS = {"thumb": 1, "index": 2, "middle": 3, "ring": 4, "little": 5}
+
+
+def knots_of(
+    score: Score, moments: list[Posture], rights: list[Reach], lefts: list[Reach]
+) -> tuple[tuple[str, ...], Array]:
+    """Joints that take part, and their positions at every moment [rad]. Shape (moments, joints).
+
+    Args:
+        score: What is performed.
+        moments: Its postures.
+        rights: The right arm at each.
+        lefts: The left arm at each, seen as a right one; empty where it mirrors the right or takes no part.
+    """
+    joints = RIGHT_ARM + RIGHT_HAND
+    rows = [
+        _limb(moment, moment.right, reach, "right") for moment, reach in zip(moments, rights, strict=True)
+    ]
+    if score.hands != "right":
+        joints += LEFT_ARM + LEFT_HAND
+        others = [
+            _limb(moment, moment.left, reach, "left")
+            for moment, reach in zip(moments, lefts or rights, strict=True)
+        ]
+        rows = [np.concatenate([row, other]) for row, other in zip(rows, others, strict=True)]
+    if any(moment.turn or moment.bow for moment in moments):
+        joints += HEAD
+        # Towards the right is a negative turn about the upward axis.
+        rows = [
+            np.concatenate([row, [-moment.turn, moment.bow]])
+            for row, moment in zip(rows, moments, strict=True)
+        ]
+    return joints, np.array(rows)
+
+
+def _limb(moment: Posture, target: HandTarget | None, reach: Reach, side: str) -> Array:
+    """Arm and hand in a moment [rad]. Shape (12,)."""
+    assert target is not None
+    arm, hand = reach.positions.copy(), target.shape.copy()
+    hand_limits = joint_limits(RIGHT_HAND)
+    lower, upper = arm_bounds(side)
+    for name, angle in moment.swings:
+        if name in _ARM_SWINGS:
+            index = _ARM_SWINGS[name]
+            arm[index] = _swung(arm[index], angle, lower[index], upper[index])
+        else:
+            index = _HAND_SWINGS[name]
+            hand[index] = _swung(hand[index], angle, hand_limits.lower[index], hand_limits.upper[index])
+    return np.concatenate([mirrored(arm) if side == "left" else arm, hand])
+
+
+def _swung(position: float, angle: float, lower: float, upper: float) -> float:
+    """A joint that has swung, to the side where it has more room."""
+    room_up, room_down = upper - position, position - lower
+    return position + min(angle, room_up) if room_up >= room_down else position - min(angle, room_down)

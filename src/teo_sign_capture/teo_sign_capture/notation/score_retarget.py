@@ -1,0 +1,279 @@
+"""A score as a sign of TEO's arms, hands and head."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Iterable
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description.clearance import Clearance
+from teo_description.robot import Robot
+from teo_sign_capture.notation.arm_solver import ArmSolver, Reach, smoothest
+from teo_sign_capture.notation.knot_rows import knots_of
+from teo_sign_capture.notation.score_schema import Score
+from teo_sign_capture.notation.targets import HandTarget, Posture, postures
+from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
+from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_signs.errors import LutError
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import Provenance
+
+Array = NDArray[np.float64]
+
+_CLEARANCE = 0.012
+"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that
+the planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close."""
+_PUSH, _MOST_PUSHES = 0.012, 12
+"""[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
+8 cm beyond the middle of its palm."""
+_TOUCH = 0.5
+"""What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg."""
+_OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
+"""[rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body."""
+_LOOKS = 6
+"""Poses at which the way from one knot to the next is looked at."""
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
+_OUT = np.array([0.0, -1.0, 0.0])
+
+
+def score_sign(robot: Robot, score: Score) -> Sign:
+    """Bring a score onto TEO.
+
+    Raises:
+        LutError: "self_collision" if TEO cannot make the sign without touching itself.
+    """
+    moments = postures(score)
+    performance = _Performance(robot, score, moments)
+    rights, lefts = performance.solve()
+    place_errors = performance.place_errors(rights, lefts)
+    joints, knots = knots_of(score, moments, rights, lefts)
+    times = np.array([moment.time for moment in moments])
+    times, knots = _round_obstacles(performance, joints, times, knots)
+    reached = (*rights, *lefts)
+    return Sign(
+        gloss=score.gloss,
+        language="lse",
+        kind="lexical",
+        handedness="right" if score.hands == "right" else "both",
+        joints=joints,
+        times=times,
+        knots=knots,
+        provenance=_provenance(score),
+        quality={
+            "place_error_mm": round(1000.0 * max(place_errors), 1),
+            "palm_angle_error_deg": round(float(np.degrees(max(reach.palm_error for reach in reached))), 1),
+            "finger_angle_error_deg": round(
+                float(np.degrees(max(reach.finger_error for reach in reached))), 1
+            ),
+            "clearance_mm": clearance_mm(robot, joints, knots),
+            "limit_margin_deg": limit_margin_deg(joints, knots),
+        },
+    )
+
+
+class _Performance:
+    """Arms for all moments of a score, moved off what they would go into."""
+
+    def __init__(self, robot: Robot, score: Score, moments: list[Posture]) -> None:
+        self.gloss = score.gloss
+        self._robot = robot
+        self._score = score
+        self._moments = moments
+        self._solver = ArmSolver(robot)
+        self._known: dict[tuple[object, ...], list[Reach]] = {}
+        lower, upper = arm_bounds("right")
+        self._left_bounds = arm_bounds("left")
+        if score.hands == "mirrored":
+            lower = np.maximum(lower, self._left_bounds[0])
+            upper = np.minimum(upper, self._left_bounds[1])
+        self._right_bounds = (lower, upper)
+
+    def solve(self) -> tuple[list[Reach], list[Reach]]:
+        """Right and left arms for every moment; the left ones are empty where the left arm takes no part.
+
+        Raises:
+            LutError: "self_collision".
+        """
+        # How far each moment's hands are moved off the body, and off each other [m].
+        pushes = np.zeros((len(self._moments), 2))
+        for _ in range(_MOST_PUSHES + 1):
+            rights, lefts = self._arms(pushes)
+            joints, knots = knots_of(self._score, self._moments, rights, lefts)
+            near = [self.clearance(joints, row) for row in knots]
+            touching = [index for index, found in enumerate(near) if found.distance < _CLEARANCE]
+            if not touching:
+                return rights, lefts
+            for index in touching:
+                parts = {side for side in ("Left", "Right") for part in near[index][1:] if side in str(part)}
+                pushes[index, int(len(parts) == 2)] += _PUSH
+            # While a joint wiggles the hand keeps its place.
+            for index in range(1, len(pushes)):
+                if (
+                    self._moments[index].swings
+                    and self._moments[index].right is self._moments[index - 1].right
+                ):
+                    pushes[index - 1 : index + 1] = pushes[index - 1 : index + 1].max(axis=0)
+        found, moment = near[touching[0]], self._moments[touching[0]]
+        raise LutError(
+            "self_collision",
+            f"{self._score.gloss}: expected a posture that TEO can take at {moment.time:.2f} s, got one in "
+            f"which {found.first} touches {found.second} even {100 * pushes.max():.0f} cm off its place: "
+            "move the place",
+        )
+
+    def place_errors(self, rights: list[Reach], lefts: list[Reach]) -> list[float]:
+        """How far the parts of the hands are from their places, moved off or not [m]."""
+        wanted: list[tuple[HandTarget, Reach]] = []
+        for index, (moment, right) in enumerate(zip(self._moments, rights, strict=True)):
+            target = moment.right
+            if lefts and moment.left is not None:
+                target = self._resolved(target, moment.left, lefts[index])
+                wanted.append((moment.left, lefts[index]))
+            wanted.append((target, right))
+        return [self._solver.distance(target, reach.positions) for target, reach in wanted]
+
+    def clearance(self, joints: tuple[str, ...], row: Array) -> Clearance:
+        """Smallest distance between parts of the robot in a pose."""
+        pose = dict(zip(joints, row.tolist(), strict=True))
+        return self._robot.clearance(self._robot.configuration(pose))
+
+    def nearest(self, joints: tuple[str, ...], rows: Iterable[Array]) -> float:
+        """Smallest distance between parts of the robot on straight ways from pose to pose [m]."""
+        return min(
+            self.clearance(joints, first + share * (second - first)).distance
+            for first, second in pairwise(rows)
+            for share in np.linspace(0.0, 1.0, _LOOKS)
+        )
+
+    def _arms(self, pushes: Array) -> tuple[list[Reach], list[Reach]]:
+        if self._score.hands != "both":
+            targets = [
+                _pushed(moment.right, push) for moment, push in zip(self._moments, pushes, strict=True)
+            ]
+            rights = smoothest([self._reaches(target, self._right_bounds, "right") for target in targets])
+            return rights, []
+        left_targets = [moment.left for moment in self._moments if moment.left is not None]
+        # Where the right hand is on the left one, the right hand gives way.
+        stays = [bool(moment.right.other) for moment in self._moments]
+        left_targets = [
+            target if stay else _pushed(target, push)
+            for target, stay, push in zip(left_targets, stays, pushes, strict=True)
+        ]
+        lefts = smoothest([self._reaches(target, self._left_bounds, "left") for target in left_targets])
+        targets = [
+            _pushed(self._resolved(moment.right, left, reach), push)
+            for moment, left, reach, push in zip(self._moments, left_targets, lefts, pushes, strict=True)
+        ]
+        candidates = [
+            self._beside(target, self._reaches(target, self._right_bounds, "right"), moment, left)
+            for target, moment, left in zip(targets, self._moments, lefts, strict=True)
+        ]
+        return smoothest(candidates), lefts
+
+    def _resolved(self, right: HandTarget, left: HandTarget, reach: Reach) -> HandTarget:
+        """A target on the left hand, in ``base_link``; away from the left palm is its way out."""
+        if not right.other:
+            return right
+        point = _MIRROR * self._solver.hand_point(reach.positions, left, right.other)
+        wanted = point + right.point
+        away = wanted - _MIRROR * self._solver.palm(reach.positions)[:3, 3]
+        # The hand comes from where its own palm does not look.
+        outward = away / max(float(np.linalg.norm(away)), 1e-6) - right.palm
+        return replace(right, point=wanted, outward=outward / max(float(np.linalg.norm(outward)), 1e-6))
+
+    def _reaches(self, target: HandTarget, bounds: tuple[Array, Array], side: str) -> list[Reach]:
+        arrays = (target.shape, target.point, target.palm, target.fingers)
+        key = (side, target.part, target.meets, *(np.round(array, 6).tobytes() for array in arrays))
+        if key not in self._known:
+            reaches = self._solver.reaches(target, bounds)
+            self._known[key] = [
+                replace(reach, cost=reach.cost + self._touch(target, reach, side)) for reach in reaches
+            ]
+        return self._known[key]
+
+    def _beside(self, target: HandTarget, reaches: list[Reach], moment: Posture, left: Reach) -> list[Reach]:
+        """Right arms, those that touch the left one at a higher cost."""
+        assert moment.left is not None
+        other = np.concatenate([mirrored(left.positions), moment.left.shape])
+        joints = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
+        return [
+            replace(reach, cost=reach.cost + _TOUCH)
+            if self.clearance(joints, np.concatenate([reach.positions, target.shape, other])).distance
+            < _CLEARANCE
+            else reach
+            for reach in reaches
+        ]
+
+    def _touch(self, target: HandTarget, reach: Reach, side: str) -> float:
+        """What it costs that an arm, the other at rest, touches the body."""
+        arm = mirrored(reach.positions) if side == "left" else reach.positions
+        joints = LEFT_ARM + LEFT_HAND if side == "left" else RIGHT_ARM + RIGHT_HAND
+        near = self.clearance(joints, np.concatenate([arm, target.shape])).distance
+        return _TOUCH if near < _CLEARANCE else 0.0
+
+
+def _pushed(target: HandTarget, push: Array) -> HandTarget:
+    """A target off the body, and off the other hand: out to its own side, or away from what it is on."""
+    if not push.any():
+        return target
+    aside = target.outward if target.other else _OUT
+    return replace(target, point=target.point + push[0] * target.outward + push[1] * aside)
+
+
+def _round_obstacles(
+    performance: _Performance, joints: tuple[str, ...], times: Array, knots: Array
+) -> tuple[Array, Array]:
+    """Leave out moments without time, and add a knot where the straight way between two would touch.
+
+    Raises:
+        LutError: "self_collision" where no way round is found.
+    """
+    kept_times, kept = [float(times[0])], [knots[0]]
+    for (start, first), (end, second) in pairwise(zip(times, knots, strict=True)):
+        if end <= start:
+            continue
+        if performance.nearest(joints, [first, second]) < _CLEARANCE / 2.0:
+            kept.append(_way_round(performance, joints, first, second, float(start)))
+            kept_times.append(float(start + end) / 2.0)
+        kept.append(second)
+        kept_times.append(float(end))
+    return np.array(kept_times), np.array(kept)
+
+
+def _way_round(
+    performance: _Performance, joints: tuple[str, ...], first: Array, second: Array, start: float
+) -> Array:
+    """Half-way between two knots: the elbows opened until nothing touches, or one arm before the other."""
+    limits = joint_limits(joints)
+    elbows = np.array(["Elbow" in joint for joint in joints])
+    left = np.array(["Left" in joint for joint in joints])
+    middle: Array
+    opened = [np.minimum((first + second) / 2.0 + angle * elbows, limits.upper) for angle in _OPENED_ELBOWS]
+    for middle in (*opened, np.where(left, first, second), np.where(left, second, first)):
+        if performance.nearest(joints, [first, middle, second]) >= _CLEARANCE / 2.0:
+            return middle
+    raise LutError(
+        "self_collision",
+        f"{performance.gloss}: expected a way that TEO can go from {start:.2f} s on, got one that touches: "
+        "add a step that leads round",
+    )
+
+
+def _provenance(score: Score) -> Provenance:
+    notes = [f"Face: {score.face}." if score.face else "", score.notes]
+    return Provenance(
+        standing=score.standing,
+        source=score.source,
+        method="written as a score; arms by bounded least squares, hands from the inventory (capture_scores)",
+        recorded=None,
+        created=datetime.date.today().isoformat(),
+        licence="Apache-2.0 (the score; its source is named)",
+        description_hash=description_hash(),
+        notes=" ".join(filter(None, notes)),
+    )

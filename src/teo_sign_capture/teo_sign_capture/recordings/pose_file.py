@@ -1,0 +1,283 @@
+"""A person's points in the picture over time, from a `.pose` file.
+
+The format is pose-format's (Moryossef, Müller, Fahrni: "pose-format: Library for Viewing, Augmenting, and
+Handling .pose Files", 2023), the usual one in sign language research.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sign_capture.recordings.pose_layouts import LAYOUTS, Layout
+from teo_sign_capture.tracks.skeleton_track import BODY, HAND, SHOULDER
+from teo_signs.errors import LutError
+
+Array = NDArray[np.float64]
+
+MAX_FILE_BYTES = 256 * 1024**2
+"""Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out."""
+
+MAX_FRAMES = 6000
+"""Four minutes at 25 frames a second, which take half a GB and half a minute to lift."""
+
+MAX_RATE = 1000.0
+"""[Hz] No camera that films signers is faster."""
+
+_PERSON_POINTS = 3
+"""A person of whom fewer points are ever seen is an empty place in the file."""
+
+_FRACTION_LIMIT = 1.5
+"""Points given as fractions of a picture's size stay this near its middle, some way outside included..."""
+_MOST = 0.99
+"""...but for one in a hundred."""
+_CENTRED = 0.1
+"""Shoulders of a clip that is scaled to them are nearer to 0 than this: in a picture that is a corner."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Points:
+    """Points of one part of a person over time.
+
+    Attributes:
+        places: Forward (to the viewer), to the signer's left, up; in the units of the clip. Depth, the first,
+            is only good relative to other points of the part, in a unit of its own, and NaN where the
+            layout has none; all three are NaN where the point was not seen. Shape (T, K, 3).
+        confidence: 0 to 1; 0 where not seen. Shape (T, K).
+    """
+
+    places: Array
+    confidence: Array
+
+    @property
+    def seen(self) -> NDArray[np.bool_]:
+        """Whether a point was seen. Shape (T, K)."""
+        return self.confidence > 0.0
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PoseClip:
+    """A person in a picture over time.
+
+    Attributes:
+        rate: Frames a second [Hz].
+        body: BODY_25; what is not used in signing is not seen.
+        left_hand: The person's own left, 21 points.
+        right_hand: Likewise.
+        source: Name of the file.
+        layout: Which of `LAYOUTS` it has.
+    """
+
+    rate: float
+    body: Points
+    left_hand: Points
+    right_hand: Points
+    source: str
+    layout: str
+
+    def hand(self, side: str) -> Points:
+        """The hand of a side, "right" or "left"."""
+        return self.right_hand if side == "right" else self.left_hand
+
+
+def read_pose_file(path: Path, *, person: int | None = None) -> PoseClip:
+    """Read a clip.
+
+    Args:
+        path: The file.
+        person: Which person, from 0, where the file has several.
+
+    Raises:
+        LutError: "unreadable", "empty_file", "too_large"; "bad_pose_file" for a file that is damaged or no
+            such file; "unknown_layout"; "bad_rate"; "too_short" for fewer than two frames; "too_long";
+            "non_finite"; "several_people" where `person` is needed, "no_person" where there is none of that
+            number; "no_torso" or "no_hand" if the shoulders or the hands are never seen; "seen_from_behind".
+    """
+    return _Reader(path.name).read(_content(path), person)
+
+
+def _content(path: Path) -> bytes:
+    try:
+        with path.open("rb") as file:
+            content = file.read(MAX_FILE_BYTES + 1)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise LutError("unreadable", f"{path.name}: expected a file to read, got: {reason}") from error
+    if not content:
+        raise LutError("empty_file", f"{path.name}: expected a .pose file, got an empty one")
+    if len(content) > MAX_FILE_BYTES:
+        raise LutError(
+            "too_large",
+            f"{path.name}: expected at most {MAX_FILE_BYTES // 1024**2} MiB, got more: "
+            "cut the film into signs before its points are found",
+        )
+    return content
+
+
+class _Reader:
+    """Reads one file; every refusal names it."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def read(self, content: bytes, person: int | None) -> PoseClip:
+        pose = self._parse(content)
+        layout = self._layout(pose.header)
+        with np.errstate(invalid="ignore"):  # signalling NaN of a damaged file
+            data = np.asarray(np.ma.getdata(pose.body.data), dtype=np.float64)
+        confidence = np.array(pose.body.confidence, dtype=np.float64)
+        rate = self._rate(float(pose.body.fps))
+        if len(data) < 2:
+            self._refuse("too_short", "two frames or more", f"{len(data)}: a sign is a motion")
+        if len(data) > MAX_FRAMES:
+            self._refuse(
+                "too_long", f"at most {MAX_FRAMES} frames", f"{len(data)}: cut the film into signs first"
+            )
+        chosen = self._person(confidence, person)
+        data, confidence = data[:, chosen], confidence[:, chosen]
+        # Detectors that give no confidence below 0 or above 1 by a rounding are taken at their word.
+        confidence = np.clip(np.where(np.isfinite(confidence), confidence, 0.0), 0.0, 1.0)
+        confidence[np.ma.getmaskarray(pose.body.data)[:, chosen].any(axis=-1)] = 0.0
+        self._check_finite(data, confidence)
+        parts = self._parts(pose.header, layout, data, confidence)
+        self._check_seen(parts)
+        size = (pose.header.dimensions.width, pose.header.dimensions.height)
+        if _is_fractions(parts["body"].places, size):
+            parts = {name: _scaled(points, size) for name, points in parts.items()}
+        return PoseClip(rate=rate, **parts, source=self._name, layout=layout.name)
+
+    def _refuse(self, code: str, expected: str, got: str) -> NoReturn:
+        raise LutError(code, f"{self._name}: expected {expected}, got {got}")
+
+    def _parse(self, content: bytes) -> Any:
+        from pose_format import Pose  # heavy, and needed by nothing but this
+
+        try:
+            pose = Pose.read(content)
+            header = io.BytesIO()
+            pose.header.write(header)
+            # Read short, a file of the older version would give fewer frames and wrong ones.
+            version = round(float(pose.header.version), 3)
+            rest = {0.1: 6, 0.2: 10}.get(version)
+            expected = header.tell() + (rest or 0) + 4 * (pose.body.data.size + pose.body.confidence.size)
+        except Exception as error:  # whatever a damaged file makes of pose-format
+            reason = f"{type(error).__name__}: {error}"
+            self._refuse("bad_pose_file", "a whole .pose file", f"one that cannot be read ({reason})")
+        if rest is not None and len(content) != expected:
+            self._refuse("bad_pose_file", f"a .pose file of {expected} bytes", f"{len(content)} bytes")
+        return pose
+
+    def _layout(self, header: Any) -> Layout:
+        found = [component.name for component in header.components]
+        fitting = [layout for layout in LAYOUTS if layout.body in found]
+        if not fitting:
+            known = ", ".join(f"{layout.name} ({layout.body})" for layout in LAYOUTS)
+            self._refuse("unknown_layout", f"points of {known}", f"components {', '.join(found) or 'none'}")
+        return fitting[0]
+
+    def _rate(self, rate: float) -> float:
+        if not (math.isfinite(rate) and 0.0 < rate <= MAX_RATE):
+            self._refuse("bad_rate", f"more than 0 and at most {MAX_RATE:g} frames a second", f"{rate:g}")
+        return rate
+
+    def _person(self, confidence: Array, person: int | None) -> int:
+        people = np.flatnonzero((confidence > 0.0).any(axis=0).sum(axis=-1) >= _PERSON_POINTS)
+        numbers = ", ".join(map(str, people.tolist())) or "none"
+        if person is not None:
+            if person not in people:
+                self._refuse("no_person", f"one of the people {numbers}", f"person {person}")
+            return person
+        if not people.size:
+            self._refuse("no_person", "a person in the clip", "none in any frame")
+        if people.size > 1:
+            self._refuse("several_people", "one person, or a choice with --person", f"the people {numbers}")
+        return int(people[0])
+
+    def _check_finite(self, data: Array, confidence: Array) -> None:
+        bad = np.argwhere(~np.isfinite(data).all(axis=-1) & (confidence > 0.0))
+        if bad.size:
+            frame, point = bad[0].tolist()
+            self._refuse(
+                "non_finite", "finite numbers for all points seen", f"none for point {point} in frame {frame}"
+            )
+
+    def _parts(self, header: Any, layout: Layout, data: Array, confidence: Array) -> dict[str, Points]:
+        starts = np.cumsum([0, *(len(component.points) for component in header.components)])
+        columns = {
+            component.name: {name: int(start) + index for index, name in enumerate(component.points)}
+            for component, start in zip(header.components, starts, strict=False)
+        }
+        body = {at: columns[layout.body].get(name) for at, name in layout.body_points.items()}
+        parts = {"body": _points(data, confidence, body, BODY)}
+        for side, component in (("left_hand", layout.left_hand), ("right_hand", layout.right_hand)):
+            names = columns.get(component, {})
+            missing = [name for name in layout.hand_points if name not in names] if names else []
+            if missing:
+                self._refuse(
+                    "unknown_layout",
+                    f"{component} with all of a hand's 21 points",
+                    f"one without {', '.join(missing)}",
+                )
+            hand = {at: names.get(name) for at, name in enumerate(layout.hand_points)}
+            parts[side] = _points(data, confidence, hand, HAND)
+        return parts
+
+    def _check_seen(self, parts: dict[str, Points]) -> None:
+        body = parts["body"]
+        shoulders = body.seen[:, [SHOULDER["left"], SHOULDER["right"]]].all(axis=1)
+        if not shoulders.any():
+            self._refuse("no_torso", "a person whose shoulders are seen", "both shoulders in no frame")
+        if not any(parts[side].seen.all(axis=1).any() for side in ("left_hand", "right_hand")):
+            self._refuse("no_hand", "a hand with all its points in some frame", "none in any")
+        across = body.places[shoulders, SHOULDER["left"], 1] - body.places[shoulders, SHOULDER["right"], 1]
+        if np.median(across) <= 0.0:
+            self._refuse(
+                "seen_from_behind",
+                "the person's left shoulder on the right of the picture",
+                "it on the left: the person is seen from behind, or the clip was mirrored after its points "
+                "were found",
+            )
+
+
+def _is_fractions(body: Array, size: tuple[int, int]) -> bool:
+    """Whether places count in widths and heights of the picture, as MediaPipe itself gives them.
+
+    Those differ. Pixels count alike both ways, and so do clips that were scaled to the breadth of the
+    shoulders, which then are about 0.
+    """
+    seen = body[np.isfinite(body[..., 1])][:, 1:] * [1.0, -1.0]
+    middle = np.nanmedian(body[:, list(SHOULDER.values()), 1:], axis=(0, 1))
+    within = (np.abs(seen - 0.5) <= _FRACTION_LIMIT).mean() > _MOST
+    return bool(min(size) > 1 and within and np.abs(middle).max() > _CENTRED)
+
+
+def _scaled(points: Points, size: tuple[int, int]) -> Points:
+    places = points.places * [1.0, *size]
+    places.setflags(write=False)
+    return Points(places=places, confidence=points.confidence)
+
+
+def _points(data: Array, confidence: Array, columns: dict[int, int | None], count: int) -> Points:
+    places = np.full((len(data), count, 3), np.nan)
+    known = np.zeros((len(data), count))
+    for at, column in columns.items():
+        if column is None:
+            continue
+        seen = confidence[:, column] > 0.0
+        known[:, at] = confidence[:, column]
+        places[seen, at, 1] = data[seen, column, 0]
+        places[seen, at, 2] = -data[seen, column, 1]
+        if data.shape[-1] > 2:
+            places[seen, at, 0] = -data[seen, column, 2]
+    depths = places[known > 0.0, 0]
+    if depths.size and np.ptp(depths) == 0.0:
+        places[..., 0] = np.nan  # a depth that never changes was not found
+    for array in (places, known):
+        array.setflags(write=False)
+    return Points(places=places, confidence=known)

@@ -1,0 +1,186 @@
+"""The track of a person from a bag of skeletons."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from rosbags.highlevel import AnyReader
+
+from teo_sign_capture.tracks.body_axes import in_body_axes
+from teo_sign_capture.tracks.skeleton_track import BODY, FACE, HAND, Keypoints, SkeletonTrack
+from teo_signs.errors import LutError
+
+Array = NDArray[np.float64]
+
+TYPE = "teo_sign_msgs/msg/SkeletonArray"
+TRUTH = "/truth/"
+"""Begins the topics in which a renderer says where everything truly was."""
+
+_PARTS = {"body": BODY, "left_hand": HAND, "right_hand": HAND, "face": FACE}
+_EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
+"""Stamps before this count from the start of a clock that knows no day, as in simulation."""
+
+
+RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0
+"""[s] The synthetic signer's takes all begin at this moment of 2023 (`synthetic/take_bag.py`, which loads for
+seconds what draws them), and last no longer: skeletons that were found in its images carry no other sign."""
+
+
+def is_rendered(topics: Iterable[str], begins: float) -> bool:
+    """Whether a program drew what a bag holds, and nobody stood before a camera on any day.
+
+    Args:
+        topics: Of the bag; a renderer's tell the truth about its images.
+        begins: Stamp of its first message [s].
+    """
+    told = any(topic.startswith(TRUTH) for topic in topics)
+    return told or RENDERED_FROM <= begins < RENDERED_FROM + _LONGEST
+
+
+def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = None) -> SkeletonTrack:
+    """Read a person's skeletons, in the axes of the person's trunk.
+
+    Args:
+        bag: A ROS 2 bag: its folder, or its .mcap or .db3 file.
+        topic: Topic of `SkeletonArray`; None takes the bag's only one that is no truth of a renderer, or
+            ``/skeletons`` if there are several.
+        signer: Id of the person; None follows whoever is marked as the signer.
+
+    Raises:
+        LutError: "unreadable_bag", "no_skeletons", "no_person", "no_torso" or "bad_stamps".
+    """
+    stamps: list[float] = []
+    people: list[Any] = []
+    topics: list[str] = []
+    try:
+        with AnyReader([bag]) as reader:
+            topics = [connection.topic for connection in reader.connections]
+            chosen = _topic(reader, bag, topic)
+            connections = [one for one in reader.connections if one.topic == chosen]
+            for connection, _, data in reader.messages(connections=connections):
+                message: Any = reader.deserialize(data, connection.msgtype)
+                stamps.append(message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec)
+                people.append(message.skeletons)
+            if not people:
+                raise LutError("no_skeletons", f"{bag.name}: expected messages on {chosen}, got none")
+    except LutError:
+        raise
+    except Exception as error:  # the library raises what unpacking wrong bytes happens to raise
+        raise LutError(
+            "unreadable_bag",
+            f"expected a whole ROS 2 bag (its folder, or its .mcap file), got {bag} which cannot be read: "
+            f"{type(error).__name__} {error}. Of a bag that was cut off, `ros2 run teo_skeleton_retriever "
+            "retrieve` reads what is left of the images",
+        ) from error
+    recorded = None if is_rendered(topics, stamps[0]) else _day(stamps[0])
+    return track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
+
+
+def track_of_people(
+    stamps: Sequence[float],
+    people: Sequence[Any],
+    *,
+    source: str,
+    signer: int | None = None,
+    recorded: str | None = None,
+) -> SkeletonTrack:
+    """A person's track from messages, wherever they come from.
+
+    Args:
+        stamps: Of each message [s].
+        people: `skeletons` of each `SkeletonArray`.
+        source: Name of where they come from.
+        signer: Id of the person; None follows whoever is marked as the signer.
+        recorded: Day of the recording if it is known.
+
+    Raises:
+        LutError: "no_person", "no_torso", "bad_stamps" or "unreadable_bag".
+    """
+    skeletons = [_person(found, signer) for found in people]
+    if all(skeleton is None for skeleton in skeletons):
+        raise LutError("no_person", _nobody(source, people, signer))
+    parts = {name: _keypoints(skeletons, name, size) for name, size in _PARTS.items()}
+    return in_body_axes(
+        times=np.array(stamps) - stamps[0],
+        body=parts["body"],
+        left_hand=parts["left_hand"],
+        right_hand=parts["right_hand"],
+        face=parts["face"],
+        source=source,
+        recorded=recorded,
+    )
+
+
+def _topic(reader: AnyReader, bag: Path, wanted: str | None) -> str:
+    there = sorted({one.topic for one in reader.connections if one.msgtype == TYPE})
+    if wanted is not None:
+        if wanted in there:
+            return wanted
+        raise LutError(
+            "no_skeletons",
+            f"{bag.name}: expected skeletons on {wanted}, got them on {', '.join(there) or 'no topic'}",
+        )
+    tracked = [topic for topic in there if not topic.startswith(TRUTH)]
+    if len(tracked) == 1:
+        return tracked[0]
+    if "/skeletons" in tracked:
+        return "/skeletons"
+    raise LutError(
+        "no_skeletons",
+        f"{bag.name}: expected one topic of skeletons, got {', '.join(there) or 'none'}: make them from the "
+        "images with `ros2 run teo_skeleton_retriever retrieve`, or name the topic",
+    )
+
+
+def _person(skeletons: Any, signer: int | None) -> Any | None:
+    for skeleton in skeletons:
+        if skeleton.is_signer if signer is None else skeleton.id == signer:
+            return skeleton
+    return None
+
+
+def _nobody(source: str, people: Sequence[Any], signer: int | None) -> str:
+    ids = sorted({skeleton.id for found in people for skeleton in found})
+    where = f"in one of {len(people)} frames"
+    if not ids:
+        return f"{source}: expected a person {where}, got nobody: were head and arms in the picture?"
+    wanted = "a person who is marked as the signer" if signer is None else f"the person with id {signer}"
+    seen = f"the {'id' if len(ids) == 1 else 'ids'} {', '.join(map(str, ids))}"
+    return f"{source}: expected {wanted} {where}, got {seen}: name who signs with --person"
+
+
+def _keypoints(skeletons: list[Any], part: str, size: int) -> Keypoints:
+    frames = len(skeletons)
+    lost = Keypoints.lost(frames, size)
+    positions, sigma, confidence, status = (
+        lost.positions,
+        lost.sigma.copy(),
+        lost.confidence.copy(),
+        lost.status,
+    )
+    for frame, skeleton in enumerate(skeletons):
+        points = [] if skeleton is None else getattr(skeleton, part)
+        if not points:
+            continue
+        if len(points) != size:
+            raise LutError(
+                "unreadable_bag",
+                f"expected {size} keypoints of the {part.replace('_', ' ')} or none, "
+                f"got {len(points)} in frame {frame}",
+            )
+        status[frame] = [point.status for point in points]
+        positions[frame] = [(point.position.x, point.position.y, point.position.z) for point in points]
+        sigma[frame] = np.sqrt(np.mean(np.square([point.sigma for point in points]), axis=1))
+        confidence[frame] = [point.confidence for point in points]
+    positions[(status == 0) | ~np.isfinite(positions).all(axis=2)] = np.nan
+    return Keypoints(positions=positions, sigma=sigma, confidence=confidence, status=status)
+
+
+def _day(stamp: float) -> str | None:
+    moment = datetime.datetime.fromtimestamp(stamp, tz=datetime.UTC)
+    return moment.date().isoformat() if moment >= _EARLIEST else None

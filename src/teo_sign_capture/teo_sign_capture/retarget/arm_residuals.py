@@ -1,0 +1,179 @@
+"""How far arms are from what is wanted of their hands, and how that changes with the joints.
+
+A sum of squares for each frame. What is traded against what follows what carries meaning in a sign: the place
+of the hand, at the body and at the other hand above all; then the way the palm faces; then the way the
+fingers point. The elbow where a person has it and an easy arm choose among what is equal in these.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import RIGHT_ARM
+from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, WRIST, ArmChain, ArmPoses
+from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
+from teo_sign_capture.signing_space.hand_points import MIRROR
+
+Array = NDArray[np.float64]
+Goals = TypeVar("Goals", HandGoals, PairGoals)
+
+JOINTS = len(RIGHT_ARM)
+
+_IN_AIR = np.array([1.5, 3.0, 3.0])
+"""[rad/m] 10 cm beside its place in the air count as much as a palm turned by 29 deg; forwards, along the
+line of sight of whom is signed to, less than half of it. TEO's elbow keeps its hand 46 cm off its shoulder,
+where a person signs at 30: what is too near goes forwards rather than aside or turned."""
+_ON_BODY, _TOGETHER = 12.0, 12.0
+"""[rad/m] A contact is kept to a centimetre or two before the palm is."""
+_PALM, _FINGERS = 1.0, 0.7
+_UPPER_ARM, _FORE_ARM = 0.15, 0.4
+"""An arm that goes where a person's does: a forearm that lies across where a person's stands up costs as much
+as a palm turned by 33 deg."""
+_POSTURE = np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25])
+"""Pull towards an easy arm: moves a reachable hand by less than 1 deg. The wrist bends to the side, which a
+person's hardly does: 60 deg of it cost as much as a palm turned by 15 deg."""
+EASY = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
+
+
+class Quadratic(NamedTuple):
+    """A sum of squares about the positions at which it was worked out, n frames of m joints.
+
+    Attributes:
+        cost: Half the sum. Shape (n,).
+        gradient: Shape (n, m).
+        curvature: Gauss and Newton's. Shape (n, m, m).
+        coupling: The same of each frame's joints with the next frame's, shape (n, m, m), the last of no
+            meaning; None if frames have nothing to do with each other.
+    """
+
+    cost: Array
+    gradient: Array
+    curvature: Array
+    coupling: Array | None = None
+
+
+class ArmProblem:
+    """One arm, or two, over a motion; a left arm is seen as a right one in a mirror."""
+
+    def __init__(self, chain: ArmChain, hands: tuple[HandGoals, ...], pair: PairGoals | None) -> None:
+        """State it.
+
+        Args:
+            chain: The arm.
+            hands: What is wanted of each hand; the right one first if there are two.
+            pair: What is wanted of two hands together; None if one takes part, or nothing is.
+        """
+        self._chain = chain
+        self._hands = hands
+        self._pair = pair
+
+    def between(self, part: slice) -> ArmProblem:
+        """What is wanted in some frames one after the other."""
+        pair = None if self._pair is None else _cut(self._pair, part)
+        return ArmProblem(self._chain, tuple(_cut(goals, part) for goals in self._hands), pair)
+
+    def opened(self, amount: Array) -> ArmProblem:
+        """The same with hands away from everything, each on the side of the other on which it belongs.
+
+        Hands that are near each other go apart along the way on which the person's are, the one in front
+        forwards; others go forwards, off the body.
+
+        Args:
+            amount: How far from each other, or from the body, in each frame [m]. Shape (T,).
+        """
+        order = np.zeros((len(amount), 3)) if self._pair is None else self._pair.order
+        ahead = 1.0 - np.linalg.norm(order, axis=1) + 0.5 * np.abs(order[:, 0])
+        forwards = amount[:, None] * ahead[:, None] * (1.0, 0.0, 0.0)
+        aside = 0.5 * amount[:, None] * order
+        shifts = (forwards + aside, (forwards - aside) * MIRROR)
+        hands = tuple(
+            replace(goals, place=goals.place + shift)
+            for goals, shift in zip(self._hands, shifts, strict=False)
+        )
+        return ArmProblem(self._chain, hands, None)
+
+    def of_hand(self, hand: int, positions: Array, frames: NDArray[np.intp]) -> Quadratic:
+        """One arm by itself, at any positions [rad], shape (n, 6), each for one of the frames, shape (n,)."""
+        poses = self._chain.poses(positions)
+        return self._single(self._hands[hand], frames, poses, positions)
+
+    def whole(self, positions: Array) -> Quadratic:
+        """All arms over all frames. Shape (T, 6 or 12) [rad]."""
+        frames = np.arange(len(positions))
+        arms = [positions[:, at : at + JOINTS] for at in range(0, positions.shape[1], JOINTS)]
+        poses = [self._chain.poses(arm) for arm in arms]
+        singles = [
+            self._single(goals, frames, pose, arm)
+            for goals, pose, arm in zip(self._hands, poses, arms, strict=True)
+        ]
+        if len(singles) == 1:
+            return singles[0]
+        count, size = positions.shape
+        gradient, curvature = np.zeros((count, size)), np.zeros((count, size, size))
+        for at, single in enumerate(singles):
+            own = slice(JOINTS * at, JOINTS * (at + 1))
+            gradient[:, own], curvature[:, own, own] = single.gradient, single.curvature
+        cost = singles[0].cost + singles[1].cost
+        if self._pair is None:
+            return Quadratic(cost, gradient, curvature)
+        right, left = poses[0].points(self._pair.right), poses[1].points(self._pair.left)
+        weight = _TOGETHER * self._pair.nearness[:, None]
+        away = weight * (right - left * MIRROR - self._pair.way)
+        slope = np.concatenate(
+            [poses[0].point_jacobian(right), -MIRROR[:, None] * poses[1].point_jacobian(left)], axis=2
+        )
+        slope *= weight[..., None]
+        turned = slope.transpose(0, 2, 1)
+        return Quadratic(
+            cost + 0.5 * (away**2).sum(axis=1),
+            gradient + (turned @ away[..., None])[..., 0],
+            curvature + turned @ slope,
+        )
+
+    def _single(
+        self, goals: HandGoals, frames: NDArray[np.intp], poses: ArmPoses, positions: Array
+    ) -> Quadratic:
+        points = poses.points(goals.local[frames])
+        palm, fingers = poses.rotation[:, :, 2], poses.rotation[:, :, 0]
+        upper_arm = _unit(poses.origins[:, ELBOW] - self._chain.shoulder)
+        fore_arm = _unit(poses.origins[:, WRIST] - poses.origins[:, ELBOW])
+        at_place = _IN_AIR + (_ON_BODY - _IN_AIR) * goals.contact[frames, None]
+        residuals = np.concatenate(
+            [
+                at_place * (points - goals.place[frames]),
+                _PALM * (palm - goals.palm[frames]),
+                _FINGERS * (fingers - goals.fingers[frames]),
+                _UPPER_ARM * (upper_arm - goals.upper_arm[frames]),
+                _FORE_ARM * (fore_arm - goals.fore_arm[frames]),
+                _POSTURE * (positions - EASY),
+            ],
+            axis=1,
+        )
+        slopes = np.concatenate(
+            [
+                at_place[..., None] * poses.point_jacobian(points),
+                _PALM * poses.direction_jacobian(palm),
+                _FINGERS * poses.direction_jacobian(fingers),
+                _UPPER_ARM * poses.direction_jacobian(upper_arm) * (np.arange(JOINTS) < ELBOW),
+                _FORE_ARM * poses.direction_jacobian(fore_arm) * (np.arange(JOINTS) < WRIST - 1),
+                np.broadcast_to(np.diag(_POSTURE), (len(positions), JOINTS, JOINTS)),
+            ],
+            axis=1,
+        )
+        turned = slopes.transpose(0, 2, 1)
+        return Quadratic(
+            0.5 * (residuals**2).sum(axis=1), (turned @ residuals[..., None])[..., 0], turned @ slopes
+        )
+
+
+def _cut(goals: Goals, part: slice) -> Goals:
+    return replace(goals, **{field.name: getattr(goals, field.name)[part] for field in fields(goals)})
+
+
+def _unit(vectors: Array) -> Array:
+    units: Array = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return units

@@ -1,0 +1,246 @@
+"""The motion of the arms as one whole.
+
+First each arm is sought by itself, in every third frame, from eight starts at once (the search has that many
+valleys), and of what is found the cheapest way through time is taken (Viterbi). Then all frames and both arms
+are solved together, with a price on speed that ties the frames to each other, by Newton's method projected
+onto the bounds (Bertsekas, SIAM J. Control 1982) with Gauss and Newton's curvature: a frame's joints are
+coupled only to the next frame's, so that a step costs one banded Cholesky decomposition.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solveh_banded
+
+from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, Quadratic
+from teo_sign_capture.retarget.collision_terms import Touches
+from teo_sign_capture.viterbi import cheapest_way
+
+Array = NDArray[np.float64]
+Bounds = tuple[Array, Array]
+
+# Into the valleys: easy, spelling, hand at the chest, elbow out, palm up, forearm across, hand at the head,
+# hanging [deg].
+_STARTS = np.radians(
+    [
+        [-45.0, -12.0, 10.0, -80.0, 20.0, 0.0],
+        [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],
+        [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],
+        [-42.0, -74.0, 50.0, -95.0, 20.0, -20.0],
+        [-30.0, -10.0, -20.0, -80.0, 70.0, 10.0],
+        [-55.0, -5.0, 52.0, -95.0, -56.0, 7.0],
+        [-90.0, -20.0, 30.0, -95.0, 60.0, -30.0],
+        [0.0, -5.0, 0.0, -15.0, 0.0, 0.0],
+    ]
+)
+_EVERY = 0.1
+"""[s] From one frame to the next that is sought from all starts: valleys change slower than hands move."""
+_SEARCH_STEPS = 12
+_JUMP = 0.5
+"""[1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
+much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it."""
+_SPREAD = 0.15
+"""[s] A way from valley to valley begins and ends so much before and after in all."""
+_SPEED = 0.04
+"""[s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
+this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
+hardly matters it smooths more."""
+SWIFT = np.radians(450.0)
+"""[rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which
+is 15 deg from one of 30 images a second to the next."""
+HASTE = 20.0
+"""[1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
+70 deg, so that an arm that changes the valley takes some frames for it."""
+_STEPS, _ENOUGH = 40, 1e-4
+"""The search ends after so many steps, or when no joint moves by this any more [rad]."""
+_STEPS_OFF, _ENOUGH_OFF = 20, 3e-4
+"""The same with touches, which are measured anew after it: their slopes are wrong by more."""
+_DAMPING = 1e-4
+"""At least this is added to the curvature, so that a step exists where a joint has no say."""
+_MOST_DAMPING = 1e6
+"""Ten times what the price of touches bends the sum by: where no smaller step helps, none does."""
+TRUSTED = np.radians(12.0)
+"""[rad] How far from where a distance was measured its slope is believed."""
+_ON_BOUND = 1e-9
+
+
+def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:
+    """Find the joints of one arm or two over a motion, as if nothing could touch.
+
+    Args:
+        problem: What is wanted.
+        times: [s]. Shape (T,).
+        bounds: Lower and upper bounds of each arm [rad]. Shapes (6,).
+
+    Returns:
+        Shape (T, 6 or 12) [rad].
+    """
+    frames = _sought(times)
+    arms = []
+    for hand, arm_bounds in enumerate(bounds):
+        found, cost = _valleys(problem, hand, frames, arm_bounds)
+        farthest = SWIFT * (np.diff(times[frames]) + _SPREAD)
+        lasting = np.gradient(times[frames]) / _EVERY if len(frames) > 1 else np.ones(1)
+        path = cheapest_way(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=HASTE)
+        arms.append(np.stack([np.interp(times, times[frames], joint) for joint in path.T], axis=1))
+    return refine_arms(problem, times, bounds, np.concatenate(arms, axis=1))
+
+
+def _sought(times: Array) -> NDArray[np.intp]:
+    """Frames that are sought from all starts, the first and the last among them."""
+    steps = np.arange(0.0, times[-1] - times[0], _EVERY)
+    found: NDArray[np.intp] = np.unique(np.append(np.searchsorted(times - times[0], steps), len(times) - 1))
+    return found
+
+
+def refine_arms(
+    problem: ArmProblem,
+    times: Array,
+    bounds: list[Bounds],
+    start: Array,
+    *,
+    touches: Touches | None = None,
+    shares: Array | None = None,
+    trusted: float | Array = TRUSTED,
+    held: NDArray[np.bool_] | None = None,
+) -> Array:
+    """Find the joints nearest to a motion at which what is wanted, speed and touches cost least.
+
+    Args:
+        problem: What is wanted.
+        times: [s]. Shape (T,).
+        bounds: Of each arm [rad]. Shapes (6,).
+        start: Shape (T, 6 or 12) [rad].
+        touches: What must not touch; None if nothing can.
+        shares: What is wanted counts by so much in each frame, 0 to 1; None if it counts in full. Shape (T,).
+        trusted: With touches, how far from the start each joint may go [rad]; one for all, or shape (T, 1).
+        held: Frames that stay as they are; None if all may move. Shape (T,).
+    """
+    lower, upper = (np.concatenate([arm[end] for arm in bounds]) for end in (0, 1))
+    if touches is not None:
+        lower, upper = np.maximum(lower, start - trusted), np.minimum(upper, start + trusted)
+    if held is not None:
+        lower, upper = (np.where(held[:, None], start, end) for end in (lower, upper))
+    ties, farthest = _ties(times), _farthest(times)
+
+    def worth(positions: Array) -> tuple[Quadratic, float]:
+        here = problem.whole(positions)
+        if shares is not None:
+            here = Quadratic(
+                here.cost * shares, here.gradient * shares[:, None], here.curvature * shares[:, None, None]
+            )
+        if touches is not None:
+            here = touches.added(here, positions)
+        steps = np.diff(positions, axis=0)
+        hasty = np.maximum(np.abs(steps) - farthest, 0.0)
+        speed = 0.5 * float((ties * steps**2 + HASTE * hasty**2).sum())
+        return here, float(here.cost.sum()) + speed
+
+    positions = np.clip(start, lower, upper)
+    here, cost = worth(positions)
+    damping = _DAMPING
+    steps, enough = (_STEPS, _ENOUGH) if touches is None else (_STEPS_OFF, _ENOUGH_OFF)
+    for _ in range(steps):
+        step = _newton_step(here, positions, ties, farthest, lower, upper, damping)
+        moved = np.clip(positions + step, lower, upper)
+        there, lower_cost = worth(moved)
+        if lower_cost > cost:
+            damping *= 10.0
+            if damping > _MOST_DAMPING:
+                break
+            continue
+        way = float(np.abs(moved - positions).max())
+        positions, here, cost = moved, there, lower_cost
+        damping = max(damping * 0.3, _DAMPING)
+        if way < enough:
+            break
+    return positions
+
+
+def _ties(times: Array) -> Array:
+    """Price of the square of each step from frame to frame [1/rad^2]. Shape (T - 1, 1)."""
+    if len(times) < 2:
+        return np.empty((0, 1))
+    steps = np.diff(times)[:, None]
+    ties: Array = _SPEED**2 / (steps * np.median(steps))
+    return ties
+
+
+def _farthest(times: Array) -> Array:
+    """How far a joint turns from frame to frame without haste [rad]. Shape (T - 1, 1)."""
+    steps: Array = SWIFT * np.diff(times)[:, None]
+    return steps
+
+
+def _newton_step(
+    here: Quadratic,
+    positions: Array,
+    ties: Array,
+    farthest: Array,
+    lower: Array,
+    upper: Array,
+    damping: float,
+) -> Array:
+    count, size = positions.shape
+    gradient = here.gradient.copy()
+    steps = np.diff(positions, axis=0)
+    hasty = np.abs(steps) > farthest
+    pull = ties * steps + HASTE * hasty * (steps - np.sign(steps) * farthest)
+    ties = ties + HASTE * hasty
+    gradient[:-1] -= pull
+    gradient[1:] += pull
+    held = ((positions <= lower + _ON_BOUND) & (gradient > 0.0)) | (
+        (positions >= upper - _ON_BOUND) & (gradient < 0.0)
+    )
+    free = ~held
+    curvature = here.curvature * (free[:, :, None] & free[:, None])
+    diagonal = np.full((count, size), damping)
+    diagonal[:-1] += ties
+    diagonal[1:] += ties
+    curvature[:, np.arange(size), np.arange(size)] += np.where(free, diagonal, 1.0)
+    # Upper form of a symmetric band matrix: row `width - k` holds what is k columns right of the diagonal.
+    width = size if here.coupling is None else 2 * size - 1
+    band = np.zeros((width + 1, count * size))
+    for row in range(size):
+        for column in range(row, size):
+            band[width - (column - row), column::size] = curvature[:, row, column]
+    if here.coupling is not None:
+        coupling = here.coupling[:-1] * (free[:-1, :, None] & free[1:, None])
+        for row in range(size):
+            for column in range(size):
+                band[width - (size + column - row), size + column :: size] = coupling[:, row, column]
+    if count > 1:
+        band[width - size, size:] -= np.where(free[:-1] & free[1:], ties, 0.0).ravel()
+    step: Array = solveh_banded(band, np.where(free, -gradient, 0.0).ravel(), check_finite=False)
+    return step.reshape(count, size)
+
+
+def _valleys(problem: ArmProblem, hand: int, frames: NDArray[np.intp], bounds: Bounds) -> tuple[Array, Array]:
+    """Where the search ends for each frame from each start, and what it costs there. (n, s, 6) and (n, s)."""
+    lower, upper = bounds
+    count, starts = len(frames), len(_STARTS)
+    where = np.repeat(frames, starts)
+    positions = np.clip(np.tile(_STARTS, (count, 1)), lower, upper)
+    here = problem.of_hand(hand, positions, where)
+    damping = np.full(len(positions), 1e-2)
+    every = np.arange(JOINTS)
+    for _ in range(_SEARCH_STEPS):
+        free = ~(
+            ((positions <= lower + _ON_BOUND) & (here.gradient > 0.0))
+            | ((positions >= upper - _ON_BOUND) & (here.gradient < 0.0))
+        )
+        curvature = here.curvature * (free[:, :, None] & free[:, None])
+        curvature[:, every, every] += np.where(free, damping[:, None], 1.0)
+        step = np.linalg.solve(curvature, np.where(free, -here.gradient, 0.0)[..., None])[..., 0]
+        moved = np.clip(positions + step, lower, upper)
+        there = problem.of_hand(hand, moved, where)
+        better = there.cost < here.cost
+        positions = np.where(better[:, None], moved, positions)
+        here = Quadratic(
+            np.where(better, there.cost, here.cost),
+            np.where(better[:, None], there.gradient, here.gradient),
+            np.where(better[:, None, None], there.curvature, here.curvature),
+        )
+        damping = np.where(better, damping * 0.3, damping * 8.0)
+    return positions.reshape(count, starts, JOINTS), here.cost.reshape(count, starts)

@@ -1,0 +1,157 @@
+"""Where on TEO a place at a person's body is.
+
+Away from the body heights and distances are mapped axis by axis (`far_map`). At the body this is bent so that
+each place of articulation comes to lie on TEO's own (`score.places`): a chin is a chin. What is between is
+interpolated smoothly, and the bend fades away from the body within a forearm's length.
+
+At the head all this is done in the head's own axes: a hand at the chin stays there while the head turns.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import NDArray
+
+from teo_description import urdf_text
+from teo_description.robot import Robot
+from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
+from teo_sign_capture.retarget.head_motion import HeadMotion
+from teo_sign_capture.retarget.workspace_scaling import FarMap
+from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.tracks.person import Person
+
+Array = NDArray[np.float64]
+Box = tuple[Array, Array]
+"""Middle and half sides [m]."""
+
+_REACH = 0.12
+"""[m] Length over which the bend fades, on a person whose trunk is `_TRUNK` long: a contact is felt about a
+hand's width off the skin; wider, and the places of the face would pull at what is signed before the chest."""
+_TRUNK = 0.48
+_GIVE = 0.02
+"""How far, as a share, places that are next to each other may give way to each other: without it two places
+that TEO has nearer together than a person fold the space before them."""
+_HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
+"""[m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person."""
+
+# Names in `score.places` of a person's places; those aside stand for both sides.
+_MIDDLE = {
+    name: name
+    for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
+}
+_ASIDE = {"eye": "eye", "ear": "ear", "shoulder": "shoulder", "chest_aside": "other_chest"}
+_BODY_LINKS = ("FrontalTrunk_link", "FrontalNeck_link")
+
+
+class BodyMap:
+    """The map from one person's body to TEO's, head and trunk of TEO at home.
+
+    Attributes:
+        scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
+    """
+
+    def __init__(self, robot: Robot, arm: ArmChain, person: Person) -> None:
+        reach, shoulder = arm.reach, -float(arm.shoulder[1])
+        self._origin = arm.shoulder * (1.0, 0.0, 1.0)
+        self._far_map = FarMap(person, reach, shoulder, float(arm.shoulder[2]))
+        self.scale: Array = self._far_map.scale
+        self._size = person.trunk / _TRUNK
+        self._boxes = body_boxes(robot)
+        self._centres, wanted = self._pairs(person)
+        bends = wanted - self._far(self._centres)
+        near = self._nearness(self._centres) + _GIVE * np.eye(len(bends))
+        self._weights = np.linalg.solve(near, bends)
+        self._head = person.head
+
+    def place(self, points: Array) -> Array:
+        """Where points at the person's body are on TEO, both heads straight [m]. Shapes (..., 3)."""
+        flat = points.reshape(-1, 3)
+        placed: Array = self._far(flat) + self._nearness(flat) @ self._weights
+        return placed.reshape(points.shape)
+
+    def place_with_head(self, points: Array, head: HeadMotion) -> Array:
+        """The same while both heads move. Shapes (T, k, 3) [m]."""
+        share = self._head_share(points, head)[..., None]
+        straight = np.einsum("tij,tki->tkj", head.turns, points - head.places[:, None]) + self._head
+        placed = self.place(points + share * (straight - points))
+        turned = np.einsum("tij,tkj->tki", head.robot_turns, placed - head.pivot) + head.pivot
+        moved: Array = placed + share * (turned - placed)
+        return moved
+
+    def distance(self, points: Array, head: HeadMotion) -> Array:
+        """How far the places that TEO has for points are from TEO's trunk and head [m]. (T, k, 3), (T, k)."""
+        share = self._head_share(points, head)[..., None]
+        straight = np.einsum("tij,tki->tkj", head.turns, points - head.places[:, None]) + self._head
+        placed = self.place(points + share * (straight - points))
+        away = [
+            np.linalg.norm(np.maximum(np.abs(placed - middle) - half, 0.0), axis=-1)
+            for middle, half in self._boxes
+        ]
+        nearest: Array = np.min(away, axis=0)
+        return nearest
+
+    def _head_share(self, points: Array, head: HeadMotion) -> Array:
+        """By how much points go with the head, 0 to 1. Shape (T, k)."""
+        away = np.linalg.norm(points - head.places[:, None], axis=-1) / self._size
+        return smooth_step((_HEAD_LEFT - away) / (_HEAD_LEFT - _HEAD_HELD))
+
+    def _far(self, points: Array) -> Array:
+        moved: Array = self._origin + self._far_map(points)
+        return moved
+
+    def _nearness(self, points: Array) -> Array:
+        """How much a bend at each of the places is felt at points: Matern's kernel of order 3/2."""
+        away = np.linalg.norm(points[:, None] - self._centres, axis=-1) * (
+            np.sqrt(3.0) / (_REACH * self._size)
+        )
+        felt: Array = (1.0 + away) * np.exp(-away)
+        return felt
+
+    def _pairs(self, person: Person) -> tuple[Array, Array]:
+        """Places on the person, and the same on TEO. Shapes (k, 3)."""
+        mirror = np.array([1.0, -1.0, 1.0])
+        ours, theirs = [], []
+        for name, place in _MIDDLE.items():
+            ours.append(person.places[name])
+            theirs.append(on_skin(self._boxes, place) * (1.0, 0.0, 1.0))
+        for name, place in _ASIDE.items():
+            right = on_skin(self._boxes, place)
+            right[1] = -abs(right[1])
+            for side in (np.ones(3), mirror):
+                ours.append(person.places[name] * side)
+                theirs.append(right * side)
+        return np.array(ours), np.array(theirs)
+
+
+def on_skin(boxes: list[Box], name: str) -> Array:
+    """A place of `score.places`, moved out of the shapes that count in a collision [m]. Shape (3,)."""
+    place = find_place(name)
+    out = place.outward
+    leaving = [0.0]
+    for middle, half in boxes:
+        inside = place.point - middle
+        if (np.abs(inside) < half).all():
+            with np.errstate(divide="ignore"):
+                leaving.append(float(np.min((half - np.sign(out) * inside) / np.abs(out))))
+    return np.asarray(place.point + max(leaving) * out)
+
+
+def smooth_step(share: Array) -> Array:
+    """0 below 0, 1 above 1, and smooth between."""
+    inside = np.clip(share, 0.0, 1.0)
+    step: Array = inside * inside * (3.0 - 2.0 * inside)
+    return step
+
+
+def body_boxes(robot: Robot) -> list[Box]:
+    """Middles and half sides of the boxes of trunk and head, at home [m]."""
+    geometry = pin.buildGeomFromUrdfString(robot.model, urdf_text(), pin.GeometryType.COLLISION)
+    found = []
+    for item in geometry.geometryObjects:
+        link = robot.model.frames[item.parentFrame].name
+        if link in _BODY_LINKS and hasattr(item.geometry, "halfSide"):
+            local = item.placement.translation - robot.model.frames[item.parentFrame].placement.translation
+            home = robot.placement(robot.configuration({}), link)
+            found.append((home[:3, :3] @ local + home[:3, 3], np.asarray(item.geometry.halfSide)))
+    return found

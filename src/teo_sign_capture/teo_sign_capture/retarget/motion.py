@@ -1,0 +1,191 @@
+"""A person's motion as a motion of TEO."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
+from teo_description.hand_table import dextra_table
+from teo_description.robot import Robot
+from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
+from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
+from teo_sign_capture.retarget.arm_trajectory import solve_arms
+from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
+from teo_sign_capture.retarget.body_map import BodyMap
+from teo_sign_capture.retarget.collision_clearing import clear_arms
+from teo_sign_capture.retarget.collision_terms import WholeRobot
+from teo_sign_capture.retarget.hand_flexion import HandMotion, follow_hand
+from teo_sign_capture.retarget.hand_goals import HandGoals, hand_goals, pair_goals
+from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
+from teo_sign_capture.signing_space.hand_points import MIRROR, teo_hand_points
+from teo_sign_capture.tracks.body_axes import filled
+from teo_sign_capture.tracks.head_pose import head_pose
+from teo_sign_capture.tracks.person import Person, measure_person
+from teo_sign_capture.tracks.skeleton_track import ELBOW, HAND, SHOULDER, WRIST, SkeletonTrack
+from teo_signs.errors import LutError
+from teo_signs.sign_schema import Handedness
+
+Array = NDArray[np.float64]
+
+_SIDES: dict[Handedness, tuple[str, ...]] = {
+    "right": ("right",),
+    "left": ("left",),
+    "both": ("right", "left"),
+}
+_COLUMN = {"right": 0, "left": 1}
+_JOINTS = {"right": RIGHT_ARM + RIGHT_HAND, "left": LEFT_ARM + LEFT_HAND}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RobotMotion:
+    """TEO doing what a person did, frame by frame, and how far it falls short.
+
+    The errors of the hands are of shape (T, 2), right and left; NaN where that hand takes no part.
+
+    Attributes:
+        times: [s]. Shape (T,).
+        joints: The m joints that take part: arm and hand of each side that signs; head, trunk if they move.
+        positions: Within the limits, clear of the robot's own body [rad]. Shape (T, m).
+        place_error: Distance of the hand from where the person's hand belongs on TEO [m].
+        palm_error: Angle between the ways the palms face [rad].
+        finger_error: Angle between the ways from wrist to knuckles [rad].
+        flexion_error: Mean over the four fingers of the difference of bends, of one joint's share [rad].
+        head_error: Angle by which the head falls short of the person's. Shape (T,) [rad].
+        trunk_error: The same of the trunk. Shape (T,) [rad].
+        clearance: Smallest distance between parts of the robot. Shape (T,) [m].
+    """
+
+    times: Array
+    joints: tuple[str, ...]
+    positions: Array
+    place_error: Array
+    palm_error: Array
+    finger_error: Array
+    flexion_error: Array
+    head_error: Array
+    trunk_error: Array
+    clearance: Array
+
+
+def retarget_motion(
+    robot: Robot, track: SkeletonTrack, *, handedness: Handedness, person: Person | None = None
+) -> RobotMotion:
+    """Bring a person's motion onto TEO.
+
+    Args:
+        robot: The robot.
+        track: The person; smoothed, as what trembles in it trembles in TEO.
+        handedness: The hands that take part.
+        person: The person's measures, best from a whole recording of which the track is a part; measured on
+            the track itself without.
+
+    Raises:
+        LutError: "no_arm" or "no_hand" if what is needed was never seen, "self_collision" if TEO cannot take
+            a posture without touching itself.
+    """
+    sides = _SIDES[handedness]
+    chain, table = ArmChain(robot), dextra_table(robot)
+    hands = {side: _hand(track, side) for side in sides}
+    person = person or measure_person(track)
+    head = follow_head(robot, head_pose(track, person.head_shape), person)
+    trunk = follow_trunk(np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk)
+    body = BodyMap(robot, chain, person)
+    shapes = {
+        side: follow_hand(table, track.times, hand if side == "right" else hand * MIRROR, person.straight)
+        for side, hand in hands.items()
+    }
+    points = {side: teo_hand_points(table, shape.axes) for side, shape in shapes.items()}
+    limbs = {side: _arm(track, side) for side in sides}
+    goals = tuple(hand_goals(body, head, side, hands[side], limbs[side], points[side]) for side in sides)
+    pair = None
+    if handedness == "both":
+        both = ((of["right"], of["left"]) for of in (hands, limbs, points))
+        pair = pair_goals(body, track.times, *both)
+    problem = ArmProblem(chain, goals, pair)
+    bounds = [arm_bounds(side) for side in sides]
+    others: dict[str, Array] = {}
+    if head.moves:
+        others |= dict(zip(HEAD, head.axes.T, strict=True))
+    if trunk.moves:
+        others |= dict(zip(TRUNK, trunk.axes.T, strict=True))
+    whole = WholeRobot(robot, chain, sides, tuple(shapes[side].axes for side in sides), others)
+    arms = solve_arms(problem, track.times, bounds)
+    arms, clearance = clear_arms(problem, whole, track, bounds, arms)
+    joints = tuple(joint for side in sides for joint in _JOINTS[side]) + tuple(others)
+    parts = [_limb(side, arms[:, at : at + JOINTS], shapes[side]) for at, side in _starts(sides)]
+    place, palm, fingers, flexion = _errors(chain, sides, goals, shapes, arms)
+    return RobotMotion(
+        times=track.times,
+        joints=joints,
+        positions=np.concatenate([*parts, *(values[:, None] for values in others.values())], axis=1),
+        place_error=place,
+        palm_error=palm,
+        finger_error=fingers,
+        flexion_error=flexion,
+        head_error=head.error,
+        trunk_error=trunk.error,
+        clearance=clearance,
+    )
+
+
+def _hand(track: SkeletonTrack, side: str) -> Array:
+    """A hand's keypoints, gaps filled. Shape (T, 21, 3)."""
+    hand = track.hand(side).positions
+    seen = np.isfinite(hand).all(axis=2).any(axis=0)
+    if not seen.all():
+        raise LutError(
+            "no_hand",
+            f"{track.source}: expected a {side} hand with its {HAND} keypoints, got {seen.sum()} of them in "
+            f"{len(hand)} frames: was it in the picture?",
+        )
+    return np.stack([filled(track.times, keypoint) for keypoint in hand.transpose(1, 0, 2)], axis=1)
+
+
+def _arm(track: SkeletonTrack, side: str) -> Array:
+    """Shoulder, elbow and wrist, gaps filled. Shape (T, 3, 3)."""
+    joints = track.body.positions[:, (SHOULDER[side], ELBOW[side], WRIST[side])]
+    flat = joints.reshape(len(joints), -1)
+    if not np.isfinite(flat).all(axis=1).any():
+        raise LutError(
+            "no_arm",
+            f"{track.source}: expected a {side} arm with its shoulder, elbow and wrist, got none in "
+            f"{len(joints)} frames: was it in the picture?",
+        )
+    return filled(track.times, flat).reshape(joints.shape)
+
+
+def _starts(sides: tuple[str, ...]) -> list[tuple[int, str]]:
+    return [(JOINTS * index, side) for index, side in enumerate(sides)]
+
+
+def _limb(side: str, arm: Array, hand: HandMotion) -> Array:
+    if side == "left":
+        arm = np.stack([mirrored(row) for row in arm])
+    return np.concatenate([arm, hand.axes], axis=1)
+
+
+def _errors(
+    chain: ArmChain,
+    sides: tuple[str, ...],
+    goals: tuple[HandGoals, ...],
+    shapes: dict[str, HandMotion],
+    arms: Array,
+) -> tuple[Array, Array, Array, Array]:
+    place, palm, fingers, flexion = (np.full((len(arms), 2), np.nan) for _ in range(4))
+    for (at, side), wanted in zip(_starts(sides), goals, strict=True):
+        column = _COLUMN[side]
+        poses = chain.poses(arms[:, at : at + JOINTS])
+        place[:, column] = np.linalg.norm(poses.points(wanted.local) - wanted.place, axis=1)
+        palm[:, column] = _angle(poses.rotation[:, :, 2], wanted.palm)
+        fingers[:, column] = _angle(poses.rotation[:, :, 0], wanted.fingers)
+        flexion[:, column] = shapes[side].error
+    return place, palm, fingers, flexion
+
+
+def _angle(first: Array, second: Array) -> Array:
+    """Angles between unit vectors [rad]. Shapes (n, 3) and (n,)."""
+    angles: Array = 2.0 * np.arcsin(np.clip(np.linalg.norm(first - second, axis=1) / 2.0, 0.0, 1.0))
+    return angles

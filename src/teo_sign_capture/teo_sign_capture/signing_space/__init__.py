@@ -1,0 +1,1 @@
+"""Directions in words, places of articulation, points of a hand that meet them."""

@@ -1,0 +1,1 @@
+"""A person's keypoints over time: axes, smoothing, cutting, body, hands, head."""

@@ -1,0 +1,66 @@
+"""How a person's fingers are bent, joint by joint."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sign_capture.signing_space.hand_points import KNUCKLES, WRIST
+from teo_sign_capture.tracks.hand_model import palm_axes
+
+Array = NDArray[np.float64]
+
+_STRAIGHT = np.radians([5.0, 8.0, 5.0])
+"""[rad] What knuckle, middle and last joint seem bent by in a straight finger, where the signer shows none:
+joint centres do not lie on a line. Means over the synthetic signer's flat hands."""
+_SEEN_STRAIGHT = np.radians(20.0)
+"""[rad] A joint that is never less bent than this has not been seen straight."""
+_STRAIGHTEST = 5.0
+"""[%] Of the frames a finger is taken for straight in, if it ever is."""
+
+
+def in_palm(hand: Array) -> Array:
+    """Keypoints of right hands from the wrist, in palm axes [m]. Shapes (T, 21, 3)."""
+    local: Array = np.einsum("tij,tki->tkj", palm_axes(hand), hand - hand[:, WRIST, None])
+    return local
+
+
+def finger_bends(local: Array) -> Array:
+    """Bends of knuckle, middle and last joint of index ... little finger [rad].
+
+    Args:
+        local: The 21 keypoints in palm axes. Shape (T, 21, 3).
+
+    Returns:
+        Shape (T, 4, 3).
+    """
+    bends = np.empty((len(local), 4, 3))
+    for finger, knuckle in enumerate(KNUCKLES):
+        bones = np.diff(local[:, knuckle : knuckle + 4], axis=1)
+        bends[:, finger, 0] = np.arctan2(bones[:, 0, 2], bones[:, 0, 0])
+        for joint in (1, 2):
+            sine = np.linalg.norm(np.cross(bones[:, joint - 1], bones[:, joint]), axis=1)
+            bends[:, finger, joint] = np.arctan2(sine, (bones[:, joint - 1] * bones[:, joint]).sum(axis=1))
+    # A knuckle bent beyond 90 deg and more turns round through pi.
+    bends[..., 0] = np.where(bends[..., 0] < -np.pi / 2.0, bends[..., 0] + 2.0 * np.pi, bends[..., 0])
+    return bends
+
+
+def straight_bends(hands: Array) -> Array:
+    """What the joints of a signer's fingers seem bent by while the fingers are straight.
+
+    Args:
+        hands: 21 keypoints of right hands, left ones in a mirror, in any number of frames; NaN where lost
+            [m]. Shape (T, 21, 3).
+
+    Returns:
+        Of knuckle, middle and last joint of index ... little finger; of a joint that is never seen straight
+        what is usual [rad]. Shape (4, 3).
+    """
+    seen = hands[np.isfinite(hands).all(axis=(1, 2))]
+    if not len(seen):
+        return np.tile(_STRAIGHT, (4, 1))
+    least = np.percentile(finger_bends(in_palm(seen)), _STRAIGHTEST, axis=0)
+    # A knuckle that bends backwards is straight before it does.
+    straight: Array = np.where(least < _SEEN_STRAIGHT, np.maximum(least, 0.0), _STRAIGHT)
+    return straight

@@ -1,0 +1,287 @@
+"""Where in a recording the signs are: hands leave rest and return; what lies between is a sign.
+
+A sign is prepared by a way up and followed by a way down (Kita, van Gijn and van der Hulst 1998); an entry
+holds the stroke between both, as the planner makes its own ways. The way up ends where the hands first slow
+down clearly, the way down begins where they last do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_sign_capture.tracks.smoothing import runs, seen
+from teo_signs.errors import LutError
+from teo_signs.sign_schema import Handedness
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+_ARMS = {"right": (2, 3, 4), "left": (5, 6, 7)}
+"""Shoulder, elbow and wrist in BODY_25."""
+_REACH = 0.52
+"""[m] Shoulder to wrist of an adult, where the arm's own length is not seen."""
+
+# Lengths below are in reaches.
+_LOW = 0.6
+"""Hands rest lower than this below the shoulders: in the lap, folded before the belly, hanging. The space in
+which people sign ends at the waist."""
+_REST_BAND = 0.25
+"""Rest is no higher than this above the lowest place."""
+_LEAVES, _RETURNS = 0.20, 0.16
+"""A hand this far from rest has left it; one this near has returned: 10 and 8 cm. Hands at rest sway by 3."""
+_LEAST_WAY = 0.35
+"""A hand that gets no farther than this from rest was no sign: 18 cm, a scratch or a shift of weight."""
+_WITHIN = 0.6
+"""Share of the greatest distance from rest: a recording that begins with hands farther out begins within a
+sign."""
+_CUT = 0.4
+"""Where somebody chose to cut, hands farther from rest sign: 20 cm, beyond what is left of a way down."""
+_FAR = 0.85
+"""Share of the greatest distance from rest: where nothing slows down, the sign is what lies beyond it."""
+
+_SLOW = 0.25
+"""[m/s] Hands at rest are slower."""
+_DIP = 0.35
+"""A speed that falls below this share of the fastest so far ends the way up."""
+_STILL, _STILL_SHARE = 0.08, 0.10
+"""[m/s], of the fastest so far: a hand slower than both has arrived."""
+_SPEED_WIDTH = 0.033
+"""[s] Width of the Gaussian by which the speed is smoothed: keypoints tremble by 0.1 m/s."""
+_LEAST_REST = 0.35
+"""[s] A shorter stay at rest is part of a sign that begins at rest and beats."""
+_LEAST_SIGN = 0.25
+"""[s] Up and down in less is no sign."""
+_LEAST_STROKE = 0.12
+"""[s] A sign that is but a touch lasts so long: four images at 30 Hz."""
+LONGEST_SIGN = 4.0
+"""[s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SignSpan:
+    """One sign in a recording.
+
+    Attributes:
+        leaves: When the hands leave rest [s].
+        start: When the stroke begins [s].
+        end: When the stroke ends [s].
+        returns: When the hands are at rest again [s].
+        handedness: The hands that take part.
+        pauses: When the hands slow down within the stroke [s]: where several signs may meet.
+        cut_start: The recording begins while the hands are away from rest.
+        cut_end: Likewise its end.
+    """
+
+    leaves: float
+    start: float
+    end: float
+    returns: float
+    handedness: Handedness
+    pauses: tuple[float, ...]
+    cut_start: bool
+    cut_end: bool
+
+    @property
+    def duration(self) -> float:
+        """How long the stroke lasts [s]."""
+        return self.end - self.start
+
+
+def find_signs(
+    track: SkeletonTrack, *, cut_start: bool = False, cut_end: bool = False
+) -> tuple[SignSpan, ...]:
+    """Every sign of a smoothed track, in order.
+
+    Args:
+        track: The person.
+        cut_start: Somebody chose where the track begins: hands that are away from rest there sign already.
+        cut_end: Likewise its end.
+    """
+    reach = _reach(track)
+    away = {side: _distance_from_rest(track, side, reach) for side in _ARMS}
+    out = np.logical_or(*(_has_left(distance) for distance in away.values()))
+    times = track.times
+    # A short rest between two beats joins what is around it.
+    for first, last in runs(~out):
+        if first > 0 and last < len(out) - 1 and times[last] - times[first] < _LEAST_REST:
+            out[first : last + 1] = True
+    spans = []
+    for first, last in runs(out):
+        way = max(float(np.nanmax(distance[first : last + 1], initial=0.0)) for distance in away.values())
+        if times[last] - times[first] >= _LEAST_SIGN and way >= _LEAST_WAY:
+            spans.append(_span(track, away, first, last, cut=(cut_start, cut_end)))
+    return tuple(spans)
+
+
+def the_sign(
+    track: SkeletonTrack, *, offset: float = 0.0, cut_start: bool = False, cut_end: bool = False
+) -> SignSpan:
+    """The one sign of a smoothed track.
+
+    Args:
+        track: The person.
+        offset: What is added to times in messages, where the track is a part of a recording [s].
+        cut_start: See `find_signs`.
+        cut_end: Likewise.
+
+    Raises:
+        LutError: "no_motion", "several_signs" or "too_long", naming where things are.
+    """
+    spans = find_signs(track, cut_start=cut_start, cut_end=cut_end)
+    if not spans:
+        raise LutError(
+            "no_motion",
+            f"{track.source}: expected hands that leave rest and return, got none that goes "
+            f"{100.0 * _LEAST_WAY * _reach(track):.0f} cm from it within {track.times[-1]:.1f} s",
+        )
+    if len(spans) > 1:
+        where = "; ".join(
+            f"--start {span.leaves + offset:.2f} --end {span.returns + offset:.2f}" for span in spans
+        )
+        raise LutError(
+            "several_signs", f"{track.source}: expected one sign, got {len(spans)}. Take one: {where}"
+        )
+    span = spans[0]
+    if span.duration > LONGEST_SIGN:
+        pauses = ", ".join(f"{pause + offset:.2f}" for pause in span.pauses) or "no time"
+        raise LutError(
+            "too_long",
+            f"{track.source}: expected a sign of at most {LONGEST_SIGN:g} s, got hands that are away from "
+            f"rest for {span.returns - span.leaves:.1f} s: probably several signs. They slow down "
+            f"at {pauses} s: cut there with --start and --end",
+        )
+    return span
+
+
+def _reach(track: SkeletonTrack) -> float:
+    """Length of the arm, elbow stretched [m]."""
+    lengths = []
+    for arm in _ARMS.values():
+        points = track.body.positions[:, arm]
+        upper, fore = np.linalg.norm(np.diff(points, axis=1), axis=-1).T
+        if np.isfinite(upper).any() and np.isfinite(fore).any():
+            lengths.append(float(np.nanmedian(upper) + np.nanmedian(fore)))
+    return float(np.mean(lengths)) if lengths else _REACH
+
+
+def _distance_from_rest(track: SkeletonTrack, side: str, reach: float) -> Array:
+    """How far a wrist is from where it rests [reach]; 0 while it is lost low, NaN while lost high."""
+    wrist = track.body.positions[:, _ARMS[side][2]] / reach
+    known = seen(wrist)
+    if not known.any():
+        return np.zeros(len(wrist))  # an arm that is never seen hangs out of the image
+    height = wrist[:, 2]
+    lowest = float(np.nanpercentile(height, 5.0))
+    resting = known & (height < min(-_LOW, lowest + _REST_BAND)) & (_speed(track, [side]) < _SLOW)
+    if resting.any():
+        distance: Array = np.linalg.norm(wrist - np.median(wrist[resting], axis=0), axis=-1)
+    else:  # never seen at rest: how far it is above the space where hands rest
+        distance = np.maximum(height + _LOW + _LEAVES, 0.0)
+    for first, last in runs(~known):
+        beside = [height[index] for index in (first - 1, last + 1) if 0 <= index < len(height)]
+        # Hands that hang are often below the image: lost beside a low place is at rest.
+        distance[first : last + 1] = 0.0 if min(beside) < -_LOW + _REST_BAND else np.nan
+    return distance
+
+
+def _has_left(distance: Array) -> Flags:
+    """Whether a hand is away from rest, with hysteresis; lost hands keep what they did."""
+    out = np.zeros(len(distance), dtype=bool)
+    # NaN before anything is known is taken for away: the recording begins within a sign.
+    now = bool(len(distance)) and not distance[0] < _LEAVES
+    for index, value in enumerate(distance):
+        if np.isfinite(value):
+            now = bool(value > (_RETURNS if now else _LEAVES))
+        out[index] = now
+    return out
+
+
+def _span(
+    track: SkeletonTrack, away: Mapping[str, Array], first: int, last: int, *, cut: tuple[bool, bool]
+) -> SignSpan:
+    inside = slice(first, last + 1)
+    far = {side: float(np.nanmax(distance[inside], initial=0.0)) for side, distance in away.items()}
+    # The hand that gets farther leads; the other takes part if it is away for half of the time.
+    sides = [
+        side
+        for side, distance in away.items()
+        if far[side] == max(far.values()) or _has_left(distance)[inside].mean() > 0.5
+    ]
+    times, speed = track.times, _speed(track, sides)[inside]
+    start, end = _arrival(speed), len(speed) - 1 - _arrival(speed[::-1])
+    # A recording that was cut there, while the hands were away, begins or ends with the stroke.
+    lead = np.nan_to_num(away[max(far, key=lambda side: far[side])][inside])
+    if first == 0 and lead[0] > (_CUT if cut[0] else _WITHIN * lead.max()):
+        start = 0
+    if last == len(times) - 1 and lead[-1] > (_CUT if cut[1] else _WITHIN * lead.max()):
+        end = len(lead) - 1
+    if start > end:
+        beyond = np.flatnonzero(lead >= _FAR * lead.max())
+        start, end = int(beyond[0]), int(beyond[-1])
+    start, end = _at_least(times[inside], start, end)
+    return SignSpan(
+        leaves=float(times[max(first - 1, 0)]),
+        start=float(times[first + start]),
+        end=float(times[first + end]),
+        returns=float(times[min(last + 1, len(times) - 1)]),
+        handedness="both" if len(sides) == 2 else "right" if sides[0] == "right" else "left",
+        pauses=tuple(float(times[first + index]) for index in _dips(speed) if start < index < end),
+        cut_start=first == 0,
+        cut_end=last == len(times) - 1,
+    )
+
+
+def _speed(track: SkeletonTrack, sides: list[str]) -> Array:
+    """Speed of the fastest of some wrists [m/s]; 0 where they are lost. Shape (n,)."""
+    times = track.times
+    if len(times) < 2:
+        return np.zeros(len(times))
+    wrists = track.body.positions[:, [_ARMS[side][2] for side in sides]]
+    velocity = np.gradient(wrists, times, axis=0)
+    speed = np.nan_to_num(np.linalg.norm(velocity, axis=-1)).max(axis=1)
+    smooth: Array = gaussian_filter1d(speed, _SPEED_WIDTH / float(np.median(np.diff(times))), mode="nearest")
+    return smooth
+
+
+def _arrival(speed: Array) -> int:
+    """Index at which a hand that leaves rest first slows down clearly; past the end where it never does."""
+    fastest = 0.0
+    for index in range(len(speed) - 1):
+        fastest = max(fastest, float(speed[index]))
+        if fastest < _SLOW:
+            continue
+        if speed[index] < max(_STILL, _STILL_SHARE * fastest):
+            return index
+        if speed[index] < _DIP * fastest and speed[index] <= speed[index + 1]:
+            return index
+    return len(speed)
+
+
+def _dips(speed: Array) -> list[int]:
+    """Where a hand slows down clearly between two faster movements: the slowest moment of each dip."""
+    found: list[int] = []
+    fastest, slowest = 0.0, -1
+    for index, value in enumerate(speed.tolist()):
+        if slowest < 0:  # in a movement
+            fastest = max(fastest, value)
+            if fastest > _SLOW and value < _DIP * fastest:
+                slowest = index
+        elif value < speed[slowest]:
+            slowest = index
+        elif value > max(_SLOW, float(speed[slowest]) / _DIP):
+            found.append(slowest)
+            fastest, slowest = value, -1
+    return found
+
+
+def _at_least(times: Array, start: int, end: int) -> tuple[int, int]:
+    """Make a stroke that is but a touch last a little, evenly to both sides."""
+    while times[end] - times[start] < _LEAST_STROKE and (start > 0 or end < len(times) - 1):
+        start, end = max(start - 1, 0), min(end + 1, len(times) - 1)
+    return start, end

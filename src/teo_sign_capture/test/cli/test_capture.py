@@ -1,0 +1,84 @@
+"""What a teacher sees of `lut capture` and `lut record`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from made_bags import SIGN, signing, write_bag
+from typer.testing import CliRunner, Result
+
+from teo_lut_executor.cli.lut import app
+from teo_signs.look_up_table import Lut
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    return write_bag(tmp_path / "take.mcap", signing(rate=15.0))
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "200"}).invoke(app, [str(argument) for argument in arguments])
+
+
+def test_a_capture_says_what_it_made_and_how_well(bag: Path, tmp_path: Path) -> None:
+    table = tmp_path / "lut"
+    result = run(
+        "capture", bag, "--gloss", "SIGNO", "--lut", table, "--notes", "Teacher A.", "--hands", "right"
+    )
+    assert result.exit_code == 0, result.output
+    for words in ("SIGNO: right", "palm error p95", "stretch", "Teacher A.", f"wrote {table / 'SIGNO.png'}"):
+        assert words in result.output
+    assert (table / "SIGNO.png").is_file()
+    assert run("validate", table).exit_code == 0
+    again = run("capture", bag, "--gloss", "SIGNO", "--lut", table)
+    assert again.exit_code == 1
+    assert again.output.startswith("exists: SIGNO.json")
+    assert run("record", "--gloss", "SIGNO", "--lut", table).output.startswith("exists: SIGNO.json")
+
+
+def test_several_signs_are_listed_and_what_is_suggested_works(tmp_path: Path) -> None:
+    later = [(start + 3.0, end + 3.0, place) for start, end, place in SIGN]
+    bag = write_bag(tmp_path / "two.mcap", signing(moves=[*SIGN, *later], duration=6.2, rate=15.0))
+    refused = run("capture", bag, "--gloss", "SIGNO", "--lut", tmp_path, "--no-draw")
+    assert refused.exit_code == 1
+    assert "several_signs" in refused.output
+    suggested = refused.output.split("Take one: ")[1].split(";")[0].split()
+    assert suggested[0] == "--start"
+    assert run("capture", bag, "--gloss", "SIGNO", "--lut", tmp_path, "--no-draw", *suggested).exit_code == 0
+
+
+def test_a_folder_ends_with_a_table_of_failures_and_resumes(tmp_path: Path) -> None:
+    folder, table = tmp_path / "recordings", tmp_path / "lut"
+    write_bag(folder / "HOLA.mcap", signing(rate=15.0))
+    write_bag(folder / "NADA.mcap", signing(moves=[], rate=15.0))
+    first = run("capture", folder, "--lut", table, "--jobs", "1", "--no-draw")
+    assert first.exit_code == 1
+    assert "1 captured, 0 as before, 1 failed" in first.output
+    assert "no_motion" in first.output
+    (folder / "NADA.mcap").unlink()
+    second = run("capture", folder, "--lut", table, "--jobs", "1", "--no-draw")
+    assert second.exit_code == 0
+    assert "0 captured, 1 as before, 0 failed" in second.output
+    assert Lut.open(table).glosses() == ("HOLA",)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (),
+        ("BAG",),
+        ("FOLDER", "--start", "1"),
+        ("FOLDER", "FOLDER"),
+        ("FOLDER", "--manifest", "signs.csv"),
+        ("BAG", "--gloss", "HOLA", "--manifest", "signs.csv"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(
+    bag: Path, tmp_path: Path, arguments: tuple[str, ...]
+) -> None:
+    (tmp_path / "folder").mkdir()
+    places = {"BAG": bag, "FOLDER": tmp_path / "folder"}
+    result = run("capture", *(places.get(argument, argument) for argument in arguments), "--lut", tmp_path)
+    assert result.exit_code == 1
+    assert result.output.startswith("bad_arguments")

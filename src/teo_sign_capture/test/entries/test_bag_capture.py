@@ -1,0 +1,172 @@
+"""From bags to entries, and never a damaged table."""
+
+from __future__ import annotations
+
+import functools
+import signal
+import subprocess
+import sys
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from made_bags import SIGN, signing, write_bag
+from made_tracks import lose
+
+from teo_description.robot import Robot
+from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags, check_free, is_captured
+from teo_sign_capture.entries.take import Cut
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut
+
+slow = functools.partial(signing, rate=15.0)  # half the frames take half the time
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    return Settings(table=tmp_path / "lut", cache=tmp_path / "cache")
+
+
+def job(*bags: Path, gloss: str = "SIGNO", cut: Cut | None = None) -> Job:
+    return Job(gloss=gloss, bags=bags, cut=cut or Cut())
+
+
+def test_a_bag_becomes_an_entry_with_a_picture(robot: Robot, settings: Settings, tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    saved = capture_bags(robot, job(bag), replace(settings, pictures=tmp_path / "pictures", film=True))
+    sign = Lut.open(settings.table)["SIGNO"]
+    assert sign.provenance.standing == "recorded"
+    assert sign.provenance.recorded == "2024-03-09"
+    assert sign.provenance.source.startswith("SIGNO.mcap, sha256 ")
+    assert saved.picture == tmp_path / "pictures" / "SIGNO.png"
+    picture = cv2.imread(str(saved.picture))
+    # Two rows: the person who is drawn above, TEO below, neither empty.
+    above, below = np.vsplit(picture[: 2 * (picture.shape[0] // 2)], 2)
+    assert above.std() > 5.0
+    assert below.std() > 5.0
+    film = cv2.VideoCapture(str(tmp_path / "pictures" / "SIGNO.mp4"))
+    assert film.get(cv2.CAP_PROP_FRAME_COUNT) >= 0.6 * film.get(cv2.CAP_PROP_FPS)
+
+
+def test_a_table_that_cannot_be_looked_at_is_refused_at_once(tmp_path: Path) -> None:
+    with pytest.raises(LutError) as caught:
+        check_free("SIGNO", Settings(table=tmp_path / ("x" * 300)))  # longer than file systems allow
+    assert caught.value.code == "not_written"
+
+
+def test_the_same_recordings_are_known_again_others_are_not(
+    robot: Robot, settings: Settings, tmp_path: Path
+) -> None:
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    assert not is_captured(job(bag), settings.table)
+    capture_bags(robot, job(bag), settings)
+    assert is_captured(job(bag), settings.table)
+    assert not is_captured(job(bag, cut=Cut(start=0.5)), settings.table)
+    assert not is_captured(job(bag, bag), settings.table)
+    write_bag(bag, slow(seed=3))
+    assert not is_captured(job(bag), settings.table)
+
+
+def test_a_gloss_that_exists_is_refused_before_anything_is_read(
+    robot: Robot, settings: Settings, tmp_path: Path
+) -> None:
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    entry = capture_bags(robot, job(bag), settings).path
+    before = entry.read_bytes()
+    with pytest.raises(LutError, match="--replace") as error:
+        capture_bags(robot, job(tmp_path / "nowhere.mcap"), settings)
+    assert error.value.code == "exists"
+    assert entry.read_bytes() == before
+    write_bag(bag, slow(seed=4))
+    capture_bags(robot, job(bag), replace(settings, replace=True))
+    assert entry.read_bytes() != before
+
+
+@pytest.mark.parametrize("gloss", ["hola", "", "../HOLA", "HOLA!", "A" * 61])
+def test_a_name_that_is_no_gloss_is_refused(robot: Robot, settings: Settings, gloss: str) -> None:
+    with pytest.raises(LutError) as error:
+        capture_bags(robot, job(Path("nowhere"), gloss=gloss), settings)
+    assert error.value.code == "bad_gloss"
+    assert not settings.table.exists()
+
+
+def test_a_take_that_is_no_good_is_left_out_with_the_reason(
+    robot: Robot, settings: Settings, tmp_path: Path
+) -> None:
+    good = write_bag(tmp_path / "good.mcap", slow())
+    bad = write_bag(tmp_path / "bad.mcap", slow(moves=[]))
+    saved = capture_bags(robot, job(bad, good), settings)
+    assert "no_motion: bad.mcap" in saved.captured.sign.provenance.notes
+    with pytest.raises(LutError) as error:
+        capture_bags(robot, job(bad, bad, gloss="OTRO"), settings)
+    assert error.value.code == "no_motion"
+
+
+def test_bad_recordings_are_refused_and_leave_no_entry(
+    robot: Robot, settings: Settings, tmp_path: Path
+) -> None:
+    two = [*SIGN, *[(start + 3.0, end + 3.0, place) for start, end, place in SIGN]]
+    bags = {
+        "no_motion": slow(moves=[]),
+        "several_signs": slow(moves=two, duration=6.2),
+        "hand_lost": lose(slow(), "right_hand", 0.0, 9.0),
+        "no_person": lose(lose(lose(slow(), "right_hand", 0, 9), "left_hand", 0, 9), "body", 0, 9),
+    }
+    for code, track in bags.items():
+        with pytest.raises(LutError) as error:
+            capture_bags(robot, job(write_bag(tmp_path / f"{code}.mcap", track)), settings)
+        assert error.value.code in (code, "no_torso"), error.value
+    assert not settings.table.exists() or not list(settings.table.iterdir())
+
+
+def test_a_table_that_cannot_be_written_is_said(robot: Robot, tmp_path: Path) -> None:
+    (tmp_path / "lut").write_text("a file where the table should be")
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    with pytest.raises(LutError) as error:
+        capture_bags(robot, job(bag), Settings(table=tmp_path / "lut"))
+    assert error.value.code == "not_written"
+
+
+def test_a_picture_that_cannot_be_drawn_costs_no_entry(
+    robot: Robot, settings: Settings, tmp_path: Path
+) -> None:
+    (tmp_path / "pictures").write_text("a file where the pictures should be")
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    saved = capture_bags(robot, job(bag), replace(settings, pictures=tmp_path / "pictures"))
+    assert saved.picture is None
+    assert "not drawn" in saved.warnings[-1]
+    assert "SIGNO" in Lut.open(settings.table)
+
+
+def test_killing_it_at_any_moment_leaves_whole_entries(settings: Settings, tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "SIGNO.mcap", slow())
+    program = (
+        "from pathlib import Path; from teo_description.robot import Robot\n"
+        "from teo_sign_capture.entries.bag_capture import *\n"
+        "robot = Robot.load()\n"
+        "while True:\n"
+        "    print('begun', flush=True)\n"
+        f"    capture_bags(robot, Job(gloss='SIGNO', bags=(Path({str(bag)!r}),)),\n"
+        f"        Settings(table=Path({str(settings.table)!r}), replace=True))\n"
+    )
+    process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)
+    assert process.stdout is not None
+    late = threading.Timer(60.0, process.kill)
+    late.start()
+    try:
+        for _ in range(2):  # one entry is whole, and the next has begun
+            assert process.stdout.readline() == b"begun\n", "the program ended, or took a minute"
+    finally:
+        late.cancel()
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+    assert Lut.open(settings.table)["SIGNO"].duration > 0.5
+    assert [path.name for path in settings.table.iterdir() if not path.name.startswith(".")] == ["SIGNO.json"]

@@ -1,0 +1,57 @@
+"""A real clip on its way into a table."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from teo_description.robot import Robot
+from teo_lut_executor.cli.lut import app
+from teo_sign_capture.recordings.letter_clips import load_letter_clips
+from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.sign import Sign
+
+TABLE = default_lut_directory()
+CLIPS = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
+TIPS = tuple(f"Right{finger}FingerTip" for finger in ("Thumb", "Index", "Middle", "Ring", "Pinky"))
+
+
+def handshape(robot: Robot, sign: Sign) -> np.ndarray:
+    """Finger tips in the axes of the palm in the middle of a sign [m]. Shape (5, 3)."""
+    middle = [np.interp(sign.duration / 2.0, sign.times, column) for column in sign.knots.T]
+    q = robot.configuration(dict(zip(sign.joints, map(float, middle), strict=True)))
+    palm, *tips = robot.placements(q, ("right_palm", *TIPS))
+    return np.array([(tip[:3, 3] - palm[:3, 3]) @ palm[:3, :3] for tip in tips])
+
+
+@pytest.mark.parametrize("letter", ["T"])
+def test_an_imported_letter_looks_like_the_tables_letter(tmp_path: Path, letter: str) -> None:
+    clip = CLIPS / load_letter_clips()[letter].file
+    arguments = ["import", clip, "--gloss", letter, "--kind", "letter", "--lut", tmp_path]
+    words = [str(word) for word in (*arguments, "--licence", "MIT", "--recorded", "2019-01-31")]
+    result = CliRunner(env={"COLUMNS": "200"}).invoke(app, words)
+    assert result.exit_code == 0, result.output
+    sign = Lut.open(tmp_path)[letter]
+    assert sign.handedness == "right"
+    assert sign.provenance.standing == "recorded"
+    assert sign.provenance.recorded == "2019-01-31"
+    assert clip.name in sign.provenance.source
+    assert "one camera" in sign.provenance.notes
+    assert (tmp_path / f"{letter}.png").stat().st_size > 10_000
+    robot, table = Robot.load(), Lut.open(TABLE)
+    letters = {name: entry for name, entry in table.items() if entry.kind == "letter"}
+    shape = handshape(robot, sign)
+    away = {
+        name: float(np.linalg.norm(handshape(robot, entry) - shape, axis=1).mean())
+        for name, entry in letters.items()
+    }
+    nearest = sorted(away, key=lambda name: away[name])
+    assert letter in nearest[:3]
+
+    again = CliRunner(env={"COLUMNS": "200"}).invoke(app, words)
+    assert again.exit_code == 1
+    assert "exists" in again.output

@@ -1,0 +1,116 @@
+"""Takes become entries that the planner plays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_bags import signing
+
+from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_description.robot import Robot
+from teo_motion.planner import Planner
+from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
+from teo_sign_capture.entries.take import Take, capture_take
+from teo_sign_capture.retarget.motion_smoothing import is_finger
+from teo_signs.errors import LutError
+from teo_signs.sign_file import read_sign, save_sign
+from teo_signs.tokens import parse_printed
+
+ORIGIN = Origin(
+    source="made, sha256 0123456789abcdef", standing="described", licence="Apache-2.0", notes="A test."
+)
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def takes(robot: Robot) -> list[Take]:
+    return [capture_take(robot, replace(signing(seed=seed), source=f"SIGNO_{seed}")) for seed in range(3)]
+
+
+@pytest.fixture(scope="module")
+def captured(robot: Robot, takes: list[Take]) -> Captured:
+    return make_sign(robot, "SIGNO", takes[:1], ORIGIN)
+
+
+def test_an_entry_is_read_back_and_planned_without_a_violation(
+    robot: Robot, captured: Captured, tmp_path: Path
+) -> None:
+    sign = read_sign(save_sign(tmp_path, captured.sign))
+    plan = Planner({"SIGNO": sign}, robot=robot).plan(parse_printed("SIGNO SIGNO"))
+    limits = joint_limits(COMMANDED_JOINTS)
+    times = np.arange(0.0, plan.duration, 0.013)
+    positions = np.array([plan.at(float(time))[0] for time in times])
+    assert (positions >= limits.lower - 1e-6).all()
+    assert (positions <= limits.upper + 1e-6).all()
+    speeds = np.abs(np.diff(positions, axis=0)) / np.diff(times)[:, None]
+    assert (speeds <= limits.velocity + 1e-6).all()
+    for pose in positions[::4]:
+        q = robot.configuration(dict(zip(COMMANDED_JOINTS, pose.tolist(), strict=True)))
+        assert robot.clearance(q).distance > 0.0
+
+
+def test_the_entry_lasts_as_long_as_the_stroke_and_keeps_the_motion(
+    takes: list[Take], captured: Captured
+) -> None:
+    sign, motion = captured.sign, takes[0].motion
+    assert sign.duration == pytest.approx(takes[0].span.duration, abs=1e-3)
+    assert len(sign.times) < len(motion.times)
+    for joint, column in zip(sign.joints, sign.knots.T, strict=True):
+        error = sign.quality["finger_knots_error_deg" if is_finger(joint) else "knots_error_deg"]
+        wanted = motion.positions[:, motion.joints.index(joint)]
+        away = np.abs(np.interp(motion.times, sign.times, column) - wanted).max()
+        assert np.degrees(away) <= error + 0.06  # a decimal is stated
+
+
+def test_the_quality_says_what_the_motion_says(takes: list[Take], captured: Captured) -> None:
+    quality, motion = captured.sign.quality, takes[0].motion
+    palm = np.degrees(np.percentile(motion.palm_error[:, 0], 95.0))
+    assert quality["palm_error_p95_deg"] == pytest.approx(palm, abs=0.06)
+    place = 1000.0 * np.percentile(motion.place_error[:, 0], 95.0)
+    assert quality["place_error_p95_mm"] == pytest.approx(place, abs=0.06)
+    assert quality["lost_percent"] == 0.0
+    assert quality["clearance_mm"] > 0.0
+    # TEO's 50 deg/s: the stretch is no less than the fastest joint asks for over the stroke.
+    way = np.abs(np.diff(captured.sign.knots, axis=0)).sum(axis=0).max()
+    assert quality["stretch_times"] >= way / np.radians(50.0) / (captured.sign.duration + 0.3)
+
+
+def test_the_provenance_says_where_it_comes_from(captured: Captured) -> None:
+    provenance = captured.sign.provenance
+    assert provenance.source == ORIGIN.source
+    assert provenance.standing == "described"
+    assert "A test." in provenance.notes
+
+
+def test_takes_are_averaged_with_the_reason_in_the_notes(robot: Robot, takes: list[Take]) -> None:
+    sign = make_sign(robot, "SIGNO", takes, ORIGIN).sign
+    assert sign.quality["takes_count"] == 3.0
+    assert "3 takes" in sign.provenance.notes
+    assert "Mean of 3" in sign.provenance.notes or "is taken" in sign.provenance.notes
+
+
+def test_a_motion_through_the_body_is_refused(robot: Robot, takes: list[Take]) -> None:
+    motion = takes[0].motion
+    limits, rng = joint_limits(motion.joints), np.random.default_rng(0)
+    for _ in range(1000):
+        pose = rng.uniform(limits.lower, limits.upper)
+        if (
+            robot.clearance(
+                robot.configuration(dict(zip(motion.joints, pose.tolist(), strict=True)))
+            ).distance
+            < -0.05
+        ):
+            break
+    through = motion.positions.copy()
+    through[len(through) // 2] = pose
+    bad = replace(takes[0], motion=replace(motion, positions=through))
+    with pytest.raises(LutError, match="SIGNO") as error:
+        make_sign(robot, "SIGNO", [bad], ORIGIN)
+    assert error.value.code == "self_collision"

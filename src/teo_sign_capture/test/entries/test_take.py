@@ -1,0 +1,120 @@
+"""One demonstration on TEO: where the sign is, and what no sign can be made of."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from made_bags import OUT, REST, SIGN, signing
+from made_tracks import lose
+
+from teo_description import joint_limits
+from teo_description.robot import Robot
+from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_signs.errors import LutError
+
+FRAMES = 2.0 / 30.0
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def take(robot: Robot) -> Take:
+    return capture_take(robot, signing())
+
+
+def test_the_stroke_is_cut_out_and_on_the_robot(robot: Robot, take: Take) -> None:
+    assert take.span.start == pytest.approx(1.1, abs=FRAMES)
+    assert take.span.end == pytest.approx(1.8, abs=FRAMES)
+    assert take.motion.times[-1] == pytest.approx(take.span.duration, abs=1e-3)
+    assert take.lost == 0.0
+    assert take.smoothing < 0.008
+    limits = joint_limits(take.motion.joints)
+    assert (take.motion.positions >= limits.lower - 1e-6).all()
+    assert (take.motion.positions <= limits.upper + 1e-6).all()
+    # The hand goes forwards and down from the chin on the robot, too.
+    palms = [
+        robot.placement(
+            robot.configuration(dict(zip(take.motion.joints, pose.tolist(), strict=True))), "right_palm"
+        )
+        for pose in take.motion.positions[[0, -1]]
+    ]
+    assert palms[1][0, 3] > palms[0][0, 3] + 0.02
+    assert palms[1][2, 3] < palms[0][2, 3] - 0.06
+
+
+def test_times_are_of_the_recording_where_a_part_of_it_is_looked_at(robot: Robot) -> None:
+    later = [(start + 3.5, end + 3.5, place) for start, end, place in SIGN]
+    track = signing(moves=[*SIGN, *later], duration=6.7)
+    second = capture_take(robot, track, cut=Cut(start=3.2))
+    assert second.span.start == pytest.approx(1.1 + 3.5, abs=FRAMES)
+    assert second.track.times[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    "cut", [Cut(start=-1.0), Cut(end=9.0), Cut(start=2.0, end=1.0), Cut(start=1.001, end=1.002)]
+)
+def test_a_cut_outside_the_recording_is_refused(robot: Robot, cut: Cut) -> None:
+    with pytest.raises(LutError) as error:
+        capture_take(robot, signing(), cut=cut)
+    assert error.value.code == "outside_recording"
+
+
+def test_a_hand_that_is_lost_shortly_is_filled_in_and_said(robot: Robot) -> None:
+    found = capture_take(robot, lose(signing(), "right_hand", 1.4, 1.5))
+    (gap,) = found.gaps
+    assert gap.filled
+    assert gap.start == pytest.approx(1.4, abs=FRAMES)
+    assert 0.1 < found.lost < 0.4
+
+
+def test_a_hand_that_is_lost_for_long_is_refused_with_when(robot: Robot) -> None:
+    with pytest.raises(LutError, match=r"right hand in view .* lost from 1\.3.* to 1\.7") as error:
+        capture_take(robot, lose(lose(signing(), "right_hand", 1.2, 1.75), "body", 1.3, 1.7))
+    assert error.value.code == "hand_lost"
+
+
+def test_a_hand_that_is_hidden_keeps_its_shape_if_its_wrist_is_seen(robot: Robot) -> None:
+    whole, hidden = signing(noise=0.0), lose(signing(noise=0.0), "right_hand", 1.2, 1.75)
+    found = capture_take(robot, hidden).track.right_hand.positions
+    truth = capture_take(robot, whole).track.right_hand.positions
+    assert np.abs(found - truth).max() < 0.02
+
+
+def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Robot) -> None:
+    found = capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.25))
+    truth = capture_take(robot, signing(noise=0.0))
+    assert np.abs(found.track.right_hand.positions - truth.track.right_hand.positions).max() < 0.03
+    with pytest.raises(LutError, match=r"lost from 1\.0.* to 1\.3"):
+        capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.5))
+
+
+def test_the_other_hand_may_be_lost(robot: Robot) -> None:
+    assert capture_take(robot, lose(signing(), "left_hand", 0.0, 3.2)).span.handedness == "right"
+
+
+def test_a_place_that_teo_does_not_reach_is_refused(robot: Robot) -> None:
+    behind = (-0.45, -0.10, 0.30)  # behind the head, where no elbow of TEO goes
+    moves = [(0.5, 1.1, behind), (1.2, 1.6, (-0.42, -0.20, 0.32)), (1.7, 2.3, REST)]
+    with pytest.raises(LutError) as error:
+        capture_take(robot, signing(moves=moves))
+    assert error.value.code == "unreachable"
+    assert "cm off at" in str(error.value)
+
+
+def test_hands_can_be_named(robot: Robot) -> None:
+    both = capture_take(robot, signing(moves=[(0.5, 1.1, OUT), (1.8, 2.4, REST)]), handedness="both")
+    assert any(joint.startswith("FrontalLeft") for joint in both.motion.joints)
+    assert np.isfinite(both.motion.place_error).all()
+
+
+def test_half_the_person_is_no_person_but_says_what_is_missing(robot: Robot) -> None:
+    track = lose(signing(), "right_hand", 0.0, 9.0)
+    with pytest.raises(LutError) as error:
+        capture_take(robot, replace(track, source="half.mcap"))
+    assert error.value.code == "hand_lost"
+    assert "half.mcap" in str(error.value)

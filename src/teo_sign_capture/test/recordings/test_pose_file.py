@@ -1,0 +1,315 @@
+"""Files of pose-format, whole and damaged."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from pose_format import Pose
+from pose_format.numpy import NumPyPoseBody
+from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
+from pose_format.utils.openpose import OpenPose_Components
+from typer.testing import CliRunner, Result
+
+from teo_lut_executor.cli.lut import app
+from teo_sign_capture.recordings import pose_file
+from teo_sign_capture.recordings.letter_clips import load_letter_clips
+from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
+from teo_signs.errors import LutError
+
+Array = NDArray[np.float64]
+
+# MediaPipe's names, as its documentation gives them.
+SIDED = (
+    "SHOULDER",
+    "ELBOW",
+    "WRIST",
+    "PINKY",
+    "INDEX",
+    "THUMB",
+    "HIP",
+    "KNEE",
+    "ANKLE",
+    "HEEL",
+    "FOOT_INDEX",
+)
+POSE = (
+    "NOSE",
+    *(f"{side}_EYE{part}" for side in ("LEFT", "RIGHT") for part in ("_INNER", "", "_OUTER")),
+    *("LEFT_EAR", "RIGHT_EAR", "MOUTH_LEFT", "MOUTH_RIGHT"),
+    *(f"{side}_{name}" for name in SIDED for side in ("LEFT", "RIGHT")),
+)
+HAND = (
+    "WRIST",
+    *(f"THUMB_{name}" for name in ("CMC", "MCP", "IP", "TIP")),
+    *(
+        f"{f}_{j}"
+        for f in ("INDEX_FINGER", "MIDDLE_FINGER", "RING_FINGER", "PINKY")
+        for j in ("MCP", "PIP", "DIP", "TIP")
+    ),
+)
+HANDS = {"LEFT_HAND_LANDMARKS": HAND, "RIGHT_HAND_LANDMARKS": HAND}
+HOLISTIC = {"POSE_LANDMARKS": POSE, "FACE_LANDMARKS": tuple(map(str, range(478))), **HANDS}
+SPREAD = {"LEFT": 1.0, "RIGHT": -1.0}
+
+
+def place(component: str, name: str) -> tuple[float, float]:
+    """Where a point of a person in the middle of a picture of 640 by 480 is [pixel]."""
+    side = next((sign for word, sign in SPREAD.items() if word in f"{component}_{name}"), 0.0)
+    heights = {"SHOULDER": 200, "ELBOW": 330, "WRIST": 250, "HIP": 420, "NOSE": 100, "EYE": 90, "EAR": 95}
+    height = next((y for word, y in heights.items() if word in name), 300)
+    if component.endswith("HAND_LANDMARKS"):
+        finger, joint = divmod(HAND.index(name), 4)
+        return 320.0 + side * 120.0 + 6.0 * finger, 250.0 - 12.0 * joint
+    return 320.0 + side * 80.0, float(height)
+
+
+def points(components: dict[str, Sequence[str]]) -> Array:
+    """Shape (K, 3)."""
+    found = [(*place(component, name), 0.1) for component, names in components.items() for name in names]
+    return np.array(found)
+
+
+def write(
+    path: Path,
+    components: dict[str, Sequence[str]] | list[PoseHeaderComponent] = HOLISTIC,
+    data: Array | None = None,
+    confidence: Array | None = None,
+    *,
+    rate: float = 25.0,
+    size: tuple[int, int] = (640, 480),
+) -> Path:
+    if isinstance(components, dict):
+        if data is None:
+            data = np.tile(points(components), (8, 1, 1, 1))
+            data += 1e-3 * np.arange(8)[:, None, None, None]
+        components = [
+            PoseHeaderComponent(name, list(names), [], [], "XYZC") for name, names in components.items()
+        ]
+    assert data is not None
+    if confidence is None:
+        confidence = np.ones(data.shape[:3])
+    header = PoseHeader(0.2, PoseHeaderDimensions(*size), components)
+    buffer = io.BytesIO()
+    Pose(header, NumPyPoseBody(rate, data.astype(np.float32), confidence.astype(np.float32))).write(buffer)
+    path.write_bytes(buffer.getvalue())
+    return path
+
+
+def code_of(path: Path, **options: Any) -> str:
+    with pytest.raises(LutError) as error:
+        read_pose_file(path, **options)
+    assert path.name in str(error.value)
+    assert "expected" in str(error.value)
+    return error.value.code
+
+
+def test_places_are_forward_left_and_up(tmp_path: Path) -> None:
+    clip = read_pose_file(write(tmp_path / "a.pose"))
+    assert clip.rate == 25.0
+    assert clip.layout == "MediaPipe Holistic"
+    left, right = clip.body.places[0, 5], clip.body.places[0, 2]
+    np.testing.assert_allclose(left, [-0.1, 400.0, -200.0], atol=1e-4)
+    np.testing.assert_allclose(right, [-0.1, 240.0, -200.0], atol=1e-4)
+    np.testing.assert_allclose(clip.right_hand.places[0, 8, 1:], [200.0 + 12.0, -250.0], atol=12.0 * 4)
+    assert not clip.body.seen[:, 10].any()  # legs are not read
+    assert clip.hand("left").seen.all()
+
+
+@pytest.mark.parametrize(
+    "components",
+    [
+        {"POSE_LANDMARKS": POSE, **HANDS},
+        {"POSE_LANDMARKS": POSE, **HANDS, "POSE_WORLD_LANDMARKS": POSE},
+        {"POSE_LANDMARKS": POSE, "FACE_LANDMARKS": tuple(map(str, range(128))), **HANDS},
+        {"POSE_LANDMARKS": POSE[11:17] + POSE[23:25], **HANDS},  # as pose-format reduces it
+        {"RIGHT_HAND_LANDMARKS": HAND, "POSE_LANDMARKS": POSE},
+    ],
+    ids=["no face", "with world", "face of 128", "reduced body", "one hand, other order"],
+)
+def test_every_variant_of_the_components_is_read_alike(
+    tmp_path: Path, components: dict[str, Sequence[str]]
+) -> None:
+    whole = read_pose_file(write(tmp_path / "whole.pose"))
+    part = read_pose_file(write(tmp_path / "part.pose", components))
+    for row in (2, 3, 4, 5, 6, 7):
+        np.testing.assert_allclose(part.body.places[:, row], whole.body.places[:, row], atol=1e-4)
+    np.testing.assert_allclose(part.right_hand.places, whole.right_hand.places, atol=1e-4)
+
+
+def openpose(frames: int = 5) -> tuple[list[PoseHeaderComponent], Array]:
+    names = {component.name: component.points for component in OpenPose_Components}
+    rows = []
+    for component, its in names.items():
+        for index, name in enumerate(its):
+            if component == "pose_keypoints_2d":
+                side = {"R": -1.0, "L": 1.0}.get(name[0], 0.0)
+                y = {"Shoulder": 200.0, "Elbow": 330.0, "Wrist": 250.0}.get(name[1:], 100.0)
+                rows.append((320.0 + 80.0 * side, y))
+            else:
+                rows.append((200.0 + index, 250.0 - index))
+    return list(OpenPose_Components), np.tile(np.array(rows), (frames, 1, 1, 1))
+
+
+def test_openpose_is_read_and_has_no_depth(tmp_path: Path) -> None:
+    clip = read_pose_file(write(tmp_path / "o.pose", *openpose()))
+    assert clip.layout == "OpenPose"
+    np.testing.assert_allclose(clip.body.places[0, 2, 1:], [240.0, -200.0])
+    np.testing.assert_allclose(clip.right_hand.places[0, 20, 1:], [220.0, -230.0])
+    assert np.isnan(clip.right_hand.places[..., 0]).all()
+
+
+def test_fractions_of_the_picture_become_pixels(tmp_path: Path) -> None:
+    pixels = read_pose_file(write(tmp_path / "pixels.pose"))
+    data = np.tile(points(HOLISTIC), (8, 1, 1, 1)) / [640.0, 480.0, 1.0]
+    fractions = read_pose_file(write(tmp_path / "fractions.pose", HOLISTIC, data))
+    np.testing.assert_allclose(fractions.body.places[0, :8, 1:], pixels.body.places[0, :8, 1:], atol=1e-3)
+
+
+def test_a_clip_scaled_to_its_shoulders_keeps_its_units(tmp_path: Path) -> None:
+    data = (np.tile(points(HOLISTIC), (8, 1, 1, 1)) - [320.0, 200.0, 0.0]) / [160.0, 160.0, 1.0]
+    clip = read_pose_file(write(tmp_path / "scaled.pose", HOLISTIC, data))
+    across = clip.body.places[0, 5] - clip.body.places[0, 2]
+    np.testing.assert_allclose(across[1:], [1.0, 0.0], atol=1e-6)
+
+
+def test_points_of_confidence_zero_are_lost(tmp_path: Path) -> None:
+    confidence = np.ones((8, 1, points(HOLISTIC).shape[0]))
+    confidence[3, 0, -21:] = 0.0
+    data = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    data[3, 0, -21:] = np.nan  # whatever is there
+    clip = read_pose_file(write(tmp_path / "holes.pose", HOLISTIC, data, confidence))
+    assert np.isnan(clip.right_hand.places[3]).all()
+    assert clip.right_hand.seen[[0, 1, 2, 4, 5, 6, 7]].all()
+
+
+def two_people() -> tuple[Array, Array]:
+    one = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    other = one + np.array([50.0, 0.0, 0.0])
+    return np.concatenate([one, other], axis=1), np.ones((8, 2, one.shape[2]))
+
+
+def test_of_several_people_one_must_be_named(tmp_path: Path) -> None:
+    data, confidence = two_people()
+    path = write(tmp_path / "two.pose", HOLISTIC, data, confidence)
+    assert code_of(path) == "several_people"
+    assert read_pose_file(path, person=1).body.places[0, 5, 1] == pytest.approx(450.0)
+    assert code_of(path, person=2) == "no_person"
+    assert code_of(path, person=-1) == "no_person"
+
+
+def test_an_empty_place_for_a_person_is_no_person(tmp_path: Path) -> None:
+    data, confidence = two_people()
+    confidence[:, 1] = 0.0
+    assert read_pose_file(write(tmp_path / "one.pose", HOLISTIC, data, confidence)).rate == 25.0
+    confidence[:] = 0.0
+    assert code_of(write(tmp_path / "none.pose", HOLISTIC, data, confidence)) == "no_person"
+
+
+@pytest.mark.parametrize("rate", [0.0, -25.0, math.nan, math.inf, 1e6])
+def test_a_rate_that_is_none_is_refused(tmp_path: Path, rate: float) -> None:
+    assert code_of(write(tmp_path / "rate.pose", rate=rate)) == "bad_rate"
+
+
+def test_one_frame_or_none_is_no_sign(tmp_path: Path) -> None:
+    for frames in (0, 1):
+        data = np.tile(points(HOLISTIC), (frames, 1, 1, 1))
+        assert code_of(write(tmp_path / f"{frames}.pose", HOLISTIC, data)) == "too_short"
+
+
+def test_a_point_that_is_seen_nowhere_is_refused(tmp_path: Path) -> None:
+    data = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    data[2, 0, 5, 1] = np.nan
+    assert code_of(write(tmp_path / "nan.pose", HOLISTIC, data)) == "non_finite"
+
+
+def test_unknown_layouts_are_refused_with_what_is_known(tmp_path: Path) -> None:
+    path = write(tmp_path / "other.pose", {"BODY_135": ("Nose", "LEye", "REye")})
+    assert code_of(path) == "unknown_layout"
+    with pytest.raises(LutError, match=r"MediaPipe Holistic.*OpenPose.*BODY_135"):
+        read_pose_file(path)
+    few = write(tmp_path / "few.pose", {"POSE_LANDMARKS": POSE, "RIGHT_HAND_LANDMARKS": HAND[:15]})
+    assert code_of(few) == "unknown_layout"
+
+
+def test_a_clip_without_hands_or_shoulders_is_refused(tmp_path: Path) -> None:
+    assert code_of(write(tmp_path / "body.pose", {"POSE_LANDMARKS": POSE})) == "no_hand"
+    assert code_of(write(tmp_path / "arm.pose", {"POSE_LANDMARKS": POSE[13:17], **HANDS})) == "no_torso"
+
+
+def test_a_mirrored_clip_is_refused(tmp_path: Path) -> None:
+    data = np.tile(points(HOLISTIC), (8, 1, 1, 1)) * [-1.0, 1.0, 1.0] + [640.0, 0.0, 0.0]
+    assert code_of(write(tmp_path / "mirrored.pose", HOLISTIC, data)) == "seen_from_behind"
+
+
+def test_no_file_no_bytes_and_too_many_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert code_of(tmp_path / "missing.pose") == "unreadable"
+    assert code_of(tmp_path) == "unreadable"
+    (tmp_path / "empty.pose").touch()
+    assert code_of(tmp_path / "empty.pose") == "empty_file"
+    path = write(tmp_path / "large.pose")
+    monkeypatch.setattr(pose_file, "MAX_FRAMES", 7)
+    assert code_of(path) == "too_long"
+    monkeypatch.setattr(pose_file, "MAX_FILE_BYTES", path.stat().st_size - 1)
+    assert code_of(path) == "too_large"
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(share=st.floats(0.0, 0.999))
+def test_a_file_that_was_cut_off_is_refused(tmp_path: Path, share: float) -> None:
+    whole = write(tmp_path / "whole.pose", {"POSE_LANDMARKS": POSE, **HANDS}).read_bytes()
+    path = tmp_path / "cut.pose"
+    path.write_bytes(whole[: int(share * len(whole))])
+    assert code_of(path) in ("bad_pose_file", "empty_file")
+
+
+@settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(changes=st.lists(st.tuples(st.floats(0.0, 0.999), st.integers(0, 255)), min_size=1, max_size=5))
+def test_damage_is_refused_or_harmless(tmp_path: Path, changes: list[tuple[float, int]]) -> None:
+    content = bytearray(write(tmp_path / "whole.pose", {"POSE_LANDMARKS": POSE, **HANDS}).read_bytes())
+    for share, value in changes:
+        content[int(share * len(content))] = value
+    path = tmp_path / "damaged.pose"
+    path.write_bytes(content)
+    try:
+        assert isinstance(read_pose_file(path), PoseClip)
+    except LutError as error:
+        assert "expected" in str(error)
+
+
+def test_noise_is_no_pose_file(tmp_path: Path) -> None:
+    path = tmp_path / "noise.pose"
+    path.write_bytes(np.random.default_rng(1).bytes(20_000))
+    assert code_of(path) == "bad_pose_file"
+    path.write_bytes(b"bag of words")
+    assert code_of(path) == "bad_pose_file"
+
+
+def test_the_clips_of_the_alphabet_are_read_as_the_letters_are() -> None:
+    letter = load_letter_clips()["L"]
+    folder = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
+    clip = read_pose_file(folder / letter.file)
+    assert clip.rate == letter.rate
+    np.testing.assert_allclose(clip.right_hand.places[..., 1:], letter.hand[..., 1:], atol=1e-9)
+    assert not clip.left_hand.seen.any()
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "300"}).invoke(app, ["import", *(str(word) for word in arguments)])
+
+
+def test_the_command_says_why_a_file_is_no_good_and_writes_nothing(tmp_path: Path) -> None:
+    path = write(tmp_path / "body.pose", {"POSE_LANDMARKS": POSE})
+    result = run(path, "--gloss", "HOLA", "--lut", tmp_path / "lut")
+    assert result.exit_code == 1
+    assert "no_hand" in result.output
+    assert not (tmp_path / "lut").exists()

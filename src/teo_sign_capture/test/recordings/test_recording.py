@@ -1,0 +1,119 @@
+"""What a sign can be captured from, and what is wrong with what it cannot."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from made_bags import messages, signing, write_bag
+from mcap.writer import Writer
+
+from teo_sign_capture.entries.live_capture import write_skeletons
+from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, track_of
+from teo_signs.errors import LutError
+from teo_synthetic_signer.take.take_bag import START
+
+SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    return write_bag(tmp_path / "HOLA.mcap", signing())
+
+
+def test_a_bag_of_skeletons_is_read_as_it_is(bag: Path, tmp_path: Path) -> None:
+    recording = open_recording(bag)
+    assert recording.has_skeletons
+    assert not recording.rendered
+    track, warnings = track_of(recording, cache=tmp_path / "cache")
+    assert len(track.times) == 96
+    assert track.source == "HOLA.mcap"
+    assert track.recorded == "2024-03-09"
+    assert warnings == ()
+    assert not (tmp_path / "cache").exists()
+
+
+def test_a_rendered_bag_says_so_and_was_recorded_on_no_day(tmp_path: Path) -> None:
+    recording = open_recording(SHIPPED)
+    assert recording.rendered
+    assert not recording.has_skeletons
+    track, _ = track_of(recording, cache=tmp_path, topic="/truth/skeletons")
+    assert track.recorded is None
+
+
+def test_skeletons_found_in_a_rendered_bag_were_recorded_on_no_day_either(tmp_path: Path) -> None:
+    file = tmp_path / "found.mcap"
+    write_skeletons(file, messages(signing(), begins=START * 1e-9 + 0.1))
+    recording = open_recording(file)
+    assert recording.has_skeletons
+    assert recording.rendered
+    track, _ = track_of(recording, cache=tmp_path / "cache")
+    assert track.recorded is None
+
+
+def test_the_digest_is_of_the_messages_not_of_name_or_place(bag: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "other.mcap"
+    shutil.copy(bag, copy)
+    assert digest_of(copy) == digest_of(bag)
+    assert digest_of(write_bag(tmp_path / "new.mcap", signing(seed=1))) != digest_of(bag)
+
+
+def test_a_folder_is_a_bag_by_its_metadata(bag: Path) -> None:
+    assert is_bag(SHIPPED)
+    assert is_bag(bag)
+    assert not is_bag(bag.parent)
+    assert not is_bag(bag.parent / "nothing.mcap")
+
+
+def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "text.txt").write_text("no bag")
+    for path in (tmp_path / "text.txt", tmp_path / "nowhere", tmp_path):
+        with pytest.raises(LutError, match="expected the folder of a bag") as error:
+            open_recording(path)
+        assert error.value.code == "no_bag"
+
+
+def test_a_bag_that_is_cut_off_is_refused(bag: Path) -> None:
+    bag.write_bytes(bag.read_bytes()[:3000])
+    with pytest.raises(LutError) as error:
+        open_recording(bag)
+    assert error.value.code == "unreadable_bag"
+
+
+def test_a_bag_without_images_or_skeletons_says_what_it_holds(tmp_path: Path) -> None:
+    path = tmp_path / "sound.mcap"
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start(profile="ros2", library="test")
+        schema = writer.register_schema("std_msgs/msg/String", "ros2msg", b"string data")
+        channel = writer.register_channel("/sound", "cdr", schema)
+        writer.add_message(channel, 1, b"\x00\x01\x00\x00\x02\x00\x00\x00a\x00", 1)
+        writer.finish()
+    with pytest.raises(LutError, match="/sound") as error:
+        open_recording(path)
+    assert error.value.code == "no_skeletons"
+
+
+def test_a_bag_without_depth_is_refused_in_the_retrievers_words(tmp_path: Path) -> None:
+    from rosbags.rosbag2 import Reader
+
+    path = tmp_path / "colour_only.mcap"
+    with Reader(SHIPPED) as reader, path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start(profile="ros2", library="test")
+        channels = {}
+        for connection in reader.connections:
+            if "depth" in connection.topic or "truth" in connection.topic:
+                continue
+            definition = connection.msgdef.data.encode()
+            schema = writer.register_schema(connection.msgtype, "ros2msg", definition)
+            channels[connection.id] = writer.register_channel(connection.topic, "cdr", schema)
+        for index, (connection, time, data) in enumerate(reader.messages()):
+            if connection.id in channels and index < 60:
+                writer.add_message(channels[connection.id], time, bytes(data), time)
+        writer.finish()
+    with pytest.raises(LutError, match="depth") as error:
+        track_of(open_recording(path), cache=tmp_path / "cache")
+    assert error.value.code == "no_depth"
+    assert not list((tmp_path / "cache").glob("*.mcap"))

@@ -1,0 +1,213 @@
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from ament_index_python.packages import get_package_share_directory
+from mcap.reader import make_reader
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from teo_sign_capture.recordings.skeleton_bag import read_skeletons
+from teo_signs.errors import LutError
+
+SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
+TYPE = "teo_sign_msgs/msg/SkeletonArray"
+SIZES = {"body": 25, "left_hand": 21, "right_hand": 21, "face": 70}
+
+
+@pytest.fixture(scope="module")
+def store():
+    folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"
+    store = get_typestore(Stores.ROS2_JAZZY)
+    for name in ("Keypoint3D", "Skeleton3D", "SkeletonArray"):
+        text = (folder / f"{name}.msg").read_text(encoding="utf-8")
+        store.register(get_types_from_msg(text, f"teo_sign_msgs/msg/{name}"))
+    return store
+
+
+def skeleton(store, number, *, signer=True, sizes=SIZES, shift=0.0, lost_hand=False):
+    """A person before the camera: x right, y down, z forward."""
+    types = store.types
+    point_type, keypoint = types["geometry_msgs/msg/Point"], types["teo_sign_msgs/msg/Keypoint3D"]
+    places = {
+        name: np.tile((0.0, 0.0, 2.0), (size, 1)) + 0.01 * np.arange(size)[:, None]
+        for name, size in sizes.items()
+    }
+    if sizes["body"]:
+        # The person's right is on the camera's left.
+        places["body"][[2, 5, 9, 12]] = (-0.2, 0, 2), (0.2, 0, 2), (-0.1, 0.5, 2), (0.1, 0.5, 2)
+    parts = {}
+    for name, points in places.items():
+        lost = lost_hand and name == "right_hand"
+        parts[name] = [
+            keypoint(
+                name="",
+                position=point_type(*((points[i] + (shift, 0.0, 0.0)) * (np.nan if lost else 1.0)).tolist()),
+                sigma=np.array([0.01, 0.02, 0.03], np.float32),
+                pixel=np.zeros(2, np.float32),
+                confidence=0.0 if lost else 0.9,
+                status=0 if lost else 1,
+            )
+            for i in range(len(points))
+        ]
+    pose = types["geometry_msgs/msg/Pose"](
+        position=point_type(0.0, 0.0, 0.0),
+        orientation=types["geometry_msgs/msg/Quaternion"](0.0, 0.0, 0.0, 1.0),
+    )
+    return types["teo_sign_msgs/msg/Skeleton3D"](
+        id=number, is_signer=signer, body_frame=pose, body_frame_origin=0, **parts
+    )
+
+
+def write(store, path, frames, topics=("/skeletons",), start=1_750_000_000):
+    """Write a bag; frames are pairs of a stamp [s] and the skeletons then."""
+    types = store.types
+    with Writer(path, version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connections = [writer.add_connection(topic, TYPE, typestore=store) for topic in topics]
+        for index, (stamp, people) in enumerate(frames):
+            seconds = int(stamp)
+            time = types["builtin_interfaces/msg/Time"](start + seconds, round((stamp - seconds) * 1e9))
+            header = types["std_msgs/msg/Header"](stamp=time, frame_id="camera")
+            message = types[TYPE](header=header, skeletons=people)
+            for connection in connections:
+                writer.write(connection, 10**9 * start + index * 10**7, store.serialize_cdr(message, TYPE))
+    return path
+
+
+def code_of(*arguments, **options):
+    with pytest.raises(LutError) as error:
+        read_skeletons(*arguments, **options)
+    return error.value.code, str(error.value)
+
+
+def test_the_shipped_truth_keeps_all_distances_of_its_messages(store):
+    track = read_skeletons(SHIPPED, topic="/truth/skeletons")
+    with (SHIPPED / "signer_d435_0.mcap").open("rb") as stream:
+        read = make_reader(stream).iter_messages(topics=["/truth/skeletons"])
+        messages = [store.deserialize_cdr(message.data, TYPE) for _, _, message in read]
+    assert len(track.times) == len(messages) == 105
+    assert track.times == pytest.approx(np.arange(105) / 15.0, abs=1e-6)
+    for frame in (0, 40, 104):
+        raw = messages[frame].skeletons[0]
+        points = [(p.position.x, p.position.y, p.position.z) for p in (*raw.body, *raw.right_hand)]
+        ours = np.concatenate([track.body.positions[frame], track.right_hand.positions[frame]])
+        raw_distances = np.linalg.norm(np.array(points)[:, None] - np.array(points), axis=2)
+        distances = np.linalg.norm(ours[:, None] - ours, axis=2)
+        assert distances == pytest.approx(raw_distances, abs=1e-9)
+    # The nose is before and above the shoulders, the person's right is at negative y.
+    assert (track.body.positions[:, 0, (0, 2)] > 0.03).all()
+    assert (track.body.positions[:, 2, 1] < -0.1).all()
+    assert track.source == "signer_d435"
+    assert track.recorded is None  # rendered: stamps tell no day
+
+
+def test_the_signer_is_followed_and_anybody_else_when_asked(store, tmp_path):
+    people = [(0.1 * i, [skeleton(store, 3, signer=False, shift=0.5), skeleton(store, 8)]) for i in range(3)]
+    bag = write(store, tmp_path / "bag", people)
+    assert read_skeletons(bag).body.positions.shape == (3, 25, 3)
+    assert read_skeletons(bag, signer=3).recorded == "2025-06-15"
+    code, sentence = code_of(bag, signer=7)
+    assert code == "no_person"
+    assert "id 7" in sentence
+    assert "3, 8" in sentence
+
+
+def test_fields_of_a_keypoint_are_read(store, tmp_path):
+    frames = [(0.0, [skeleton(store, 1)]), (0.1, [skeleton(store, 1, lost_hand=True)]), (0.2, [])]
+    track = read_skeletons(write(store, tmp_path / "bag", frames))
+    assert track.right_hand.sigma[0] == pytest.approx(np.sqrt((1 + 4 + 9) / 3.0) * 0.01)
+    assert track.right_hand.confidence[0] == pytest.approx(0.9)
+    assert np.isnan(track.right_hand.positions[1:]).all()
+    assert track.right_hand.status[:, 0].tolist() == [1, 0, 0]
+    assert np.isnan(track.body.positions[2]).all()
+
+
+def test_a_file_reads_like_the_folder_it_is_in(store, tmp_path):
+    bag = write(store, tmp_path / "bag", [(0.1 * i, [skeleton(store, 1)]) for i in range(3)])
+    [file] = bag.glob("*.mcap")
+    assert read_skeletons(file).body.positions == pytest.approx(read_skeletons(bag).body.positions)
+
+
+def test_several_topics_are_told_apart_by_name(store, tmp_path):
+    frames = [(0.1 * i, [skeleton(store, 1)]) for i in range(3)]
+    both = write(store, tmp_path / "both", frames, topics=("/other", "/skeletons"))
+    assert len(read_skeletons(both).times) == 3
+    unclear = write(store, tmp_path / "unclear", frames, topics=("/one", "/two"))
+    code, sentence = code_of(unclear)
+    assert code == "no_skeletons"
+    assert "/one, /two" in sentence
+    assert len(read_skeletons(unclear, topic="/two").times) == 3
+
+
+def test_a_bag_without_skeletons_says_how_to_make_them():
+    code, sentence = code_of(SHIPPED)
+    assert code == "no_skeletons"
+    assert "retrieve" in sentence
+    assert "/truth/skeletons" in sentence
+
+
+def test_a_bag_in_which_nobody_is_seen_is_refused(store, tmp_path):
+    code, sentence = code_of(write(store, tmp_path / "bag", [(0.0, []), (0.1, [])]))
+    assert code == "no_person"
+    assert "2 frames, got nobody" in sentence
+
+
+def test_people_of_whom_none_is_marked_are_refused(store, tmp_path):
+    bag = write(store, tmp_path / "bag", [(0.0, [skeleton(store, 4, signer=False)])])
+    code, sentence = code_of(bag)
+    assert code == "no_person"
+    assert "--person" in sentence
+
+
+def test_a_topic_without_messages_is_refused(store, tmp_path):
+    assert code_of(write(store, tmp_path / "bag", []))[0] == "no_skeletons"
+
+
+def test_stamps_that_go_back_are_refused(store, tmp_path):
+    frames = [(stamp, [skeleton(store, 1)]) for stamp in (0.0, 0.2, 0.1)]
+    assert code_of(write(store, tmp_path / "bag", frames))[0] == "bad_stamps"
+
+
+def test_keypoints_of_another_layout_are_refused(store, tmp_path):
+    frames = [(0.0, [skeleton(store, 1, sizes=SIZES | {"body": 18})])]
+    code, sentence = code_of(write(store, tmp_path / "bag", frames))
+    assert code == "unreadable_bag"
+    assert "25 keypoints of the body" in sentence
+
+
+@pytest.mark.parametrize("kept", [0, 40, 3000, -20])
+def test_a_cut_off_bag_is_refused(store, tmp_path, kept):
+    bag = write(store, tmp_path / "bag", [(0.1 * i, [skeleton(store, 1)]) for i in range(20)])
+    [file] = bag.glob("*.mcap")
+    file.write_bytes(file.read_bytes()[:kept])
+    for path in (bag, file):
+        assert code_of(path)[0] == "unreadable_bag"
+
+
+def test_scrambled_bytes_within_a_bag_are_refused_or_read_but_never_crash(store, tmp_path):
+    bag = write(store, tmp_path / "bag", [(0.1 * i, [skeleton(store, 1)]) for i in range(5)])
+    [file] = bag.glob("*.mcap")
+    good = bytearray(file.read_bytes())
+    random = np.random.default_rng(0)
+    for _ in range(10):
+        bad = good.copy()
+        for place in random.integers(100, len(good) - 10, 20):
+            bad[place] ^= 0xFF
+        file.write_bytes(bad)
+        try:
+            read_skeletons(bag)
+        except LutError as error:
+            assert error.code in ("unreadable_bag", "no_skeletons", "no_person", "no_torso", "bad_stamps")
+
+
+def test_what_is_no_bag_is_refused(tmp_path):
+    (tmp_path / "notes.txt").write_text("no bag")
+    shutil.copy(tmp_path / "notes.txt", tmp_path / "notes.mcap")
+    (tmp_path / "empty").mkdir()
+    for name in ("notes.txt", "notes.mcap", "empty", "missing"):
+        code, sentence = code_of(tmp_path / name)
+        assert code == "unreadable_bag"
+        assert name in sentence

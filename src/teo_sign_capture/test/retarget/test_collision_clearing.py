@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from robot_person import JOINTS, keypoints, track_of
+
+from teo_description.robot import Robot
+from teo_sign_capture.retarget.arm_bounds import arm_bounds
+from teo_sign_capture.retarget.arm_residuals import ArmProblem
+from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
+from teo_sign_capture.retarget.collision_clearing import clear_arms
+from teo_sign_capture.retarget.collision_terms import LEAST, WholeRobot
+from teo_sign_capture.retarget.hand_goals import HandGoals
+from teo_sign_capture.signing_space.hand_points import COUNT
+from teo_signs.errors import LutError
+
+FRAMES = 12
+TIMES = np.arange(FRAMES) / 15.0
+# From before the chest into the belly and back [deg].
+OFF, INSIDE = (
+    np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0]),
+    np.radians([20.0, 0.0, 52.0, -98.0, 0.0, 0.0]),
+)
+SHARE = np.sin(np.pi * np.arange(FRAMES) / (FRAMES - 1.0))[:, None]
+ARMS = OFF + SHARE * (INSIDE - OFF)
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def track(robot):
+    return track_of(TIMES, keypoints(robot, JOINTS, np.zeros((FRAMES, len(JOINTS)))), source="belly")
+
+
+@pytest.fixture(scope="module")
+def wanted(robot):
+    """A problem that wants the hand to go into the belly, and the robot."""
+    chain = ArmChain(robot)
+    poses = chain.poses(ARMS)
+    upper, fore = poses.origins[:, 3] - chain.shoulder, poses.origins[:, 5] - poses.origins[:, 3]
+    goals = HandGoals(
+        part=np.eye(1, COUNT).repeat(FRAMES, axis=0),
+        local=np.zeros((FRAMES, 3)),
+        place=poses.place,
+        contact=np.ones(FRAMES),
+        palm=poses.rotation[:, :, 2],
+        fingers=poses.rotation[:, :, 0],
+        upper_arm=upper / np.linalg.norm(upper, axis=1, keepdims=True),
+        fore_arm=fore / np.linalg.norm(fore, axis=1, keepdims=True),
+    )
+    hand = np.tile(np.radians([10.0, -60.0, 7.0, 7.0, 7.0, 7.0]), (FRAMES, 1))
+    return ArmProblem(chain, (goals,), None), WholeRobot(robot, chain, ("right",), (hand,), {})
+
+
+def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
+    problem, whole = wanted
+    assert min(whole.clearance(frame, ARMS[frame]).distance for frame in range(FRAMES)) < -0.02
+    arms, distances = clear_arms(problem, whole, track, [arm_bounds("right")], ARMS)
+    assert distances.min() >= LEAST
+    measured = [whole.clearance(frame, arms[frame]).distance for frame in range(FRAMES)]
+    assert distances == pytest.approx(np.array(measured), abs=2e-4)
+    # What was free stays where it was; what was not is near the body still.
+    assert np.degrees(np.abs(arms[0] - ARMS[0])).max() < 5.0
+    assert distances[FRAMES // 2] < 0.05
+
+
+def test_arms_that_touch_nothing_stay_as_they_are(wanted, track):
+    problem, whole = wanted
+    free = np.tile(OFF, (FRAMES, 1))
+    arms, _ = clear_arms(problem, whole, track, [arm_bounds("right")], free)
+    assert arms is free
+
+
+def test_a_posture_without_a_way_out_is_refused_with_its_time_and_parts(wanted, track):
+    problem, whole = wanted
+    stuck = np.tile(INSIDE, (FRAMES, 1))
+    held = (INSIDE - 1e-6, INSIDE + 1e-6)
+    with pytest.raises(LutError, match=r"belly: .* at 0\.\d\d s, .*Right.*Trunk_link") as error:
+        clear_arms(problem, whole, track, [held], stuck)
+    assert error.value.code == "self_collision"

@@ -1,0 +1,137 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from robot_person import keypoints
+from scipy.spatial.transform import Rotation
+
+from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_description.hand_geometry import HandPoints, thumb_clearances
+from teo_description.hand_table import DextraTable, dextra_table
+from teo_description.robot import Robot
+from teo_sign_capture.retarget.hand_flexion import follow_hand
+from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm, straight_bends
+
+JOINTS = RIGHT_ARM + RIGHT_HAND
+STRAIGHT = np.zeros((4, 3))
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def table(robot):
+    return DextraTable(robot)
+
+
+def person_hand(bends, frames=10, length=0.09):
+    """A right hand whose fingers, from index to little finger, are bent so, joint by joint [deg]."""
+    points = np.zeros((21, 3))
+    points[1:5] = [(0.02, -0.03, 0.0), (0.05, -0.05, 0.0), (0.08, -0.06, 0.0), (0.10, -0.07, 0.0)]
+    for finger, joints in enumerate(bends):
+        knuckle = 5 + 4 * finger
+        points[knuckle] = (0.09, -0.03 + 0.02 * finger, 0.0)
+        total = np.cumsum(np.radians(joints))
+        for bone, (share, angle) in enumerate(zip((0.5, 0.3, 0.2), total, strict=True)):
+            way = length * share * np.array([np.cos(angle), 0.0, np.sin(angle)])
+            points[knuckle + bone + 1] = points[knuckle + bone] + way
+    return np.tile(points, (frames, 1, 1))
+
+
+def test_a_hand_of_teo_is_recovered(robot, table):
+    knots = np.radians([[10, -60, 10, 20, 30, 40], [30, -40, 60, 50, 30, 20], [10, -60, 80, 80, 80, 80]])
+    times = np.linspace(0.0, 2.0, 41)
+    axes = np.stack([np.interp(times, [0.0, 1.0, 2.0], knot) for knot in knots.T], axis=1)
+    motion = np.concatenate([np.zeros((41, 6)), axes], axis=1)
+    _, _, hand, _ = keypoints(robot, JOINTS, motion)
+    found = follow_hand(table, times, hand, STRAIGHT)
+    assert np.degrees(np.abs(found.axes[:, 2:] - axes[:, 2:])).max() < 1.5
+    thumb, wanted = (table.thumb_points(row[:, 0], row[:, 1])[:, 2] for row in (found.axes, axes))
+    assert 1000.0 * np.linalg.norm(thumb - wanted, axis=1).max() < 12.0
+    assert np.degrees(found.error).max() < 1.5
+
+
+@pytest.mark.parametrize(
+    ("bends", "least", "most"),
+    [
+        ([(0, 0, 0)] * 4, (7, 7, 7, 7), (7, 7, 7, 7)),
+        ([(90, 100, 60)] * 4, (75, 75, 75, 75), (85, 85, 85, 85)),
+        ([(0, 0, 0), *[(90, 100, 60)] * 3], (7, 75, 75, 75), (7, 85, 85, 85)),
+        # Bent at the knuckles alone: more than a third of it, for the tips are to be where they are.
+        ([(90, 0, 0)] * 4, (35, 35, 35, 35), (60, 60, 60, 60)),
+    ],
+)
+def test_shapes_become_what_the_inventory_calls_them(table, bends, least, most):
+    found = follow_hand(table, np.arange(10) / 30.0, person_hand(bends), STRAIGHT)
+    flexions = np.degrees(found.axes[:, 2:])
+    assert (flexions >= np.array(least) - 0.5).all()
+    assert (flexions <= np.array(most) + 0.5).all()
+
+
+def test_what_the_coupled_joints_cannot_do_is_reported(table):
+    straight, bent, fist = (
+        float(
+            np.degrees(
+                follow_hand(table, np.arange(5) / 30.0, person_hand([joints] * 4, 5), STRAIGHT).error[0]
+            )
+        )
+        for joints in ((0, 0, 0), (90, 0, 0), (80, 80, 80))
+    )
+    assert straight == pytest.approx(7.0, abs=0.1)  # TEO's straightest
+    assert bent > 5.0
+    assert fist < 1.0
+
+
+def test_size_and_attitude_of_a_hand_change_nothing(table):
+    times = np.arange(10) / 30.0
+    hand = person_hand([(10, 20, 10), (40, 50, 30), (60, 70, 40), (80, 90, 50)])
+    turn = Rotation.from_rotvec((0.4, -1.1, 2.0))
+    moved = turn.apply(2.0 * hand.reshape(-1, 3)).reshape(hand.shape) + np.array([1.0, 2.0, 3.0])
+    first, second = (follow_hand(table, times, one, STRAIGHT).axes for one in (hand, moved))
+    assert second == pytest.approx(first, abs=1e-6)
+
+
+def test_a_finger_that_seems_bent_while_straight_is_straight_for_its_signer(table):
+    seeming = [(8, 12, 6)] * 4
+    hand = np.concatenate([person_hand(seeming, 20), person_hand([(80, 90, 60)] * 4, 20)])
+    straight = straight_bends(hand)
+    assert np.degrees(straight) == pytest.approx(np.array(seeming, float), abs=0.1)
+    found = follow_hand(table, np.arange(40) / 30.0, hand, straight)
+    assert np.degrees(found.bends[0]).max() < 0.1
+    assert np.degrees(found.axes[0, 2:]) == pytest.approx(np.full(4, 7.0), abs=0.1)
+
+
+def test_a_signer_who_shows_only_a_fist_is_not_taken_for_straight():
+    straight = straight_bends(person_hand([(80, 90, 60)] * 4))
+    assert np.degrees(straight).max() < 10.0
+    lost = np.full((5, 21, 3), np.nan)
+    assert straight_bends(lost) == pytest.approx(straight)
+
+
+def test_bends_are_what_a_hand_was_made_with():
+    bends = [(0, 0, 0), (30, 40, 20), (90, 100, 60), (120, 10, 5)]
+    found = finger_bends(in_palm(person_hand(bends, 1)))[0]
+    assert np.degrees(found) == pytest.approx(np.array(bends), abs=1e-6)
+
+
+def test_a_thumb_on_the_index_touches_it_and_nothing_goes_through_anything(table):
+    hand = person_hand([(40, 50, 30), *[(0, 0, 0)] * 3])
+    tip = hand[0, 8]
+    hand[:, 4] = tip + np.array([0.0, -0.008, 0.004])
+    hand[:, 3] = hand[:, 4] * 0.7 + (0.0, -0.01, 0.0)
+    found = follow_hand(table, np.arange(10) / 30.0, hand, STRAIGHT)
+    fingers = table.finger_points(found.axes[:, 2:])[0]
+    thumb = table.thumb_points(found.axes[:, 0], found.axes[:, 1])[0]
+    assert np.linalg.norm(thumb[2] - fingers[0, 3]) < 0.03
+    assert thumb_clearances(HandPoints(fingers, thumb)).min() > -0.006
+    limits = joint_limits(RIGHT_HAND)
+    assert (found.axes >= limits.lower - 1e-9).all()
+    assert (found.axes <= limits.upper + 1e-9).all()
+
+
+def test_the_table_of_a_robot_is_worked_out_once(robot, table):
+    assert dextra_table(robot) is dextra_table(robot)
+    assert dextra_table(robot).thumb == pytest.approx(table.thumb)
+    assert dextra_table(Robot.load()) is not dextra_table(robot)

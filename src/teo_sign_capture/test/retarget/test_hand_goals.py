@@ -1,0 +1,125 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from robot_person import JOINTS, keypoints, track_of
+
+from teo_description.hand_table import DextraTable
+from teo_description.robot import Robot
+from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
+from teo_sign_capture.retarget.body_map import BodyMap
+from teo_sign_capture.retarget.hand_goals import hand_goals, pair_goals
+from teo_sign_capture.retarget.head_motion import follow_head
+from teo_sign_capture.signing_space.hand_points import COUNT, MIRROR, PALM, teo_hand_points
+from teo_sign_capture.tracks.head_pose import head_pose
+from teo_sign_capture.tracks.person import measure_person
+
+INDEX_TIP = 10
+"""Among the points of a hand: palm, heel, four knuckles, four middle joints, then the tips."""
+ARM = np.array([[[0.0, -0.35, 0.0], [0.1, -0.35, -0.3], [0.3, -0.2, -0.1]]])
+
+
+class Scene:
+    """A person of TEO's build, and TEO."""
+
+    def __init__(self) -> None:
+        robot = Robot.load()
+        points = keypoints(robot, JOINTS, np.zeros((1, len(JOINTS))))
+        track = track_of(np.zeros(1), points)
+        person = measure_person(track)
+        self.body = BodyMap(robot, ArmChain(robot), person)
+        self.head = follow_head(robot, head_pose(track, person.head_shape), person)
+        straight = np.radians([[10.0, -60.0, 7.0, 7.0, 7.0, 7.0]])
+        self.teo = teo_hand_points(DextraTable(robot), straight)
+        self.chin = person.places["chin"]
+        # A right hand pointing up, its palm to the person: along z, palm out along -x.
+        hand = track.right_hand.positions[0] - track.right_hand.positions[0, 0]
+        turn = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+        self.hand = hand @ turn.T
+
+    def goals(self, hand, side="right"):
+        arm = ARM if side == "right" else ARM * MIRROR
+        return hand_goals(self.body, self.head, side, hand[None], arm, self.teo)
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return Scene()
+
+
+def test_in_the_air_the_middle_of_the_palm_counts(scene):
+    goals = scene.goals(scene.hand + np.array([0.5, -0.2, -0.1]))
+    assert goals.contact[0] == 0.0
+    assert goals.part[0] == pytest.approx(np.eye(COUNT)[PALM])
+    assert goals.local[0] == pytest.approx(scene.teo[0, PALM])
+
+
+def test_at_the_chin_the_finger_tip_that_touches_it_counts(scene):
+    tip = scene.chin + np.array([0.008, 0.0, 0.0])
+    # The hand points at the face, its index 5 cm before the others.
+    pointing = scene.hand @ np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+    pointing[8] -= np.array([0.05, 0.0, 0.0])
+    goals = scene.goals(pointing - pointing[8] + tip)
+    assert goals.contact[0] == 1.0
+    assert goals.part[0].argmax() == INDEX_TIP
+    assert goals.part[0, INDEX_TIP] > 0.6
+    # A finger's radius before TEO's chin, and somewhat beside it for what else is near.
+    assert np.linalg.norm(goals.place[0] - (0.1095, 0.0, 0.640)) < 0.03
+
+
+def test_from_air_to_contact_nothing_jumps(scene):
+    ways = np.linspace(0.25, 0.01, 200)
+    places = np.stack(
+        [
+            scene.goals(scene.hand - scene.hand[8] + scene.chin + np.array([way, 0.0, 0.0])).local[0]
+            for way in ways
+        ]
+    )
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() < 0.01
+
+
+def test_a_left_hand_is_a_right_one_in_a_mirror(scene):
+    right = scene.goals(scene.hand + np.array([0.2, -0.1, 0.0]))
+    left = scene.goals((scene.hand + np.array([0.2, -0.1, 0.0])) * MIRROR, "left")
+    for field in ("place", "palm", "fingers", "upper_arm", "fore_arm", "contact"):
+        assert getattr(left, field) == pytest.approx(getattr(right, field), abs=1e-9)
+
+
+def test_directions_are_those_of_the_hand(scene):
+    goals = scene.goals(scene.hand + np.array([0.4, -0.2, 0.0]))
+    assert goals.fingers[0] == pytest.approx([0.0, 0.0, 1.0], abs=0.1)
+    assert goals.palm[0] == pytest.approx([-1.0, 0.0, 0.0], abs=0.1)
+    assert goals.fore_arm[0] == pytest.approx(np.array([0.2, 0.15, 0.2]) / np.linalg.norm([0.2, 0.15, 0.2]))
+
+
+@pytest.mark.parametrize(("apart", "nearness"), [(0.40, 0.0), (0.03, 1.0)])
+def test_hands_that_are_near_each_other_keep_the_way_between_them(scene, apart, nearness):
+    right = scene.hand + np.array([0.35, 0.0, 0.0])
+    left = right + np.array([apart, 0.0, 0.0])  # palm to back, the left one behind
+    arms = (ARM, ARM * MIRROR)
+    pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
+    assert pair.nearness[0] == pytest.approx(nearness)
+    assert pair.way[0] == pytest.approx(scene.body.scale * (-apart, 0.0, 0.0), abs=0.01)
+
+
+@pytest.mark.parametrize(("ahead", "front"), [(0.08, 1.0), (-0.08, -1.0)])
+def test_of_arms_that_cross_the_one_in_front_is_told(scene, ahead, front):
+    """Each hand on the other side's breast; which forearm is before the other tells them apart."""
+    right = scene.hand + np.array([0.25 + ahead, 0.12, 0.0])
+    left = scene.hand * MIRROR + np.array([0.25, -0.12, 0.0])
+    arms = [
+        np.array([[(0.0, -side * 0.2, 0.0), (0.2 + x, -side * 0.15, -0.25), hand[0]]])
+        for side, x, hand in ((1.0, ahead, right), (-1.0, 0.0, left))
+    ]
+    pair = pair_goals(
+        scene.body, np.zeros(1), (right[None], left[None]), (arms[0], arms[1]), (scene.teo, scene.teo)
+    )
+    assert pair.order[0, 0] * front > 0.9
+    assert pair.order[0, 1] <= 0.0  # beside leads nowhere
+
+
+def test_hands_far_from_each_other_have_no_order(scene):
+    right, left = scene.hand + np.array([0.3, -0.4, 0.0]), scene.hand * MIRROR + np.array([0.3, 0.4, 0.0])
+    arms = (ARM * (1.0, 2.0, 1.0), ARM * MIRROR * (1.0, 2.0, 1.0))
+    pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
+    assert pair.order[0] == pytest.approx(np.zeros(3))

@@ -1,0 +1,36 @@
+from __future__ import annotations
+
+from itertools import pairwise, product
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_sign_capture.viterbi import cheapest_way
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    seed=st.integers(0, 10**6),
+    moments=st.integers(1, 5),
+    price=st.floats(0.0, 3.0),
+    haste=st.floats(0.0, 9.0),
+)
+def test_no_other_way_is_cheaper(seed, moments, price, haste):
+    random = np.random.default_rng(seed)
+    cost, values = random.uniform(0.0, 1.0, (moments, 3)), random.normal(size=(moments, 3, 2))
+
+    farthest = random.uniform(0.0, 2.0, moments - 1)
+
+    def total(way):
+        path = values[np.arange(moments), way]
+        ways = sum(float(((b - a) ** 2).sum()) for a, b in pairwise(path))
+        beyond = 0.0
+        for far, (a, b) in zip(farthest, pairwise(path), strict=True):
+            beyond += sum(max(abs(y - x) - far, 0.0) ** 2 for x, y in zip(a, b, strict=True))
+        return cost[np.arange(moments), way].sum() + price * ways + haste * beyond
+
+    best = min((list(way) for way in product(range(3), repeat=moments)), key=total)
+    found = cheapest_way(cost, values, price, farthest=farthest, haste=haste)
+    assert found == pytest.approx(values[np.arange(moments), best])

@@ -1,0 +1,151 @@
+"""Signs are found where a made person signs, to the image."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from made_tracks import HANGING, Move, lose, make_track, path
+from numpy.typing import NDArray
+
+from teo_sign_capture.tracks.segmentation import SignSpan, find_signs, the_sign
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_sign_capture.tracks.smoothing import smooth_track
+from teo_signs.errors import LutError
+
+Array = NDArray[np.float64]
+RATE = 30.0
+FRAMES = 2.0 / RATE  # [s]
+REST = tuple(HANGING["right"])
+CHIN, OUT, SIDE = (0.25, -0.05, 0.05), (0.42, -0.08, -0.05), (0.30, -0.35, 0.0)
+
+
+def track_of(
+    moves: list[Move], duration: float, *, left: list[Move] | None = None, noise: float = 0.008
+) -> SkeletonTrack:
+    times = np.arange(0.0, duration, 1.0 / RATE)
+    left_path = None if left is None else path(times, HANGING["left"], left)
+    return make_track(times, path(times, REST, moves), left_path, noise=noise)
+
+
+def spans_of(track: SkeletonTrack) -> tuple[SignSpan, ...]:
+    return find_signs(smooth_track(track).track)
+
+
+ONE = [(0.5, 1.1, CHIN), (1.2, 1.6, OUT), (1.7, 2.3, REST)]
+
+
+def test_the_stroke_is_what_lies_between_the_way_up_and_the_way_down() -> None:
+    (span,) = spans_of(track_of(ONE, 3.0))
+    assert span.start == pytest.approx(1.1, abs=FRAMES)
+    assert span.end == pytest.approx(1.7, abs=FRAMES)
+    assert 0.5 < span.leaves < 0.8
+    assert 2.0 < span.returns < 2.4
+    assert span.handedness == "right"
+    assert not span.cut_start
+    assert not span.cut_end
+
+
+@settings(max_examples=12)
+@given(
+    up=st.floats(0.4, 0.8),
+    stroke=st.floats(0.25, 0.8),
+    down=st.floats(0.4, 0.8),
+    side=st.floats(-0.4, 0.1),
+    seed=st.integers(0, 100),
+)
+def test_boundaries_are_within_two_images_at_any_pace(
+    up: float, stroke: float, down: float, side: float, seed: int
+) -> None:
+    begin, end = 0.5 + up, 0.5 + up + stroke
+    moves: list[Move] = [(0.5, begin, CHIN), (begin, end, (0.42, side, -0.1)), (end, end + down, REST)]
+    times = np.arange(0.0, end + down + 0.6, 1.0 / RATE)
+    (span,) = spans_of(make_track(times, path(times, REST, moves), noise=0.005, seed=seed))
+    assert span.start == pytest.approx(begin, abs=FRAMES)
+    assert span.end == pytest.approx(end, abs=FRAMES)
+
+
+def test_a_sign_that_is_held_is_the_hold() -> None:
+    (span,) = spans_of(track_of([(0.5, 1.1, CHIN), (1.8, 2.4, REST)], 3.0))
+    assert span.start == pytest.approx(1.1, abs=3.0 / RATE)  # the last centimetre of the way up is slow
+    assert span.end == pytest.approx(1.8, abs=3.0 / RATE)
+
+
+def test_a_sign_that_is_but_a_touch_lasts_a_little() -> None:
+    (span,) = spans_of(track_of([(0.5, 1.1, CHIN), (1.1, 1.7, REST)], 2.4))
+    assert 0.1 <= span.duration <= 0.25
+    assert span.start - 0.05 <= 1.1 <= span.end + 0.05
+
+
+def test_both_hands_are_seen_to_sign() -> None:
+    left = [
+        (0.5, 1.1, (0.25, 0.05, 0.05)),
+        (1.2, 1.6, (0.42, 0.08, -0.05)),
+        (1.7, 2.3, tuple(HANGING["left"])),
+    ]
+    (span,) = spans_of(track_of(ONE, 3.0, left=left))  # type: ignore[arg-type]  # a tuple of floats
+    assert span.handedness == "both"
+
+
+def test_a_left_handed_sign_is_told() -> None:
+    times = np.arange(0.0, 3.0, 1.0 / RATE)
+    mirror = np.array([1.0, -1.0, 1.0])
+    left = path(times, REST, ONE) * mirror
+    track = make_track(times, np.tile(HANGING["right"], (len(times), 1)), left)
+    assert spans_of(track)[0].handedness == "left"
+
+
+def test_a_beat_that_returns_to_rest_shortly_is_one_sign() -> None:
+    moves = [*ONE[:2], (1.7, 2.0, REST), (2.1, 2.4, CHIN), (2.5, 2.9, REST)]
+    assert len(spans_of(track_of(moves, 3.6))) == 1
+
+
+def test_two_signs_are_refused_with_where_each_is() -> None:
+    moves = [*ONE, *[(start + 2.8, end + 2.8, place) for start, end, place in ONE]]
+    track = smooth_track(track_of(moves, 6.0)).track
+    with pytest.raises(LutError, match="got 2") as error:
+        the_sign(track)
+    assert error.value.code == "several_signs"
+    assert str(error.value).count("--start") == 2
+    # What it suggests is one sign.
+    first, _ = find_signs(track)
+    assert the_sign(track.between(first.leaves, first.returns)).duration == pytest.approx(0.6, abs=FRAMES)
+
+
+def test_many_signs_without_rest_are_too_long_and_their_pauses_named() -> None:
+    places = [CHIN, SIDE, OUT] * 3
+    moves = [(0.5 + 0.6 * index, 1.0 + 0.6 * index, place) for index, place in enumerate(places)]
+    track = smooth_track(track_of([*moves, (6.0, 6.6, REST)], 7.2)).track
+    with pytest.raises(LutError) as error:
+        the_sign(track)
+    assert error.value.code == "too_long"
+    pauses = find_signs(track)[0].pauses
+    assert min(abs(pause - 1.65) for pause in pauses) < 0.1
+    assert f"{pauses[0]:.2f}" in str(error.value)
+
+
+@pytest.mark.parametrize("moves", [[], [(0.5, 0.8, (0.10, -0.20, -0.46)), (0.9, 1.2, REST)]])
+def test_hands_that_stay_at_rest_or_fidget_are_no_sign(moves: list[Move]) -> None:
+    track = smooth_track(track_of(moves, 2.0)).track
+    assert find_signs(track) == ()
+    with pytest.raises(LutError) as error:
+        the_sign(track)
+    assert error.value.code == "no_motion"
+
+
+def test_hands_that_rest_below_the_image_are_at_rest() -> None:
+    track = lose(lose(track_of(ONE, 3.0), "right_hand", 0.0, 0.6), "right_hand", 2.2, 3.0)
+    body = track.body.positions.copy()
+    hidden = body[:, 4, 2] < -0.45
+    body[hidden, 4] = np.nan
+    lost = make_track(track.times, body[:, 4])
+    (span,) = spans_of(lost)
+    assert span.start == pytest.approx(1.1, abs=FRAMES)
+    assert span.end == pytest.approx(1.7, abs=FRAMES)
+
+
+def test_a_recording_cut_within_the_sign_says_so() -> None:
+    (span,) = find_signs(smooth_track(track_of(ONE, 3.0)).track.between(0.9, 1.65))
+    assert span.cut_start
+    assert span.cut_end

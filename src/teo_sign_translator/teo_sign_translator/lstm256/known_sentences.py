@@ -1,0 +1,209 @@
+"""Asking the model, and checking what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS
+from teo_sign_translator.lstm256.gloss_list import GlossList
+from teo_sign_translator.lstm256.input_tokens import MARKS
+from teo_sign_translator.lstm256.phrasebook import Match, Phrasebook
+from teo_sign_translator.lstm256.seq2seq import Prediction, SequenceModel
+from teo_sign_translator.output.number_signs import number
+from teo_sign_translator.output.output_words import Draft, carried, spelled
+from teo_sign_translator.output.translation import Kind, Origin
+from teo_sign_translator.text.cleaning import strip_marks
+from teo_sign_translator.text.reading import Clause, Word, WordKind
+
+#: Confidence in an answer to a sentence outside the training data, times the model's probability: a model
+#: that has learned a few sentences by heart is as sure of its mistakes as of them.
+UNSEEN_FACTOR = 0.7
+
+#: Probability below which a token of the model is not believed, and the sentence is signed word by word
+#: instead: the model would rather say something else.
+MIN_PROBABILITY = 0.5
+
+
+class KnownSentences:
+    """Translates what the model can be asked for."""
+
+    def __init__(self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
+        """Take the parts together.
+
+        Args:
+            model: Whose words are those of the phrasebook's sentences.
+            phrasebook: Which words a gloss can stand for.
+            glosses: Which words have no sign of their own.
+        """
+        self._model = model
+        self._phrasebook = phrasebook
+        self._glosses = glosses
+        self._inputs = {strip_marks(token): token for token in model.inputs.tokens if token not in SLOTS}
+
+    def translate(self, match: Match, clauses: Sequence[Clause]) -> list[Draft] | None:
+        """Translate a sentence of the training data.
+
+        Args:
+            match: The sentence.
+            clauses: Where it was found; their marks go to the model with it.
+
+        Returns:
+            Its output words, or None if the model is not sure or says something else than it was taught.
+        """
+        left = list(match.pattern.tokens)
+        tokens: list[str] = []
+        for clause in clauses:
+            # Only a sentence that is one clause has slots; in all others each token is one word.
+            size = len(left) if clause is clauses[-1] else len(clause.words)
+            tokens += left[:size] + self._mark(clause.end)
+            del left[:size]
+        prediction = self._believed(tokens)
+        if prediction is None or prediction.tokens != match.pattern.glosses:
+            return None
+        return _drafts(prediction, match.pattern.sources, match.words, factor=1.0)
+
+    def translate_similar(self, words: Sequence[Word], end: str) -> list[Draft] | None:
+        """Translate a sentence that the model was not trained on, if its answer can be accounted for.
+
+        Args:
+            words: The sentence.
+            end: Its closing mark.
+
+        Returns:
+            Its output words, or None if the model lacks a word, is not sure, says a gloss that no word stands
+            for, or leaves out a word that has a sign of its own.
+        """
+        groups = self._encode(words) if len(words) <= self._phrasebook.longest else None
+        if groups is None:
+            return None
+        prediction = self._believed([token for token, _ in groups if token] + self._mark(end))
+        if prediction is None:
+            return None
+        sources = self._account(prediction.tokens, groups)
+        if sources is None:
+            return None
+        return _drafts(prediction, sources, [group for _, group in groups], factor=UNSEEN_FACTOR)
+
+    def _believed(self, tokens: Sequence[str]) -> Prediction | None:
+        """The model's answer, if it is one and the model is sure of it."""
+        if not all(token in self._model.inputs for token in tokens):
+            return None
+        prediction = self._model.predict(tokens)
+        sure = prediction.complete and all(p >= MIN_PROBABILITY for p in prediction.probabilities)
+        return prediction if sure and prediction.tokens else None
+
+    def _mark(self, end: str) -> list[str]:
+        return [end] if end in MARKS and end in self._model.inputs else []
+
+    def _encode(self, words: Sequence[Word]) -> list[tuple[str, tuple[Word, ...]]] | None:
+        """Input tokens and the words behind each; the token is empty for a word that the model is not shown.
+
+        None if a word has a sign of its own that the model does not know, or if the model knows no word at
+        all.
+        """
+        groups: list[tuple[str, tuple[Word, ...]]] = []
+        for word in words:
+            token = self._token(word)
+            if token is None or (token and token not in self._model.inputs):
+                return None
+            if token == NAME and groups and groups[-1][0] == NAME:
+                groups[-1] = (NAME, (*groups[-1][1], word))
+            else:
+                groups.append((token, (word,)))
+        return groups if any(token and token not in SLOTS for token, _ in groups) else None
+
+    def _token(self, word: Word) -> str | None:
+        if word.kind is WordKind.NUMBER:
+            return NUMBER
+        known = self._inputs.get(word.key)
+        if known is not None:
+            return known
+        entry = self._glosses.find(word.lower)
+        if entry is None:
+            return NAME if word.kind is WordKind.LETTERS else None
+        return "" if entry.function else None
+
+    def _account(
+        self, glosses: Sequence[str], groups: Sequence[tuple[str, tuple[Word, ...]]]
+    ) -> list[tuple[int, ...]] | None:
+        """For each gloss the places of its groups; None if glosses and words do not fit together."""
+        slots = [i for i, (token, _) in enumerate(groups) if token in SLOTS]
+        if [groups[i][0] for i in slots] != [gloss for gloss in glosses if gloss in SLOTS]:
+            return None
+        sources: list[tuple[int, ...]] = []
+        for gloss in glosses:
+            if gloss in SLOTS:
+                sources.append((slots.pop(0),))
+                continue
+            places = (
+                i
+                for i, (token, group) in enumerate(groups)
+                if token not in SLOTS and self._says(group, gloss)
+            )
+            sources.append(tuple(places))
+        covered = {place for places in sources for place in places}
+        left = (group for i, (_, group) in enumerate(groups) if i not in covered)
+        return sources if all(sources) and all(map(self._may_be_left, left)) else None
+
+    def _says(self, group: Iterable[Word], gloss: str) -> bool:
+        return any(gloss in self._phrasebook.supported(word) for word in group)
+
+    def _may_be_left(self, group: Iterable[Word]) -> bool:
+        entries = [self._glosses.find(word.lower) for word in group]
+        return all(entry is not None and entry.function for entry in entries)
+
+
+def _drafts(
+    prediction: Prediction,
+    sources: Sequence[tuple[int, ...]],
+    words: Sequence[tuple[Word, ...]],
+    *,
+    factor: float,
+) -> list[Draft]:
+    """Output words of a prediction; words that no gloss stands for go with the next one that has a gloss.
+
+    Args:
+        prediction: Glosses and slots.
+        sources: For each of them the places in `words` that it stands for.
+        words: The words of the sentence, several in one place for a name.
+        factor: Times the model's probabilities gives the confidence.
+    """
+    extras = _unclaimed(sources, len(words))
+    result: list[Draft] = []
+    for token, probability, own, extra in zip(
+        prediction.tokens, prediction.probabilities, sources, extras, strict=True
+    ):
+        confidence = factor * probability
+        if token not in SLOTS:
+            said = _typed(words, sorted((*own, *extra)))
+            result.append(
+                Draft(
+                    signs=(token,), kind=Kind.LEXICAL, confidence=confidence, words=said, origin=Origin.MODEL
+                )
+            )
+            continue
+        result += [carried(word.lower, word.parts) for place in extra for word in words[place]]
+        for word in (word for place in own for word in words[place]):
+            if word.kind is WordKind.NUMBER:
+                result += number(word.value, word.parts, confidence)
+            else:
+                result += spelled(word.lower, word.parts, confidence)
+    return result
+
+
+def _unclaimed(sources: Sequence[tuple[int, ...]], count: int) -> list[list[int]]:
+    """For each gloss the places that nobody claims and that go with it: those before the next it claims."""
+    owner: dict[int, int] = {}
+    for index, places in enumerate(sources):
+        for place in places:
+            owner.setdefault(place, index)
+    result: list[list[int]] = [[] for _ in sources]
+    for place in range(count):
+        if place not in owner:
+            neighbour = min((p for p in owner if p > place), default=max(owner, default=-1))
+            result[owner.get(neighbour, len(sources) - 1)].append(place)
+    return result
+
+
+def _typed(words: Sequence[tuple[Word, ...]], places: Iterable[int]) -> tuple[str, ...]:
+    return tuple(part for place in places for word in words[place] for part in word.parts)

@@ -1,0 +1,63 @@
+"""The node's parameters, in one table."""
+
+from __future__ import annotations
+
+from teo_common.parameters import ParameterRow
+from teo_sign_translator.lstm256.store import DEFAULT_MODEL
+from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
+from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE
+
+#: Depth of `sign_tokens` [messages]: a whole text can wait there for a reader that is busy.
+SIGN_TOKENS_DEPTH = 100
+
+
+PARAMETERS = (
+    ParameterRow(
+        name="model",
+        default=DEFAULT_MODEL,
+        description="Name of the model, one that `translate --list-models` lists. Setting it loads its files "
+        "anew.",
+    ),
+    ParameterRow(
+        name="beam_width",
+        default=DEFAULT_BEAM_WIDTH,
+        description="Translations that the model weighs against each other [1]; its time grows with it. "
+        "lstm256 has one.",
+        low=1,
+        high=16,  # wider beams find nothing better and take tens of milliseconds
+    ),
+    ParameterRow(
+        name="min_confidence",
+        default=DEFAULT_MIN_CONFIDENCE,
+        description="Probability of a token, 0 to 1, below which its sentence is called uncertain.",
+        low=0.0,
+        high=1.0,
+    ),
+    ParameterRow(
+        name="max_sentences",
+        default=SIGN_TOKENS_DEPTH,
+        description="Sentences that one text may have [1]; a longer text is refused, since sign_tokens could "
+        "not hold all of it for a reader that is busy.",
+        low=1,
+        high=SIGN_TOKENS_DEPTH,
+    ),
+    ParameterRow(
+        name="queue_size",
+        default=100,  # a second's work for short texts: nobody waits longer for an answer without wondering
+        description="Texts that may wait while one is translated [1]; further ones are refused.",
+        low=1,
+        high=1000,
+    ),
+    ParameterRow(
+        name="signs_file",
+        default="",
+        description="File with the glosses that have signs, one a line; used until the executor's list_signs "
+        "answers. Empty: until then every gloss may have one, and the executor spells what it lacks.",
+    ),
+    ParameterRow(
+        name="autostart",
+        default=True,  # `ros2 run` without a lifecycle manager must give a node that translates
+        description="Whether the node configures and activates itself when it starts; else a manager does.",
+        read_only=True,
+    ),
+)

@@ -1,0 +1,60 @@
+"""Which glosses have signs, as the executor says it."""
+
+from __future__ import annotations
+
+from rclpy.node import Node
+from rclpy.task import Future
+from teo_sign_msgs.srv import ListSigns
+
+from teo_sign_translator.node.messages import lexical_glosses
+
+#: How often the executor is asked for its signs [s]: a new sign is used before anyone has typed a sentence.
+SIGNS_PERIOD = 2.0
+
+
+class SignInventory:
+    """Asks `list_signs` again and again, so that signs may come and go."""
+
+    def __init__(self, node: Node, listed: frozenset[str] | None) -> None:
+        """Begin to ask.
+
+        Args:
+            node: Asks.
+            listed: Glosses that have signs until an answer has come; None if that is not known.
+        """
+        self._node = node
+        self._listed = listed
+        self._answered: frozenset[str] | None = None
+        self._answer: Future | None = None
+        self._client = node.create_client(ListSigns, "list_signs")
+        self._timer = node.create_timer(SIGNS_PERIOD, self._ask)
+
+    @property
+    def signs(self) -> frozenset[str] | None:
+        """Glosses that have signs; None if that is not known."""
+        return self._listed if self._answered is None else self._answered
+
+    def list(self, listed: frozenset[str] | None) -> None:
+        """Take other glosses until an answer has come."""
+        self._listed = listed
+
+    def close(self) -> None:
+        """Ask no more."""
+        self._node.destroy_timer(self._timer)
+        self._node.destroy_client(self._client)
+
+    def _ask(self) -> None:
+        """Ask anew, if the executor is there; an answer that has not come by now never will."""
+        if self._answer is not None:
+            self._client.remove_pending_request(self._answer)
+        self._answer = None
+        if self._client.service_is_ready():
+            self._answer = self._client.call_async(ListSigns.Request())
+            self._answer.add_done_callback(self._take)
+
+    def _take(self, answer: Future) -> None:
+        self._answer = None
+        signs = lexical_glosses(answer.result())
+        if signs != self._answered:
+            self._answered = signs
+            self._node.get_logger().info(f"{len(signs)} glosses have signs")

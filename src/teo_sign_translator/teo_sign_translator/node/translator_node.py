@@ -1,0 +1,291 @@
+"""`translator_node`: Spanish text in, sign tokens out."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+import uuid
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.context import Context
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
+from std_msgs.msg import String
+from teo_sign_msgs.msg import SignSentence
+from teo_sign_msgs.srv import Translate
+
+from teo_common.node_process import run_node
+from teo_common.parameters import declare_parameters
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.node.log_text import quoted, short
+from teo_sign_translator.node.messages import to_diagnostics, to_messages
+from teo_sign_translator.node.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
+from teo_sign_translator.node.sign_inventory import SignInventory
+from teo_sign_translator.node.text_statistics import Statistics
+from teo_sign_translator.node.text_worker import TextWorker
+from teo_sign_translator.output.sign_choice import listed_signs
+from teo_sign_translator.pipeline.translator import Translator
+
+#: Texts that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own queue
+#: that is full first, and that says so.
+TEXT_DEPTH = 1000
+
+#: How often the state is published [s], as diagnostics are by custom.
+DIAGNOSTICS_PERIOD = 1.0
+
+# How long the end of the text that is being translated is awaited [s]; the longest text takes less.
+_STOP_TIMEOUT = 5.0
+
+_NOT_ACTIVE = "[not_active] the translator is being stopped: activate it, then send the text again"
+
+
+class _Text(NamedTuple):
+    """A text and when it came."""
+
+    text: str
+    received: Time
+
+
+class TranslatorNode(LifecycleNode):
+    """Answers texts in the order in which they come. Owns no language logic: see `translator.Translator`.
+
+    Unconfigured: no model. Inactive: the model is loaded and the `translate` service answers. Active: texts
+    of the topic are answered too.
+    """
+
+    def __init__(
+        self, *, context: Context | None = None, parameter_overrides: Iterable[Parameter] = ()
+    ) -> None:
+        """Declare the parameters; the transitions do the rest.
+
+        Args:
+            context: The ROS context; the default one if None.
+            parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
+        """
+        super().__init__("translator", context=context, parameter_overrides=list(parameter_overrides))
+        declare_parameters(self, PARAMETERS)
+        self._translator: Translator | None = None
+        self._next_translator: Translator | None = None
+        self._inventory: SignInventory | None = None
+        self._worker: TextWorker[_Text] | None = None
+        self._translating = threading.Lock()
+        self._statistics = Statistics()
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._apply_parameters)
+
+    def start(self) -> bool:
+        """Configure and activate without a manager; tell whether both succeeded."""
+        success = TransitionCallbackReturn.SUCCESS
+        return bool(self.trigger_configure() == success and self.trigger_activate() == success)
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
+        """Load the model; serve `translate` and say how things are."""
+        try:
+            translator = self._load({})
+            listed = listed_signs(self._value("signs_file"))
+        except TranslationError as error:
+            self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
+            return TransitionCallbackReturn.FAILURE
+        reliable = ReliabilityPolicy.RELIABLE
+        self._tokens = self.create_lifecycle_publisher(
+            SignSentence, "sign_tokens", QoSProfile(depth=SIGN_TOKENS_DEPTH, reliability=reliable)
+        )
+        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
+        self._service = self.create_service(Translate, "translate", self._on_translate)
+        self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)
+        self._inventory = SignInventory(self, listed)
+        self._translator = translator
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Listen to `text`."""
+        result = super().on_activate(state)
+        self._worker = TextWorker(self._answer_text, size=self._value("queue_size"))
+        qos = QoSProfile(depth=TEXT_DEPTH, reliability=ReliabilityPolicy.RELIABLE)
+        self._texts = self.create_subscription(String, "text", self._on_text, qos)
+        assert self._translator is not None
+        self.get_logger().info(f"ready, model {self._translator.name}")
+        return result
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Listen no more; texts that still wait are refused."""
+        self._stop_listening()
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
+        """Let go of the model and of all that was made to use it."""
+        self._let_go()
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Finish the text at hand and let go of everything."""
+        self._stop_listening()
+        self._let_go()
+        return super().on_shutdown(state)
+
+    def destroy_node(self) -> None:
+        """Finish the text at hand, then end."""
+        self._stop_listening()
+        super().destroy_node()
+
+    def _stop_listening(self) -> None:
+        worker, self._worker = self._worker, None
+        if worker is None:
+            return
+        self.destroy_subscription(self._texts)
+        for item in worker.stop(_STOP_TIMEOUT):
+            self._refuse(item.text, _NOT_ACTIVE)
+
+    def _let_go(self) -> None:
+        if self._translator is None:
+            return
+        assert self._inventory is not None
+        self._inventory.close()
+        self.destroy_timer(self._timer)
+        self.destroy_service(self._service)
+        self.destroy_publisher(self._diagnostics)
+        self.destroy_lifecycle_publisher(self._tokens)
+        self._translator = self._inventory = None
+
+    def _on_text(self, message: String) -> None:
+        if self._worker is None:  # taken from the topic just before the node was deactivated
+            self._refuse(message.data, _NOT_ACTIVE)
+        elif not self._worker.offer(_Text(message.data, self.get_clock().now())):
+            self._refuse(
+                message.data, f"[queue_full] {self._worker.size} texts wait already: send fewer at a time"
+            )
+
+    def _answer_text(self, item: _Text) -> None:
+        """Translate and publish a text of the topic; in the worker's thread."""
+        try:
+            sentences = self._translate(item)
+        except TranslationError as error:
+            self._refuse(item.text, f"[{error.code}] {error}")
+            return
+        except Exception as error:  # a fault of ours with one text must not keep the node from the next
+            self._statistics.add_refused(f"[internal_error] {error!r}")
+            self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
+            return
+        for sentence in sentences:
+            self._tokens.publish(sentence)
+        if self._tokens.get_subscription_count() == 0:
+            self.get_logger().warning("nobody listens to sign_tokens: this text will not be signed")
+
+    def _on_translate(self, request: Translate.Request, response: Translate.Response) -> Translate.Response:
+        try:
+            response.sentences = self._translate(_Text(request.text, self.get_clock().now()))
+            response.success = True
+        except TranslationError as error:
+            self._statistics.add_refused(f"[{error.code}] {error}")
+            response.code = error.code
+            response.message = str(error)
+        except Exception as error:  # likewise
+            self._statistics.add_refused(f"[internal_error] {error!r}")
+            self.get_logger().error(f"failed on {quoted(request.text)}:\n{traceback.format_exc()}")
+            response.code = "internal_error"
+            response.message = f"the translator failed on this text: {error!r}; its log says more"
+        return response
+
+    def _translate(self, item: _Text) -> list[SignSentence]:
+        """A text as messages.
+
+        Raises:
+            TranslationError: If it cannot be translated, or has more than `max_sentences`.
+        """
+        # The service and the worker share one model, which need not stand two callers at a time.
+        with self._translating:
+            assert self._translator is not None
+            assert self._inventory is not None
+            translation = self._translator.translate(item.text, self._inventory.signs)
+        most = self._value("max_sentences")
+        if len(translation.sentences) > most:
+            raise TranslationError(
+                "too_many_sentences",
+                f"expected at most {most} sentences in one text (parameter max_sentences), got "
+                f"{len(translation.sentences)}: send it in parts",
+            )
+        elapsed = (self.get_clock().now() - item.received).nanoseconds * 1e-9
+        self._statistics.add_done(elapsed)
+        self.get_logger().info(f"{quoted(item.text)}: {short(str(translation))} ({elapsed * 1000:.1f} ms)")
+        if translation.ignored:
+            self.get_logger().warning(
+                f"nothing stands for {short(' '.join(map(ascii, translation.ignored)))}"
+            )
+        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=str(uuid.uuid4()))
+
+    def _refuse(self, text: str, reason: str) -> None:
+        self._statistics.add_refused(reason)
+        self.get_logger().warning(f"refused {quoted(text)}: {reason}")
+
+    def _publish_diagnostics(self) -> None:
+        assert self._translator is not None
+        assert self._inventory is not None
+        signs = self._inventory.signs
+        self._diagnostics.publish(
+            to_diagnostics(
+                self._statistics,
+                model=self._translator.name,
+                active=self._worker is not None,
+                waiting=self._worker.waiting if self._worker is not None else 0,
+                signs=None if signs is None else len(signs),
+                stamp=self.get_clock().now().to_msg(),
+            )
+        )
+
+    def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
+        """Load what the new values ask for, so that a model which cannot be used is refused."""
+        asked = {parameter.name: parameter.value for parameter in parameters}
+        try:
+            if {"model", "beam_width"} & asked.keys():
+                self._next_translator = self._load(asked)
+            if "signs_file" in asked:
+                listed_signs(asked["signs_file"])
+        except TranslationError as error:
+            return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
+        return SetParametersResult(successful=True)
+
+    def _apply_parameters(self, parameters: Sequence[Parameter]) -> None:
+        if self._translator is None:  # configuring reads them
+            return
+        asked = {parameter.name: parameter.value for parameter in parameters}
+        if {"model", "beam_width"} & asked.keys() and self._next_translator is not None:
+            self._translator, self._next_translator = self._next_translator, None
+            self.get_logger().info(f"model {self._translator.name}")
+        if "min_confidence" in asked:
+            self._translator.min_confidence = asked["min_confidence"]
+        if "queue_size" in asked and self._worker is not None:
+            self._worker.size = asked["queue_size"]
+        if "signs_file" in asked and self._inventory is not None:
+            self._inventory.list(listed_signs(asked["signs_file"]))
+
+    def _load(self, asked: dict[str, Any]) -> Translator:
+        """A translator of the parameters' values, those asked for before those set."""
+        values = {name: self._value(name) for name in ("model", "beam_width", "min_confidence")} | asked
+        return Translator.load(
+            values["model"], beam_width=values["beam_width"], min_confidence=values["min_confidence"]
+        )
+
+    def _value(self, name: str) -> Any:
+        return self.get_parameter(name).value
+
+
+def _started_node() -> TranslatorNode:
+    node = TranslatorNode()
+    if node.get_parameter("autostart").value and not node.start():
+        node.destroy_node()
+        raise SystemExit(1)  # the log has said why
+    return node
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the node until it is told to end."""
+    run_node(_started_node, arguments)
+
+
+if __name__ == "__main__":
+    main()

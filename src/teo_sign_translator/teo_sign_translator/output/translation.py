@@ -1,0 +1,143 @@
+"""What a translation is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import IntEnum
+from itertools import groupby
+from typing import Any
+
+from teo_sign_translator.text.sentence_type import SentenceType
+
+
+class Kind(IntEnum):
+    """Kinds of token; values are those of `teo_sign_msgs/SignToken`."""
+
+    LEXICAL = 0
+    LETTER = 1
+    NUMBER = 2
+    PAUSE = 3
+
+
+class Origin(IntEnum):
+    """How a token came about; values are those of `teo_sign_msgs/SignToken`."""
+
+    MODEL = 1
+    LEMMA = 2
+    SYNONYM = 3
+    SPELLED = 4
+    NUMBER = 5
+    REPAIRED = 6
+    WORD_LIST = 7
+    PAUSE = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Token:
+    """One sign to be made.
+
+    Attributes:
+        gloss: Upper-case Spanish with accents, `_` for spaces; a letter; a digit; empty for a pause.
+        kind: Sign of its own, letter, number or pause.
+        confidence: How sure the translator is, 0 (guess) to 1 (certain).
+        duration_scale: Times the sign's recorded duration.
+        word_index: Counts the words of the sentence's output from 0; letters of a spelled word and digits
+            share it.
+        source_words: Words of the text, as typed, that the token stands for.
+        origin: How it came about.
+    """
+
+    gloss: str
+    kind: Kind
+    confidence: float
+    word_index: int
+    source_words: tuple[str, ...]
+    origin: Origin
+    duration_scale: float = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sentence:
+    """One sentence as tokens, in the order in which they are signed.
+
+    Attributes:
+        text: The sentence as typed.
+        type: Statement, question or exclamation.
+        negated: Whether it holds a negation.
+        tokens: At least one.
+        uncertain: Whether its confidence is below the threshold of the translator.
+    """
+
+    text: str
+    type: SentenceType
+    negated: bool
+    tokens: tuple[Token, ...]
+    uncertain: bool
+
+    @property
+    def confidence(self) -> float:
+        """Of the sentence, 0 to 1: that of its least certain token."""
+        return min(token.confidence for token in self.tokens)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Translation:
+    """A text as sentences.
+
+    Attributes:
+        text: As it was given.
+        sentences: At least one, in the order of the text.
+        ignored: Characters of the text that nothing is signed for, in order, e.g. emoji; punctuation is not
+            among them.
+        model: Name of the model used.
+    """
+
+    text: str
+    sentences: tuple[Sentence, ...]
+    ignored: tuple[str, ...]
+    model: str
+
+    def __str__(self) -> str:
+        """The glosses of all sentences on one line, a spelled word as `A-N-A`."""
+        return " ".join(printed(sentence.tokens) for sentence in self.sentences)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Everything, as plain values for JSON."""
+        return {
+            "text": self.text,
+            "glosses": str(self),
+            "model": self.model,
+            "ignored": list(self.ignored),
+            "sentences": [
+                {
+                    "text": sentence.text,
+                    "type": sentence.type.name.lower(),
+                    "negated": sentence.negated,
+                    "confidence": round(sentence.confidence, 4),
+                    "uncertain": sentence.uncertain,
+                    "tokens": [
+                        {
+                            "gloss": token.gloss,
+                            "kind": token.kind.name.lower(),
+                            "confidence": round(token.confidence, 4),
+                            "duration_scale": token.duration_scale,
+                            "word_index": token.word_index,
+                            "source_words": list(token.source_words),
+                            "origin": token.origin.name.lower(),
+                        }
+                        for token in sentence.tokens
+                    ],
+                }
+                for sentence in self.sentences
+            ],
+        }
+
+
+def printed(tokens: Iterable[Token]) -> str:
+    """Tokens on one line: glosses separated by spaces, a spelled word as `A-N-A`, a number as `12`."""
+    words: list[str] = []
+    for (_, kind), group in groupby(tokens, key=lambda token: (token.word_index, token.kind)):
+        if kind is not Kind.PAUSE:
+            words.append(("-" if kind is Kind.LETTER else "").join(token.gloss for token in group))
+    return " ".join(words)

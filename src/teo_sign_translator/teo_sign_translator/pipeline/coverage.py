@@ -1,0 +1,131 @@
+"""Which words of a sentence its glosses say, and which are lost."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.neural import OutputGloss
+from teo_sign_translator.pipeline.function_words import FunctionWords
+from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.resources import data_file
+from teo_sign_translator.tables import read_rows
+from teo_sign_translator.text.source_words import SourceWord
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """Finds lost words.
+
+    Attributes:
+        function_words: What may be left out.
+        gloss_words: For each gloss the lemmas that it says though they are not its own.
+    """
+
+    function_words: FunctionWords
+    gloss_words: Mapping[str, frozenset[str]]
+
+    @classmethod
+    def load(cls) -> Coverage:
+        """With the package's `data/function_words.tsv` and `data/gloss_words.tsv`.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        return cls(FunctionWords.load(), read_gloss_words())
+
+    def lost(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
+        """Places of the words that must not be left out and that no gloss says."""
+        said = {place for places in self.said(words, glosses) for place in places}
+        exclaims = bool(words) and words[-1].form == "!"
+        return [
+            place
+            for place, word in enumerate(words)
+            if place not in said
+            and not self._may_be_left_out(words, place)
+            and not _says_only_the_future(words, place)
+            and not (exclaims and word.readings[0].tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
+        ]
+
+    def _may_be_left_out(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word has no meaning of its own; "hacer" has, unless what one does follows it."""
+        if not self.function_words.may_be_left_out(words[place]):
+            return False
+        does = any(reading.tag == "V:inf" and reading.lemma == "hacer" for reading in words[place].readings)
+        return not does or not all(map(self.function_words.may_be_left_out, words[place + 1 :]))
+
+    def said(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[list[int]]:
+        """For each gloss the places of the words that it says.
+
+        A gloss says one word that has it as its dictionary form, and those that the list names; of several
+        those that it stands for and that no gloss before it says, and their neighbours ("qué tal"); NADA the
+        "no" before it, as Spanish says both; LENGUA_DE_SIGNOS all that are listed. What else the model has
+        looked at is not said by it.
+        """
+        result: list[list[int]] = []
+        taken: set[int] = set()
+        own_places, lemma_places = _places(words)
+        for gloss in glosses:
+            own = sorted(
+                own_places.get(gloss.gloss, ()),
+                key=lambda place: (
+                    place in taken,
+                    place not in gloss.sources,
+                    _says_only_the_future(words, place),
+                ),
+            )
+            lemmas = self.gloss_words.get(gloss.gloss, frozenset())
+            listed = sorted({place for lemma in lemmas for place in lemma_places.get(lemma, ())})
+            meant = {place for place in listed if place in gloss.sources or "_" in gloss.gloss}
+            meant |= {place for place in listed if meant & {place - 1, place + 1}}
+            meant |= {place for place in listed if own and place < own[0] and words[place].form == "no"}
+            result.append([*own[:1], *(sorted(meant) or ([] if own else listed))])
+            taken.update(own[:1])
+        return result
+
+
+def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
+    """For each gloss the lemmas that it says though they are not its own.
+
+    Args:
+        path: The file; by default the package's `data/gloss_words.tsv`, which explains its columns.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    path = path or data_file("gloss_words.tsv")
+    result: dict[str, frozenset[str]] = {}
+    for number, (gloss, lemmas) in read_rows(path, columns=2):
+        if gloss in result or gloss != gloss.upper():
+            raise TranslationError(
+                "invalid_data", f"{path}, line {number}: expected a gloss in capitals, once, got '{gloss}'"
+            )
+        result[gloss] = frozenset(lemma.strip() for lemma in lemmas.split(","))
+    return result
+
+
+def _places(words: Sequence[SourceWord]) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
+    """Places of words by the glosses that they would be copied as, and by their lemmas."""
+    by_gloss: dict[str, list[int]] = defaultdict(list)
+    by_lemma: dict[str, list[int]] = defaultdict(list)
+    for place, word in enumerate(words):
+        if not word.is_mark:
+            for lemma in {reading.lemma for reading in word.readings}:
+                by_lemma[lemma].append(place)
+            for gloss in {copied_gloss(reading) for reading in word.readings}:
+                by_gloss[gloss].append(place)
+    return by_gloss, by_lemma
+
+
+def _says_only_the_future(words: Sequence[SourceWord], place: int) -> bool:
+    """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
+    following = words[place + 1 : place + 3]
+    return (
+        any(reading.lemma == "ir" for reading in words[place].readings)
+        and len(following) == 2
+        and following[0].form == "a"
+        and any(reading.tag == "V:inf" for reading in following[1].readings)
+    )

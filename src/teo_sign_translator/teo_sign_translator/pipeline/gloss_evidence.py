@@ -1,0 +1,170 @@
+"""Which glosses of a translation no word of the sentence warrants: a model has invented them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from functools import lru_cache
+from pathlib import Path
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Reading
+from teo_sign_translator.neural import OutputGloss
+from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
+from teo_sign_translator.resources import data_file
+from teo_sign_translator.tables import read_rows
+from teo_sign_translator.text.cleaning import fold
+from teo_sign_translator.text.source_words import SourceWord
+
+_NONE = "-"
+_PAST = "PASADO"
+_NOT = "NO"
+_PAST_TAGS = ("V:ind:pret:", "V:ind:impf:")
+#: Subjects that a verb's ending says, and its person: "llego" may be "llegó", but not the past of YO.
+_PERSONS = {"YO": "1s", "TÚ": "2s", "NOSOTROS": "1p", "VOSOTROS": "2p"}
+#: Pronouns at the end of a verb, as tags.
+_CLITICS = {
+    "me": "PRON:obj:1s",
+    "te": "PRON:obj:2s",
+    "nos": "PRON:obj:1p",
+    "os": "PRON:obj:2p",
+    "se": "PRON:refl",
+    "lo": "PRON:obj:3s",
+    "la": "PRON:obj:3s",
+    "le": "PRON:obj:3s",
+    "los": "PRON:obj:3p",
+    "las": "PRON:obj:3p",
+    "les": "PRON:obj:3p",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Warrant:
+    """What warrants a gloss.
+
+    Attributes:
+        tags: Patterns of tags.
+        lemmas: Dictionary forms.
+    """
+
+    tags: tuple[str, ...]
+    lemmas: frozenset[str]
+
+    def given_by(self, reading: Reading) -> bool:
+        """Whether this reading warrants the gloss."""
+        return (
+            reading.lemma in self.lemmas
+            or _fits(reading.tag, self.tags)
+            or any(_fits(_CLITICS.get(clitic, ""), self.tags) for clitic in reading.clitics)
+        )
+
+
+class Warrants:
+    """Finds invented glosses."""
+
+    def __init__(self, by_gloss: Mapping[str, Warrant]) -> None:
+        """Take what warrants each gloss; others need none."""
+        self._by_gloss = dict(by_gloss)
+
+    @classmethod
+    def load(cls, path: Path | None = None) -> Warrants:
+        """Read the list.
+
+        Args:
+            path: The file; by default the package's `data/warrants.tsv`, which explains its columns.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        path = path or data_file("warrants.tsv")
+        found: dict[str, Warrant] = {}
+        for number, (gloss, tags, lemmas) in read_rows(path, columns=3):
+            if gloss in found or gloss != gloss.upper():
+                raise TranslationError(
+                    "invalid_data",
+                    f"{path}, line {number}: expected a gloss in capitals, once, got '{gloss}'",
+                )
+            found[gloss] = Warrant(tuple(_listed(tags)), frozenset(_listed(lemmas)))
+        return cls(found)
+
+    def invented(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
+        """Places of the glosses that no word warrants.
+
+        Besides those listed: of PASADO beside a verb that is now, and of a word said twice that is there
+        once and no plural.
+
+        Args:
+            words: Of the sentence.
+            glosses: Its translation.
+        """
+        meant = _meant(words)
+        readings = [reading for each in meant for reading in each]
+        return [
+            place
+            for place, gloss in enumerate(glosses)
+            if (self._unwarranted(gloss.gloss, readings) and not _unsure(gloss, words))
+            or (gloss.gloss == _PAST and _present(glosses[place:], meant))
+            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words, readings))
+        ]
+
+    def _unwarranted(self, gloss: str, readings: Sequence[Reading]) -> bool:
+        warrant = self._by_gloss.get(gloss)
+        return warrant is not None and not any(
+            warrant.given_by(reading) or copied_gloss(reading) == gloss for reading in readings
+        )
+
+
+def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
+    """Whether a word that a gloss stands for has so many readings that some may not be given: "bajo"."""
+    return any(len(words[place].readings) >= READINGS for place in gloss.sources)
+
+
+def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
+    """The readings that the accents allow: who types accents in a sentence means those left out."""
+    accents = any(word.form != fold(word.form) for word in words)
+    return [[reading for reading in word.readings if reading.exact or not accents] for word in words]
+
+
+def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:
+    """Whether PASADO and the subject behind it stand for the same verb, which has that person only now.
+
+    "llego" is first person of the present, third of the past where the accent is left out.
+    """
+    person = _PERSONS.get(glosses[1].gloss) if len(glosses) > 1 else None
+    if person is None or glosses[0].sources != glosses[1].sources:
+        return False
+    verbs = [reading for place in glosses[0].sources for reading in meant[place]]
+    tags = [verb.tag for verb in verbs if verb.lemma != "haber"]
+    return f"V:ind:pres:{person}" in tags and not any(f"{past}{person}" in tags for past in _PAST_TAGS)
+
+
+def _said_again(
+    place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord], readings: Sequence[Reading]
+) -> bool:
+    """Whether a gloss was said before for the same word, and not because it is a plural.
+
+    A plural is the noun twice, one sign after the other. What is denied may be said of the same subject again
+    ("no somos médicos, somos profesores").
+    """
+    gloss = glosses[place]
+    again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
+    if not again:
+        return False
+    said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
+    if len(said) != 1:
+        return False
+    if again[-1] < place - 1:
+        denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
+        return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
+    tags = [reading.tag for reading in readings if copied_gloss(reading) == gloss.gloss]
+    return bool(tags) and all(tag.startswith(("N:", "A:")) and tag.endswith("s") for tag in tags)
+
+
+def _listed(text: str) -> list[str]:
+    return [] if text == _NONE else [each.strip() for each in text.split(",")]
+
+
+@lru_cache(maxsize=4096)
+def _fits(tag: str, patterns: tuple[str, ...]) -> bool:
+    return any(fnmatchcase(tag, pattern) for pattern in patterns)

@@ -1,0 +1,130 @@
+"""Glosses of a sentence model as drafts: signs, names, numbers, pauses, each with the words behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+from teo_sign_translator.morphology import Reading
+from teo_sign_translator.neural import OutputGloss
+from teo_sign_translator.output.number_signs import number
+from teo_sign_translator.output.output_words import PAUSE, Draft, name
+from teo_sign_translator.output.translation import Kind, Origin
+from teo_sign_translator.pipeline.hypothesis_repair import Faithful
+from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.source_words import SourceWord
+
+# Tags of people's names; names of places have signs, or are spelled like any other word.
+_PEOPLE = ("NAME", "NAME:m", "NAME:f")
+
+# Behind it stands a name: "me llamo rosa" is MI NOMBRE R-O-S-A.
+_NAME_GLOSS = "NOMBRE"
+
+
+def gloss_drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection[str]) -> list[Draft]:
+    """Glosses as drafts; words that none stands for go with the next one, marks between them are pauses.
+
+    Args:
+        words: Of the sentence.
+        said: Its translation.
+        signed: Glosses that are no names whatever their words.
+    """
+    typed = _typed(words, [gloss.sources for gloss in said.glosses])
+    pauses = _pauses(words, said.glosses)
+    result: list[Draft] = []
+    for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
+        named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
+        origin = Origin.REPAIRED if repaired else Origin.MODEL
+        draft = _draft(words, gloss, origin, own, named=named)
+        result += [replace(each, is_name=False) for each in draft] if gloss.gloss in signed else draft
+        if place in pauses:
+            result.append(PAUSE)
+    return result
+
+
+def _draft(
+    words: Sequence[SourceWord],
+    gloss: OutputGloss,
+    origin: Origin,
+    typed: tuple[str, ...],
+    *,
+    named: bool,
+) -> list[Draft]:
+    """A gloss as a sign, a name or a number.
+
+    Args:
+        words: Of the sentence.
+        gloss: What is said.
+        origin: How it came about.
+        typed: The words that it stands for.
+        named: Whether it follows the sign for "name".
+    """
+    readings = [reading for source in gloss.sources for reading in words[source].readings]
+    meant = [reading for reading in readings if copied_gloss(reading) == gloss.gloss]
+    if gloss.gloss[0].isdigit():
+        return number(gloss.gloss, typed, gloss.probability)
+    if _is_name([words[source] for source in gloss.sources], meant, named=named):
+        return [name(gloss.gloss, typed, gloss.probability)]
+    return [
+        Draft(
+            signs=(gloss.gloss,),
+            kind=Kind.LEXICAL,
+            confidence=gloss.probability,
+            words=typed,
+            origin=origin,
+        )
+    ]
+
+
+def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bool) -> bool:
+    """Whether a gloss is somebody's name.
+
+    Args:
+        words: That it stands for.
+        meant: Their readings that have this gloss, the likeliest first.
+        named: Whether it follows the sign for "name"; then any word that may be a name is one.
+    """
+    if named and any(reading.tag in (*_PEOPLE, "X") for reading in meant):
+        return True
+    listed = any(reading.tag in _PEOPLE and reading.exact for reading in meant)
+    return bool(meant) and (meant[0].tag in _PEOPLE or (listed and any(word.capital for word in words)))
+
+
+def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
+    """For each gloss the words it stands for, as typed, and those that go with it."""
+    own = [set(places) for places in sources]
+    owner = {place: gloss for gloss, places in reversed(list(enumerate(sources))) for place in places}
+    following = owner[max(owner)] if owner else len(sources) - 1
+    for place in reversed(range(len(words))):
+        following = owner.get(place, following)
+        if place not in owner and not words[place].is_mark:
+            own[following].add(place)
+    return [_texts(words, sorted(places)) for places in own]
+
+
+def _texts(words: Sequence[SourceWord], places: Sequence[int]) -> tuple[str, ...]:
+    """What was typed at some places, a short form of several words once."""
+    result: list[str] = []
+    before: SourceWord | None = None
+    for word in (words[place] for place in places if not words[place].is_mark):
+        if before is None or word.text != before.text or word.form == before.form:
+            result.append(word.text)
+        before = word
+    return tuple(result)
+
+
+def _pauses(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> set[int]:
+    """Glosses behind which a mark of the sentence falls: all before it come from words before the mark."""
+    result: set[int] = set()
+    highest: list[int] = []
+    lowest: list[int] = []
+    for gloss in glosses:
+        highest.append(max([*highest[-1:], *gloss.sources], default=-1))
+    for gloss in reversed(glosses):
+        lowest.insert(0, min([*lowest[:1], *gloss.sources], default=len(words)))
+    for mark in (place for place, word in enumerate(words) if word.is_mark):
+        for place in range(len(glosses) - 1):
+            if highest[place] < mark < lowest[place + 1] and highest[place] >= 0:
+                result.add(place)
+                break
+    return result

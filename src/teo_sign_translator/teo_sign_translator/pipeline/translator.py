@@ -1,0 +1,217 @@
+"""Spanish text to sign tokens."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Sequence, Set
+from pathlib import Path
+from typing import NamedTuple
+
+from teo_sign_translator.corpus.paper_pairs import training_pairs
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.lstm256.gloss_list import GlossList
+from teo_sign_translator.lstm256.phrasebook import Phrasebook
+from teo_sign_translator.lstm256.store import DEFAULT_MODEL, load_model
+from teo_sign_translator.lstm256.word_by_word import SPELLED_CONFIDENCE
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.neural import load_sentence_model
+from teo_sign_translator.output.output_words import divide, hand_over, number_tokens
+from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
+from teo_sign_translator.output.spelling import unsignable
+from teo_sign_translator.output.translation import Sentence, Translation
+from teo_sign_translator.pipeline.back_end import DraftedSentence, Route
+from teo_sign_translator.pipeline.coverage import Coverage
+from teo_sign_translator.pipeline.gloss_evidence import Warrants
+from teo_sign_translator.pipeline.lstm_back_end import PhraseRoute
+from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, SentenceRoute
+from teo_sign_translator.pointer.store import sentence_models
+from teo_sign_translator.text.cleaning import clean
+from teo_sign_translator.text.reading import Clause, WordKind, read
+from teo_sign_translator.text.sentence_type import is_negated, sentence_type
+
+#: Probability of a token below which its sentence is called uncertain: of 900 held-out sentences, half of the
+#: wrong translations are, and 2 % of the right ones.
+DEFAULT_MIN_CONFIDENCE = 0.7
+
+#: Tokens that a `teo_sign_msgs/SignSentence` can hold; a longer sentence is divided.
+MAX_SENTENCE_TOKENS = 1024
+
+# Characters that an error names, so that a page in another script gives a readable message.
+_NAMED_CHARACTERS = 5
+
+
+class _Read(NamedTuple):
+    """A text that has been read.
+
+    Attributes:
+        text: As given.
+        cleaned: What the clauses' places count in.
+        clauses: At least one.
+        ignored: Characters that nothing is signed for.
+    """
+
+    text: str
+    cleaned: str
+    clauses: tuple[Clause, ...]
+    ignored: tuple[str, ...]
+
+
+class Translator:
+    """Translates text with a model, and says how sure it is of what."""
+
+    def __init__(
+        self, route: Route, chooser: SignChooser, *, min_confidence: float = DEFAULT_MIN_CONFIDENCE
+    ) -> None:
+        """Put the parts together; `load` does it for a model that ships with the package.
+
+        Args:
+            route: Translates sentences.
+            chooser: Finds signs for glosses.
+            min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
+        """
+        self._route = route
+        self._chooser = chooser
+        self.min_confidence = min_confidence
+
+    @classmethod
+    def load(
+        cls,
+        name: str = DEFAULT_MODEL,
+        directory: Path | None = None,
+        *,
+        beam_width: int = DEFAULT_BEAM_WIDTH,
+        min_confidence: float = DEFAULT_MIN_CONFIDENCE,
+    ) -> Translator:
+        """Load a model and the package's data.
+
+        Args:
+            name: One of `model_store.available_models`.
+            directory: Folder of the models; by default the package's.
+            beam_width: Translations that the model weighs against each other; `lstm256` has but one.
+            min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
+
+        Raises:
+            TranslationError: "unknown_model", "invalid_model", "invalid_data".
+        """
+        glosses = GlossList.load()
+        taught = Phrasebook(training_pairs(), glosses)
+        if name in sentence_models(directory):
+            morphology = Morphology.load()
+            model = load_sentence_model(name, directory)
+            route: Route = SentenceRoute(
+                model, morphology, Coverage.load(), Warrants.load(), taught, beam_width=beam_width
+            )
+            return cls(route, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
+        route = PhraseRoute(load_model(name, directory), taught, glosses, name=name)
+        return cls(route, SignChooser(read_synonyms(), None), min_confidence=min_confidence)
+
+    @property
+    def name(self) -> str:
+        """Of the model."""
+        return self._route.name
+
+    def translate(self, text: str, signs: Set[str] | None = None) -> Translation:
+        """Translate a text of one or more sentences.
+
+        Args:
+            text: Spanish, as people type it.
+            signs: Glosses that have a sign; see `SignChooser.choose`.
+
+        Raises:
+            TranslationError: "empty_text", "nothing_to_sign", "unsignable_text", "text_too_long",
+                "broken_encoding".
+        """
+        (answer,) = self.translate_all([text], signs)
+        if isinstance(answer, TranslationError):
+            raise answer
+        return answer
+
+    def translate_all(
+        self, texts: Sequence[str], signs: Set[str] | None = None
+    ) -> list[Translation | TranslationError]:
+        """Translate many texts, faster than one by one.
+
+        Args:
+            texts: Each of one or more sentences.
+            signs: Glosses that have a sign; see `SignChooser.choose`.
+
+        Returns:
+            For each text its translation, or why there is none.
+        """
+        read = [_read(text) for text in texts]
+        translated = iter(self._route.translate([each.clauses for each in read if isinstance(each, _Read)]))
+        answers: list[Translation | TranslationError] = []
+        for each in read:
+            if isinstance(each, TranslationError):
+                answers.append(each)
+                continue
+            sentences = [
+                sentence
+                for drafted in next(translated)
+                for sentence in self._finish(drafted, each.cleaned, signs)
+            ]
+            answers.append(
+                Translation(text=each.text, sentences=tuple(sentences), ignored=each.ignored, model=self.name)
+            )
+        return answers
+
+    def _finish(self, drafted: DraftedSentence, text: str, signs: Set[str] | None) -> list[Sentence]:
+        """One sentence as messages hold it; several if it has more tokens than they can hold."""
+        clauses = drafted.clauses
+        kind = sentence_type(clauses)
+        unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
+        if unmarked and drafted.recognised is not None:
+            kind = drafted.recognised
+        drafts = self._chooser.choose(hand_over(drafted.drafts, SPELLED_CONFIDENCE), signs)
+        parts = [number_tokens(part) for part in divide(drafts, MAX_SENTENCE_TOKENS)]
+        return [
+            Sentence(
+                text=text[clauses[0].start : clauses[-1].stop].strip(),
+                type=kind,
+                negated=is_negated(clauses),
+                tokens=tokens,
+                uncertain=any(token.confidence < self.min_confidence for token in tokens),
+            )
+            for tokens in parts
+        ]
+
+
+def _read(text: str) -> _Read | TranslationError:
+    """Clean and read a text; give the reason if it cannot be signed."""
+    try:
+        cleaned = clean(text)
+        reading = read(cleaned.text)
+        if not reading.clauses:
+            if not cleaned.text.strip():
+                raise TranslationError("empty_text", "expected Spanish text, got nothing but blanks")
+            raise TranslationError(
+                "nothing_to_sign",
+                f"expected words, got only marks or symbols: {_shortened(cleaned.text.strip())}",
+            )
+        _refuse_other_scripts(reading.clauses)
+    except TranslationError as error:
+        return error
+    return _Read(text, cleaned.text, reading.clauses, cleaned.ignored + reading.ignored)
+
+
+def _refuse_other_scripts(clauses: Sequence[Clause]) -> None:
+    """Refuse letters that the LSE alphabet cannot spell, by name."""
+    words = (word for clause in clauses for word in clause.words if word.kind is WordKind.LETTERS)
+    found = list(
+        dict.fromkeys(
+            c for word in words for part in (word.stands_for or word.text).split() for c in unsignable(part)
+        )
+    )
+    if found:
+        named = ", ".join(
+            f"'{c}' ({unicodedata.name(c, f'U+{ord(c):04X}')})" for c in found[:_NAMED_CHARACTERS]
+        )
+        more = f" and {len(found) - _NAMED_CHARACTERS} more" if len(found) > _NAMED_CHARACTERS else ""
+        raise TranslationError(
+            "unsignable_text",
+            f"expected words in Latin letters, got {named}{more}, which LSE cannot spell: transcribe them",
+        )
+
+
+def _shortened(text: str, length: int = 20) -> str:
+    return text if len(text) <= length else text[:length] + "…"

@@ -1,0 +1,1 @@
+"""The default model: an encoder-decoder with attention that copies words."""

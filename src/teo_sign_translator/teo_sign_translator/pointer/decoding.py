@@ -1,0 +1,218 @@
+"""From steps of a model to whole translations: the likeliest gloss each time, or a beam of several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sign_translator.pointer.array_cells import Array
+from teo_sign_translator.pointer.array_model import ArrayModel, Ints, Memory
+from teo_sign_translator.pointer.one_core import one_core
+from teo_sign_translator.pointer.sentence_model import Hypothesis, OutputGloss
+from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX
+
+if TYPE_CHECKING:
+    from teo_sign_translator.text.source_words import SourceWord
+
+#: Blanks behind the words in the equal-length layout: glosses that no word says (YO, PASADO, MOTIVO ...).
+SPARE = 4
+#: Sentences that are read and translated together, to bound memory; more are no faster.
+_TOGETHER = 64
+#: Words that a gloss stands for have at least this part of the highest attention: the alignment teaches equal
+#: attention to all of them.
+_SHARED_LOOK = 0.5
+
+
+class _Choice(NamedTuple):
+    """What was said at one step. All of shape (B, K), attention (B, K, W).
+
+    Attributes:
+        parent: Row of the step before.
+        said: Place in the closed list, or its size + candidate.
+        slot: The same, or its size + the first candidate with this gloss.
+        probability: Of the gloss.
+        attention: On the words.
+    """
+
+    parent: Ints
+    said: Ints
+    slot: Ints
+    probability: Array
+    attention: Array
+
+
+@dataclass(frozen=True, slots=True)
+class ZooModel:
+    """A `SentenceModel` of the zoo.
+
+    Attributes:
+        name: Under which it was loaded.
+        arrays: Its weights at work.
+    """
+
+    name: str
+    arrays: ArrayModel
+
+    def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
+        """See `SentenceModel`."""
+        return self.translate_all([words], beam=beam)[0]
+
+    def translate_all(
+        self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
+    ) -> tuple[tuple[Hypothesis, ...], ...]:
+        """See `SentenceModel`."""
+        result: list[tuple[Hypothesis, ...]] = [(Hypothesis((), 0.0),)] * len(sentences)
+        by_length: dict[int, list[int]] = {}
+        for index, words in enumerate(sentences):
+            if words:
+                by_length.setdefault(len(words), []).append(index)
+        groups = (
+            indices[start : start + _TOGETHER]
+            for indices in by_length.values()
+            for start in range(0, len(indices), _TOGETHER)
+        )
+        with one_core():
+            for some in groups:
+                chosen = [sentences[index] for index in some]
+                if self.arrays.config.layout == "equal_length":
+                    translated = _at_positions(self.arrays, chosen)
+                else:
+                    translated = search(self.arrays, chosen, max(1, beam))
+                for index, hypotheses in zip(some, translated, strict=True):
+                    result[index] = hypotheses
+        return tuple(result)
+
+
+def search(
+    model: ArrayModel, sentences: Sequence[Sequence[SourceWord]], beam: int
+) -> list[tuple[Hypothesis, ...]]:
+    """Beam search over sentences that have the same number of words.
+
+    Glosses that can be said in several ways count once, with all their probability. The first row of each
+    beam is the likeliest gloss each time, kept whatever it scores, so that a beam never ends below it.
+    """
+    memory = model.encode(sentences)
+    count, width = memory.words.shape[:2]
+    size = len(model.lexis.glosses)
+    states = tuple(np.repeat(state, beam, axis=0) for state in memory.first)
+    score = np.full((count, beam), -np.inf, np.float32)
+    score[:, 0] = 0
+    ended = np.zeros((count, beam), np.bool_)
+    said = np.full((count, beam), START_INDEX)
+    choices: list[_Choice] = []
+    row = np.arange(count)[:, None]
+    # Twice the words and some: plurals repeat a word, and pronoun, tense and question add glosses.
+    for _ in range(2 * width + 8):
+        step = model.step(memory, said.ravel(), states)
+        options = step.probability.shape[1]
+        with np.errstate(divide="ignore"):
+            following = np.log(step.probability).reshape(count, beam, options)
+        following[..., START_INDEX] = -np.inf  # never said, only read
+        following[ended] = -np.inf
+        following[ended, END_INDEX] = 0  # what has ended stays as it is
+        total = (score[..., None] + following).reshape(count, beam * options)
+        best = _best(total, following[:, 0].argmax(axis=1), beam)
+        parent, slot = np.divmod(best, options)
+        score = total[row, best]
+        rows = parent + row * beam
+        attention = step.attention[rows]
+        said = _said(slot, step.candidates[rows], memory, size) if model.config.copy else slot
+        probability = np.exp(following.reshape(count, -1)[row, best])
+        choices.append(_Choice(parent, said, slot, probability, attention))
+        states = tuple(state[rows.ravel()] for state in step.states)
+        ended = slot == END_INDEX
+        if ended.all():
+            break
+    return [_hypotheses(model, memory, choices, index, score[index], ended[index]) for index in range(count)]
+
+
+def _best(total: Array, greedy: Ints, beam: int) -> Ints:
+    """The best `beam` places of each row, the likeliest continuation of the first row of the beam first."""
+    if beam == 1:
+        return greedy[:, None]
+    row = np.arange(len(total))[:, None]
+    places = np.argpartition(total, -beam, axis=1)[:, -beam:]
+    order = places[row, np.argsort(-total[row, places], axis=1)]
+    result: Ints = np.empty((len(total), beam), np.int64)
+    for index, first in enumerate(greedy):
+        others = [place for place in order[index] if place != first]
+        result[index] = [first, *others[: beam - 1]]
+    return result
+
+
+def _said(slot: Ints, candidates: Array, memory: Memory, size: int) -> Ints:
+    """Of several candidates with one gloss the likeliest; candidates of shape (B, K, C)."""
+    same = memory.slots[:, None] == slot[..., None]
+    likeliest = np.where(same, candidates, -1.0).argmax(axis=2)
+    result: Ints = np.where(slot < size, slot, size + likeliest)
+    return result
+
+
+def _hypotheses(
+    model: ArrayModel,
+    memory: Memory,
+    choices: Sequence[_Choice],
+    index: int,
+    score: Array,
+    ended: NDArray[np.bool_],
+) -> tuple[Hypothesis, ...]:
+    """The translations of one sentence, best first; those that did not end only if none did."""
+    found: dict[tuple[str, ...], Hypothesis] = {}
+    for beam in np.argsort(-score, kind="stable"):
+        if not np.isfinite(score[beam]) or (ended.any() and not ended[beam]):
+            continue
+        glosses: list[OutputGloss] = []
+        place = int(beam)
+        for choice in reversed(choices):
+            if choice.slot[index, place] != END_INDEX:
+                glosses.append(_gloss(model, memory, choice, index, place))
+            place = int(choice.parent[index, place])
+        glosses.reverse()
+        key = tuple(each.gloss for each in glosses)
+        found.setdefault(key, Hypothesis(tuple(glosses), min(0.0, float(score[beam]))))
+    return tuple(found.values())
+
+
+def _gloss(model: ArrayModel, memory: Memory, choice: _Choice, index: int, place: int) -> OutputGloss:
+    size = len(model.lexis.glosses)
+    said = int(choice.said[index, place])
+    looked = sources(choice.attention[index, place])
+    probability = min(1.0, float(choice.probability[index, place]))
+    if said < size:
+        return OutputGloss(model.lexis.glosses[said], looked, probability, copied=False)
+    word = (said - size) // READINGS - 1
+    gloss = memory.glosses[index][said - size]
+    return OutputGloss(gloss, tuple(sorted({*looked, word})), probability, copied=True)
+
+
+def sources(attention: Array) -> tuple[int, ...]:
+    """The words that attention lies on; none if it lies on the root (place 0) most of all."""
+    if not len(attention) or attention.argmax() == 0:
+        return ()
+    return tuple(
+        int(place) - 1 for place in np.flatnonzero(attention >= _SHARED_LOOK * attention.max()) if place
+    )
+
+
+def _at_positions(
+    model: ArrayModel, sentences: Sequence[Sequence[SourceWord]]
+) -> list[tuple[Hypothesis, ...]]:
+    """The equal-length layout: the likeliest gloss at each position, up to the first END."""
+    probability = model.positions(model.encode(sentences, SPARE))
+    probability[..., START_INDEX] = 0
+    likeliest = probability.argmax(axis=2)
+    result: list[tuple[Hypothesis, ...]] = []
+    for row, places in enumerate(likeliest):
+        ends = np.flatnonzero(places == END_INDEX)
+        stop = int(ends[0]) if len(ends) else len(places)
+        chances = probability[row, np.arange(len(places)), places]
+        glosses = tuple(
+            OutputGloss(model.lexis.glosses[gloss], (), float(chance), copied=False)
+            for gloss, chance in zip(places[:stop], chances[:stop], strict=True)
+        )
+        result.append((Hypothesis(glosses, float(np.log(chances[: stop + 1]).sum())),))
+    return result

@@ -1,0 +1,1 @@
+"""From typed text to words: cleaning, sentences, numbers, short forms."""

@@ -1,0 +1,292 @@
+"""A clean text as clauses of words."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from teo_sign_translator.text.cleaning import fold, strip_marks
+from teo_sign_translator.text.expressions import Expressions, Found
+from teo_sign_translator.text.numerals import (
+    ACCENTED_NUMBER_WORDS,
+    NUMBER_WORDS,
+    match_digits,
+    read_number_words,
+)
+
+_LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
+_PAUSES = ",;:()[]{}–—―"
+#: Laughter as it is typed, slips included: jajaja, jajja, jejeje, haha, xD.
+_LAUGHTER = re.compile(r"a?j[aj]*ja[aj]*|j[ej]*je[ej]*|j[ij]*ji[ij]*|h[ah]*ha[ah]*|xd+", re.IGNORECASE)
+_SHORTEST_LAUGHTER = 4
+_LAUGH = "risa"
+
+
+class WordKind(Enum):
+    """What a word is made of."""
+
+    LETTERS = "letters"
+    NUMBER = "number"
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """A word of the text, or several that say one number.
+
+    Attributes:
+        parts: The words as typed; several only for a number in words (`treinta y cinco`).
+        kind: What it is made of.
+        value: Digits of a number, with one `,` if it has decimals, or one `:` in a time of day; else empty.
+        stands_for: What a short form, symbol or ordinal says, in lower case; else empty. Words that one short
+            form stands for have the same `parts`.
+    """
+
+    parts: tuple[str, ...]
+    kind: WordKind
+    value: str = ""
+    stands_for: str = ""
+
+    @property
+    def text(self) -> str:
+        """As typed."""
+        return " ".join(self.parts)
+
+    @property
+    def lower(self) -> str:
+        """What it says, in lower case, with accents."""
+        return self.stands_for or self.text.lower()
+
+    @property
+    def fold(self) -> str:
+        """What it says, in lower case, without accents."""
+        return fold(self.lower)
+
+    @property
+    def key(self) -> str:
+        """What it says, in lower case, without any mark: equal for all ways of typing the word."""
+        return strip_marks(self.lower)
+
+    @property
+    def capitalised(self) -> bool:
+        """Whether it begins with a capital."""
+        return self.parts[0][:1].isupper()
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """Words between two marks.
+
+    Attributes:
+        words: At least one.
+        opening: The opening mark before them, `"¿"`, `"¡"` or empty.
+        end: The mark behind them: `"?"`, `"!"`, `"."`, `","` (any mark that is a short pause) or empty.
+        closes: Whether the sentence ends here.
+        start: Where the clause begins in the text, opening mark included.
+        stop: Where it ends, marks included.
+    """
+
+    words: tuple[Word, ...]
+    opening: str
+    end: str
+    closes: bool
+    start: int
+    stop: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A text as clauses.
+
+    Attributes:
+        clauses: In the order of the text; empty if it holds no word.
+        ignored: Symbols that no sign stands for, e.g. emoji, in order.
+    """
+
+    clauses: tuple[Clause, ...]
+    ignored: tuple[str, ...]
+
+
+def read(text: str) -> Reading:
+    """Split a clean text, as `normalisation.clean` gives it, into clauses and words."""
+    return _Reader(text, Expressions.load()).read()
+
+
+class _Reader:
+    """Goes through a text once, from left to right."""
+
+    def __init__(self, text: str, expressions: Expressions) -> None:
+        self._text = text
+        self._expressions = expressions
+        self._clauses: list[Clause] = []
+        self._ignored: list[str] = []
+        self._words: list[Word] = []
+        self._opening = ""
+        self._start = 0
+
+    def read(self) -> Reading:
+        index = 0
+        while index < len(self._text):
+            index = index + 1 if self._text[index] == " " else self._step(index)
+        self._close("", closes=True, stop=len(self._text))
+        return Reading(tuple(self._clauses), tuple(self._ignored))
+
+    def _step(self, index: int) -> int:
+        """Read what begins at an index; return the index behind it."""
+        text = self._text
+        character = text[index]
+        after = index + 1
+        if character in "0123456789":
+            return self._digits(index)
+        found = self._expressions.match(text, index)
+        if found is not None and (found.expression.category != "unit" or self._after_number()):
+            return self._expression(index, found)
+        if _is_letter(character):
+            after = _word_end(text, after)
+            if _is_laughter(text[index:after]):
+                self._laugh(index, after)
+            else:
+                self._add(Word((text[index:after],), WordKind.LETTERS), index)
+        elif character in "-−" and _is_minus(text, index):
+            self._add(Word((character,), WordKind.LETTERS, stands_for="menos"), index)
+        elif character in "?!":
+            self._close(character, closes=True, stop=after)
+        elif character in "¿¡":
+            if self._words:  # "Ana ¿quién es Ana?": the question is a clause of its own
+                self._close(",", closes=False, stop=index)
+            if not self._opening:
+                self._opening, self._start = character, index
+        elif character in ".…":
+            while after < len(text) and text[after] in ".…":
+                after += 1
+            self._points(index, after)
+        elif character == "\n":
+            self._close("", closes=True, stop=index)
+        elif character in _PAUSES or (character == "-" and _stands_alone(text, index)):
+            self._close(",", closes=False, stop=after)
+        elif unicodedata.category(character)[0] == "S":
+            self._ignored.append(character)
+        return after
+
+    def _digits(self, index: int) -> int:
+        """Read a number, ordinal, time or date."""
+        said = match_digits(self._text, index, self._words[-1].lower if self._words else "")
+        for part in said:
+            typed = (self._text[part.start : part.stop],)
+            kind = WordKind.NUMBER if part.value else WordKind.LETTERS
+            self._add(Word(typed, kind, part.value, part.stands_for), part.start)
+        return said[-1].stop
+
+    def _expression(self, index: int, found: Found) -> int:
+        """Read a short form or symbol; its point may end the sentence too."""
+        typed = (self._text[index : found.stop],)
+        for word in found.expression.words:
+            self._add(Word(typed, WordKind.LETTERS, stands_for=word), index)
+        if found.pointed and found.expression.category != "title":
+            following = self._text[found.stop :].lstrip(" ")[:1]
+            if not following or following.isupper() or following in "¿¡\n":
+                self._close(".", closes=True, stop=found.stop)
+        return found.stop
+
+    def _after_number(self) -> bool:
+        """Whether a unit may stand here."""
+        return bool(self._words) and (
+            self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
+        )
+
+    def _laugh(self, start: int, stop: int) -> None:
+        """Laughter is a sentence of its own: it says nothing of what stands beside it."""
+        if self._words:
+            self._close("", closes=True, stop=start)
+        self._add(Word((self._text[start:stop],), WordKind.LETTERS, stands_for=_LAUGH), start)
+        self._close("", closes=True, stop=stop)
+
+    def _points(self, start: int, stop: int) -> None:
+        """One point or several: the end of the sentence, a pause, or part of an abbreviation or address."""
+        following = self._text[stop : stop + 1]
+        if stop - start > 1 or self._text[start] == "…":
+            rest = self._text[stop:].lstrip(" ")[:1]
+            closes = not (rest.islower() or rest.isdigit())
+            self._close("." if closes else ",", closes=closes, stop=stop)
+            return
+        last = self._words[-1].parts[-1] if self._words and self._text[start - 1 : start].isalnum() else ""
+        if len(last) == 1 and last.isupper():  # "J. Gil"
+            return
+        if last and (following.islower() or following.isdigit()):
+            return
+        self._close(".", closes=True, stop=stop)
+
+    def _add(self, word: Word, index: int) -> None:
+        if not self._words and not self._opening:
+            self._start = index
+        self._words.append(word)
+
+    def _close(self, end: str, *, closes: bool, stop: int) -> None:
+        """End the clause here; marks without words belong to the clause before."""
+        if self._words:
+            words = _join_number_words(self._words)
+            self._clauses.append(Clause(words, self._opening, end, closes, self._start, stop))
+        elif self._clauses:
+            before = self._clauses[-1]
+            if not before.closes or self._text[before.stop : stop - 1].strip() == "":
+                # "?!" asks; "…?" asks; "?." does not take the question back.
+                strongest = min(before.end, end, key=lambda mark: "?!.,".index(mark) if mark else len("?!.,"))
+                self._clauses[-1] = replace(before, end=strongest, closes=before.closes or closes, stop=stop)
+        self._words = []
+        self._opening = ""
+
+
+def _is_letter(character: str) -> bool:
+    """Letters of any script, and number signs that are no digits (they are reported later)."""
+    return unicodedata.category(character)[0] in "LN" and character not in "0123456789"
+
+
+def _word_end(text: str, index: int) -> int:
+    """Where a word ends that has begun before an index: letters, digits behind them ("UC3M"), and accents."""
+    while True:
+        match = _LETTERS_AND_DIGITS.match(text, index)
+        index = match.end() if match else index
+        if index == len(text) or unicodedata.category(text[index])[0] != "M":
+            return index
+        index += 1
+
+
+def _is_laughter(word: str) -> bool:
+    return _LAUGHTER.fullmatch(word) is not None and (
+        len(word) >= _SHORTEST_LAUGHTER or word.lower().startswith("xd")
+    )
+
+
+def _is_minus(text: str, index: int) -> bool:
+    """Whether a dash belongs to the number behind it: `-5`, but not `COVID-19` or `10-12`."""
+    return text[index + 1 : index + 2].isdigit() and not text[max(0, index - 1) : index].isalnum()
+
+
+def _stands_alone(text: str, index: int) -> bool:
+    return not (text[max(0, index - 1) : index].strip() and text[index + 1 : index + 2].strip())
+
+
+def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
+    """Make one word of words that say one number."""
+    folded = [_number_key(word) for word in words]
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        # The longest number below a million takes eleven words.
+        value, used = read_number_words(folded[index : index + 12])
+        if used:
+            parts = tuple(part for word in words[index : index + used] for part in word.parts)
+            result.append(Word(parts, WordKind.NUMBER, str(value)))
+            index += used
+        else:
+            result.append(words[index])
+            index += 1
+    return tuple(result)
+
+
+def _number_key(word: Word) -> str:
+    """A word as numbers are looked up; empty if it can be part of none: "Díez" is a name, not ten."""
+    typed_right = word.fold == word.lower or word.lower in ACCENTED_NUMBER_WORDS
+    return word.fold if word.kind is WordKind.LETTERS and typed_right else ""

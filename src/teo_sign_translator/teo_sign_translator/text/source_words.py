@@ -1,0 +1,131 @@
+"""A sentence as the words that a sentence model reads: the same way in training and in use."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from teo_sign_translator.morphology import Morphology, Reading
+from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
+from teo_sign_translator.text.numerals import roman_value
+from teo_sign_translator.text.reading import Clause, Word, WordKind, read
+
+#: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
+_TITLE_CASE_WORDS = 5
+#: Readings that a word has at most.
+_MOST_READINGS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class SourceWord:
+    """A word or mark of a sentence.
+
+    Attributes:
+        text: As typed. Words that one short form stands for have the same text (`EE. UU.`, `xfa`).
+        form: What it says, in lower case with the accents that were typed: a short form or symbol in full
+            (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`) or a
+            Roman one (`21`), a drawn-out word as it is written (`holaaaa` is `hola`). A mark is one of `,`
+            (any mark that is a short pause), `.`, `?`, `!`; opening marks are left out.
+        capital: Whether it was typed with a capital that neither the beginning of a sentence nor capitals
+            all over explain.
+        readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
+    """
+
+    text: str
+    form: str
+    capital: bool
+    readings: tuple[Reading, ...]
+
+    @property
+    def is_mark(self) -> bool:
+        """Whether it is punctuation."""
+        return self.readings[0].tag == "MARK"
+
+
+def source_words(sentence: str, morphology: Morphology) -> tuple[SourceWord, ...]:
+    """The words and marks of one sentence, in its order.
+
+    Args:
+        sentence: As typed; what ends a sentence inside it is a mark like the others.
+        morphology: Gives the readings.
+
+    Raises:
+        TranslationError: See `normalisation.clean`.
+    """
+    return words_of_clauses(read(clean(sentence).text).clauses, morphology)
+
+
+def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple[SourceWord, ...]:
+    """The words and marks of a sentence that has been read."""
+    shouted = _capitals_mean_nothing([word for clause in clauses for word in clause.words])
+    words: list[SourceWord] = []
+    begins = True
+    for clause in clauses:
+        begins = begins or bool(clause.opening)
+        for word in _asking_why(clause):
+            capital = not begins and not shouted and not word.stands_for and word.capitalised
+            words.append(_source_word(word, capital, morphology, shouted=shouted))
+            begins = False
+        if clause.end:
+            words.append(SourceWord(clause.end, clause.end, False, _MARKS[clause.end]))
+        begins = clause.closes
+    return tuple(words)
+
+
+def _asking_why(clause: Clause) -> Sequence[Word]:
+    """The words of a clause; "porque" at the beginning of a question is "por qué" typed in haste."""
+    first = clause.words[0]
+    if first.lower != "porque" or (clause.end != "?" and clause.opening != "¿"):
+        return clause.words
+    why = (replace(first, stands_for="por"), replace(first, stands_for="qué"))
+    return (*why, *clause.words[1:])
+
+
+_MARKS = {mark: (Reading(mark, "MARK"),) for mark in (",", ".", "?", "!")}
+
+
+def _capitals_mean_nothing(words: Sequence[Word]) -> bool:
+    """Whether a sentence is all in capitals, or Each Of Its Words Begins With One.
+
+    A single letter or a few names say nothing of the kind.
+    """
+    letters = [word for word in words if word.kind is WordKind.LETTERS]
+    if len(letters) >= _TITLE_CASE_WORDS and all(word.capitalised for word in letters):
+        return True
+    text = "".join(part for word in letters for part in word.parts)
+    return len(text) > 1 and text.isupper()
+
+
+def _source_word(word: Word, capital: bool, morphology: Morphology, *, shouted: bool) -> SourceWord:
+    text = word.text
+    roman = 0 if shouted else roman_value(text)
+    if roman:
+        return SourceWord(text, str(roman), False, (Reading(str(roman), "NUM"),))
+    if word.kind is WordKind.NUMBER and not word.stands_for:
+        return SourceWord(text, word.value, capital, (Reading(word.value, "NUM"),))
+    form = word.lower
+    if form == "x":  # a number that is not said: "Yo tengo X años"
+        return SourceWord(text, form, capital, (Reading("X", "NUM"),))
+    if not word.stands_for and is_drawn_out(form):
+        form = _written(form, morphology)
+    if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
+        return SourceWord(text, form, capital, (Reading(form, "X"),))
+    readings = morphology.readings(form)
+    if capital and not any(r.tag.startswith("NAME") for r in readings):
+        readings = _with_name(text, readings)
+    return SourceWord(text, form, capital, readings)
+
+
+def _written(form: str, morphology: Morphology) -> str:
+    """A drawn-out word as it is written: each letter once, or twice if that is a word ("leeer")."""
+    single, double = shortened(form), shortened(form, times=2)
+    known_twice = any(reading.exact for reading in morphology.readings(double))
+    return double if known_twice and not any(r.exact for r in morphology.readings(single)) else single
+
+
+def _with_name(text: str, readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """Readings of a word with a capital inside a sentence: it may be a name that the lexicon lacks."""
+    name = Reading(text, "NAME", exact=False)
+    if not any(reading.exact for reading in readings):
+        return (name, *readings[: _MOST_READINGS - 1])
+    return (*readings[: _MOST_READINGS - 1], name)

@@ -1,0 +1,24 @@
+from __future__ import annotations
+
+from teo_sign_translator.cli.generate_corpus import FILE_NAME, run
+from teo_sign_translator.corpus import read_pairs
+
+
+def test_the_command_writes_a_corpus_without_the_sentences_of_a_test(tmp_path, capsys):
+    run(out=tmp_path, pairs=300, seed=1)
+    first = list(read_pairs(tmp_path / FILE_NAME))
+    assert sum(pair.rule != "paper" for pair in first) == 300
+    assert "templates" in capsys.readouterr().err
+    unwanted = [pair.spanish for pair in first if pair.rule != "paper"][:100]
+    (tmp_path / "test.txt").write_text("\n".join(unwanted).upper(), encoding="utf-8")
+    run(out=tmp_path, pairs=300, seed=1, leave_out=[tmp_path / "test.txt"])
+    second = {pair.spanish for pair in read_pairs(tmp_path / FILE_NAME)}
+    assert not second & set(unwanted)
+
+
+def test_the_grammar_does_not_contradict_the_papers_sentences(tmp_path):
+    run(out=tmp_path, pairs=3000, seed=2)
+    made = {}
+    for pair in read_pairs(tmp_path / FILE_NAME):
+        bare = pair.spanish.lower().strip("¿¡.?!…")
+        assert made.setdefault(bare, pair.rule == "paper") == (pair.rule == "paper"), pair.spanish

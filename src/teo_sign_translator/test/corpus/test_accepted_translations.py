@@ -1,0 +1,47 @@
+"""The notation of accepted translations."""
+
+from __future__ import annotations
+
+import pytest
+
+from teo_sign_translator.corpus.accepted_translations import accepts
+from teo_sign_translator.errors import TranslationError
+
+
+@pytest.mark.parametrize(
+    ("pattern", "glosses", "is_one"),
+    [
+        ("YO (PASADO) PAN/BOLLO COMER || PAN COMER YO", "YO PAN COMER", True),
+        ("YO (PASADO) PAN/BOLLO COMER || PAN COMER YO", "YO PASADO BOLLO COMER", True),
+        ("YO (PASADO) PAN/BOLLO COMER || PAN COMER YO", "PAN COMER YO", True),
+        ("YO (PASADO) PAN/BOLLO COMER || PAN COMER YO", "YO PAN BOLLO COMER", False),
+        ("YO (PASADO) PAN/BOLLO COMER || PAN COMER YO", "PASADO YO PAN COMER", False),
+        ("YO (PASADO) PAN/BOLLO COMER || PAN COMER YO", "YO PAN COMER YO", False),
+        ("(A/B) C", "C", True),
+        ("(A/B) C", "B C", True),
+        ("(A/B) C", "A B C", False),
+        ("A-N-A QUIÉN", "ANA QUIEN", True),
+        ("GRACIAS POR-FAVOR", "GRACIAS POR_FAVOR", True),
+        ("AÑO", "ANO", False),
+        ("TÚ", "TU", False),
+        ("TODO BIEN", "TODOBIEN", False),
+    ],
+)
+def test_a_translation_is_accepted_if_the_pattern_stands_for_it(
+    pattern: str, glosses: str, is_one: bool
+) -> None:
+    assert accepts(pattern, glosses.split()) is is_one
+
+
+def test_a_pattern_of_very_many_translations_is_no_burden() -> None:
+    pattern = " ".join(["(A/B/C)"] * 40)
+    assert accepts(pattern, ["B"] * 40)
+    assert not accepts(pattern, ["B"] * 41)
+    assert not accepts(pattern, [*["A"] * 40, "D"])
+
+
+@pytest.mark.parametrize("pattern", ["", "YO ||", "YO (PAN COMER)", "YO PAN/ COMER", "(YO"])
+def test_a_slip_of_the_pen_is_found(pattern: str) -> None:
+    with pytest.raises(TranslationError) as caught:
+        accepts(pattern, ["YO"])
+    assert caught.value.code == "invalid_data"

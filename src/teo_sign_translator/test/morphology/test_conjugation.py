@@ -1,0 +1,156 @@
+"""Forms of verbs: against a table written by hand, and against simplemma's dictionary."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import simplemma
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import lexicon
+from teo_sign_translator.morphology.conjugation import Conjugations
+from teo_sign_translator.morphology.tags import PERSONS, VERB_TAGS
+from teo_sign_translator.resources import data_file
+from teo_sign_translator.text.cleaning import strip_marks
+
+CONJUGATIONS = Conjugations(data_file("morphology/conjugations.tsv"))
+
+#: Six persons of a tense, or one form; from the Nueva gramática de la lengua española (RAE 2009).
+TRUTH = """
+amar V:ind:pres amo amas ama amamos amáis aman
+comer V:ind:pret comí comiste comió comimos comisteis comieron
+vivir V:sub:impf viviera vivieras viviera viviéramos vivierais vivieran
+ser V:ind:pres soy eres es somos sois son
+ser V:ind:impf era eras era éramos erais eran
+ser V:ind:pret fui fuiste fue fuimos fuisteis fueron
+ser V:sub:pres sea seas sea seamos seáis sean
+estar V:ind:pres estoy estás está estamos estáis están
+estar V:ind:pret estuve estuviste estuvo estuvimos estuvisteis estuvieron
+estar V:sub:pres esté estés esté estemos estéis estén
+ir V:ind:pres voy vas va vamos vais van
+ir V:ind:impf iba ibas iba íbamos ibais iban
+ir V:sub:pres vaya vayas vaya vayamos vayáis vayan
+ir V:ger yendo
+haber V:ind:pres he has ha hemos habéis han
+haber V:ind:pret hube hubiste hubo hubimos hubisteis hubieron
+haber V:ind:fut habré habrás habrá habremos habréis habrán
+tener V:ind:pres tengo tienes tiene tenemos tenéis tienen
+tener V:ind:fut tendré tendrás tendrá tendremos tendréis tendrán
+tener V:imp:2s ten
+hacer V:ind:pret hice hiciste hizo hicimos hicisteis hicieron
+hacer V:cond haría harías haría haríamos haríais harían
+hacer V:part:ms hecho
+hacer V:imp:2s haz
+decir V:ind:pres digo dices dice decimos decís dicen
+decir V:ind:pret dije dijiste dijo dijimos dijisteis dijeron
+decir V:part:fs dicha
+decir V:imp:2s di
+poder V:ind:pres puedo puedes puede podemos podéis pueden
+poder V:ind:pret pude pudiste pudo pudimos pudisteis pudieron
+poder V:ger pudiendo
+poner V:ind:pret puse pusiste puso pusimos pusisteis pusieron
+poner V:part:mp puestos
+poner V:imp:2s pon
+venir V:ind:pres vengo vienes viene venimos venís vienen
+venir V:ind:pret vine viniste vino vinimos vinisteis vinieron
+querer V:ind:pres quiero quieres quiere queremos queréis quieren
+querer V:ind:pret quise quisiste quiso quisimos quisisteis quisieron
+saber V:ind:pres sé sabes sabe sabemos sabéis saben
+saber V:sub:pres sepa sepas sepa sepamos sepáis sepan
+traer V:ind:pret traje trajiste trajo trajimos trajisteis trajeron
+caber V:ind:pres quepo cabes cabe cabemos cabéis caben
+caber V:ind:pret cupe cupiste cupo cupimos cupisteis cupieron
+oír V:ind:pres oigo oyes oye oímos oís oyen
+oír V:ind:pret oí oíste oyó oímos oísteis oyeron
+reír V:ind:pres río ríes ríe reímos reís ríen
+reír V:ger riendo
+dormir V:ind:pres duermo duermes duerme dormimos dormís duermen
+dormir V:ind:pret dormí dormiste durmió dormimos dormisteis durmieron
+dormir V:ger durmiendo
+pedir V:ind:pres pido pides pide pedimos pedís piden
+pedir V:sub:impf pidiera pidieras pidiera pidiéramos pidierais pidieran
+seguir V:ind:pres sigo sigues sigue seguimos seguís siguen
+jugar V:ind:pres juego juegas juega jugamos jugáis juegan
+jugar V:ind:pret jugué jugaste jugó jugamos jugasteis jugaron
+jugar V:sub:pres juegue juegues juegue juguemos juguéis jueguen
+conducir V:ind:pres conduzco conduces conduce conducimos conducís conducen
+conducir V:ind:pret conduje condujiste condujo condujimos condujisteis condujeron
+huir V:ind:pres huyo huyes huye huimos huís huyen
+ver V:ind:impf veía veías veía veíamos veíais veían
+ver V:part:ms visto
+dar V:ind:pret di diste dio dimos disteis dieron
+dar V:sub:pres dé des dé demos deis den
+andar V:ind:pret anduve anduviste anduvo anduvimos anduvisteis anduvieron
+caer V:ind:pret caí caíste cayó caímos caísteis cayeron
+leer V:ger leyendo
+volver V:part:ms vuelto
+abrir V:part:fp abiertas
+escribir V:part:ms escrito
+romper V:part:ms roto
+morir V:part:ms muerto
+oler V:ind:pres huelo hueles huele olemos oléis huelen
+empezar V:ind:pret empecé empezaste empezó empezamos empezasteis empezaron
+buscar V:sub:pres busque busques busque busquemos busquéis busquen
+coger V:ind:pres cojo coges coge cogemos cogéis cogen
+enviar V:ind:pres envío envías envía enviamos enviáis envían
+actuar V:ind:pres actúo actúas actúa actuamos actuáis actúan
+averiguar V:ind:pret averigüé averiguaste averiguó averiguamos averiguasteis averiguaron
+reunir V:ind:pres reúno reúnes reúne reunimos reunís reúnen
+prohibir V:ind:pres prohíbo prohíbes prohíbe prohibimos prohibís prohíben
+llover V:ind:pres:3s llueve
+nevar V:ind:pres:3s nieva
+parecer V:ind:pres parezco pareces parece parecemos parecéis parecen
+gobernar V:ind:pres gobierno gobiernas gobierna gobernamos gobernáis gobiernan
+soler V:ind:pres suelo sueles suele solemos soléis suelen
+arrepentir V:ind:pres arrepiento arrepientes arrepiente arrepentimos arrepentís arrepienten
+arrepentir V:imp:2s arrepiente
+mantener V:imp:2s mantén
+wasapear V:ind:pret wasapeé wasapeaste wasapeó wasapeamos wasapeasteis wasapearon
+"""
+
+
+@pytest.mark.parametrize("line", TRUTH.split("\n")[1:-1])
+def test_verbs_have_the_forms_of_the_grammar(line: str) -> None:
+    infinitive, tag, *expected = line.split()
+    tags = [tag] if len(expected) == 1 else [f"{tag}:{person}" for person in PERSONS]
+    assert [CONJUGATIONS.forms(infinitive, each)[0] for each in tags] == expected
+
+
+def test_every_everyday_verb_has_every_form() -> None:
+    for verb in lexicon.verbs():
+        for tag in VERB_TAGS:
+            assert CONJUGATIONS.forms(verb.lemma, tag), (verb.lemma, tag)
+
+
+def test_simplemma_leads_nearly_every_form_to_the_same_infinitive() -> None:
+    # simplemma has one lemma a form: of ambiguous ones (vino, casa) another word; of participles, adjectives.
+    tags = [tag for tag in VERB_TAGS if ":part" not in tag and not tag.startswith("V:imp")]
+    total = agreed = 0
+    for verb in lexicon.verbs()[::10]:
+        for tag in tags:
+            total += 1
+            agreed += simplemma.lemmatize(CONJUGATIONS.forms(verb.lemma, tag)[0], lang="es") == verb.lemma
+    assert total > 5000
+    assert agreed / total > 0.95
+
+
+def test_every_form_is_read_back_without_its_marks() -> None:
+    for verb in lexicon.verbs()[::7]:
+        for tag in VERB_TAGS:
+            for form in CONJUGATIONS.forms(verb.lemma, tag):
+                assert (verb.lemma, tag, form) in CONJUGATIONS.readings(strip_marks(form))
+
+
+def test_an_unknown_verb_has_no_forms() -> None:
+    assert CONJUGATIONS.forms("xyzar", "V:inf") == ()
+    assert "xyzar" not in CONJUGATIONS
+
+
+@pytest.mark.parametrize("content", ["amar\to as a\tam\n", "amar\to as\n", b"\xff\xfe"])
+def test_a_damaged_file_is_refused_with_its_place(tmp_path: Path, content: str | bytes) -> None:
+    path = tmp_path / "conjugations.tsv"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(TranslationError, match=r"conjugations\.tsv") as caught:
+        Conjugations(path)
+    assert caught.value.code == "invalid_data"

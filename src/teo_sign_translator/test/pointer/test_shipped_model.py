@@ -1,0 +1,83 @@
+from __future__ import annotations
+
+from functools import cache, partial
+
+import pytest
+
+from teo_sign_translator.lstm256.store import DEFAULT_MODEL
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.neural import load_sentence_model
+from teo_sign_translator.pointer.config import NetworkConfig
+from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.examples import Reader
+from teo_sign_translator.pointer.memorised_pairs import by_heart_pairs, unknown_by_heart
+from teo_sign_translator.pointer.store import load_sentence_card, sentence_models
+from teo_sign_translator.pointer.zoo import POINTER, ZOO
+from teo_sign_translator.resources import models_directory
+from teo_sign_translator.text.source_words import source_words
+
+
+@cache
+def read() -> Reader:
+    return partial(source_words, morphology=Morphology.load())
+
+
+@cache
+def model() -> ZooModel:
+    return load_sentence_model(POINTER)
+
+
+def _translated(sentence: str) -> str:
+    return " ".join(gloss.gloss for gloss in model().translate(read()(sentence))[0].glosses)
+
+
+def test_the_default_model_is_the_pointer_of_the_zoo() -> None:
+    assert DEFAULT_MODEL == POINTER
+    assert POINTER in sentence_models()
+    assert NetworkConfig(**load_sentence_card(POINTER)["network"]) == ZOO[POINTER]
+
+
+def test_the_papers_pairs_come_out_exactly_however_they_are_typed() -> None:
+    assert unknown_by_heart(model(), read()) == ()
+
+
+def test_the_projects_pairs_come_out_exactly() -> None:
+    pairs = by_heart_pairs(read())
+    wrong = {pair.spanish: _translated(pair.spanish) for pair in pairs}
+    wrong = {
+        sentence: got for pair in pairs if (got := wrong[sentence := pair.spanish]) != " ".join(pair.glosses)
+    }
+    assert wrong == {}
+
+
+@pytest.mark.parametrize(
+    ("sentence", "glosses"),
+    [
+        ("Mañana voy a comprar pan.", "MAÑANA YO PAN COMPRAR"),
+        ("ayer no fui al cine", "AYER YO CINE IR NO"),
+        ("Quiero comer una manzana.", "YO MANZANA COMER QUERER"),
+        ("¿Dónde vive tu hermana?", "HERMANA TU VIVIR DÓNDE"),
+        ("Mi hermano trabaja en un hospital.", "HERMANO MI HOSPITAL TRABAJAR"),
+        ("Tengo dos gatos.", "YO GATO 2 TENER"),
+    ],
+)
+def test_everyday_sentences_come_out_in_signing_order(sentence: str, glosses: str) -> None:
+    assert _translated(sentence) == glosses
+
+
+def test_names_and_numbers_never_seen_are_carried_over() -> None:
+    assert _translated("Me llamo Zoilonia") == "MI NOMBRE ZOILONIA"
+    assert _translated("Tengo 93 años.") == "YO EDAD 93"
+
+
+def test_the_card_says_what_made_the_model() -> None:
+    card = load_sentence_card(POINTER)
+    assert card["command"].startswith("ros2 run teo_sign_translator train pointer")
+    assert len(card["data"]["sha256"]) == 64
+    assert {"commit", "torch", "numpy", "python", "device"} <= set(card["made_by"])
+    assert card["result"]["paper_sentences_wrong"] == 0
+    assert card["result"]["scores"]["dev"]["exact"] > 0.9
+
+
+def test_all_models_together_are_under_twenty_megabytes() -> None:
+    assert sum(path.stat().st_size for path in models_directory().iterdir()) < 20e6

@@ -1,0 +1,104 @@
+"""Models in files: the same after loading, and refused by name where they are damaged."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.neural import load_sentence_model
+from teo_sign_translator.pointer.store import save_sentence_model, sentence_models
+from teo_sign_translator.pointer.training import Fit
+from teo_sign_translator.pointer.zoo import POINTER
+
+
+def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> Fit:
+    trained = fit_small(POINTER, sentence_pairs(50), epochs=2)
+    save_sentence_model(
+        "small",
+        directory,
+        config=small_config(POINTER),
+        lexis=trained.lexis,
+        weights=trained.weights | weights,
+        card={},
+    )
+    return trained
+
+
+def test_a_saved_model_says_the_same_after_loading(tmp_path: Path) -> None:
+    model = small_model(POINTER, _save(tmp_path))
+    assert sentence_models(tmp_path) == ("small",)
+    loaded = load_sentence_model("small", tmp_path)
+    for pair in sentence_pairs(10):
+        (expected,), (got,) = model.translate(read(pair.spanish)), loaded.translate(read(pair.spanish))
+        assert glosses_of(expected) == glosses_of(got)
+        assert expected.log_probability == pytest.approx(got.log_probability, abs=0.02)  # half precision
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]
+
+
+@pytest.mark.parametrize("name", ["large", "../small", ""])
+def test_an_unknown_model_is_refused_with_those_available(tmp_path: Path, name: str) -> None:
+    _save(tmp_path)
+    with pytest.raises(TranslationError, match="small") as error:
+        load_sentence_model(name, tmp_path)
+    assert error.value.code == "unknown_model"
+
+
+def _cut(directory: Path) -> None:
+    path = directory / "small.safetensors"
+    path.write_bytes(path.read_bytes()[:-100])
+
+
+def _no_weights(directory: Path) -> None:
+    (directory / "small.safetensors").write_bytes(b"")
+
+
+def _no_card(directory: Path) -> None:
+    (directory / "small.json").unlink()
+
+
+def _spoil(text: str) -> Callable[[Path], None]:
+    return lambda directory: (directory / "small.json").write_text(text, encoding="utf-8") and None
+
+
+def _card(**values: object) -> Callable[[Path], None]:
+    def change(directory: Path) -> None:
+        path = directory / "small.json"
+        path.write_text(json.dumps(json.loads(path.read_text("utf-8")) | values), encoding="utf-8")
+
+    return change
+
+
+def _not_a_number(directory: Path) -> None:
+    _save(directory, **{"output.bias": np.full(4, np.nan, np.float32)})
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        _cut,
+        _no_weights,
+        _no_card,
+        _not_a_number,
+        _spoil("{"),
+        _spoil("[]"),
+        _card(schema=99),
+        _card(network={"hidden": 16}),
+        _card(network={"width": 16}),
+        _card(network=None),
+        _card(lexis={}),
+        _card(lexis=[]),
+    ],
+)
+def test_a_damaged_model_is_refused(tmp_path: Path, damage: Callable[[Path], None]) -> None:
+    _save(tmp_path)
+    damage(tmp_path)
+    with pytest.raises(TranslationError) as error:
+        load_sentence_model("small", tmp_path)
+    assert error.value.code == "invalid_model"

@@ -1,0 +1,222 @@
+from __future__ import annotations
+
+import pytest
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.output.spelling import letters, unsignable
+from teo_sign_translator.text.cleaning import clean, fold, strip_marks
+from teo_sign_translator.text.numerals import match_digits, read_number_words
+from teo_sign_translator.text.reading import read
+from teo_sign_translator.text.sentence_type import SentenceType, is_negated, sentence_type
+
+
+@pytest.mark.parametrize(
+    ("typed", "cleaned"),
+    [
+        ("e\u0301", "é"),
+        ("“hola” ‘tú’", "\"hola\" 'tú'"),
+        ("a\u00a0b\tc", "a b c"),
+        ("Ｈｏｌａ１２", "Hola12"),
+        ("ﬁn m²", "fin m2"),
+        ("½", "1/2"),
+        ("٣", "3"),
+        ("co\u00adche\u200b", "coche"),
+        ("1º ª", "1º ª"),
+        ("a\r\nb\u2028c", "a\nb\nc"),
+    ],
+)
+def test_cleaning_gives_one_form(typed: str, cleaned: str) -> None:
+    assert clean(typed).text == cleaned
+
+
+def test_cleaning_reports_control_characters() -> None:
+    assert clean("a\x00b\x1bc").ignored == ("\x00", "\x1b")
+
+
+def test_cleaning_refuses_lost_characters() -> None:
+    with pytest.raises(TranslationError) as error:
+        clean("d\udced")
+    assert error.value.code == "broken_encoding"
+
+
+def test_folding_keeps_the_letter_ene_but_no_accent() -> None:
+    assert [fold(word) for word in ("CÓMO", "Año", "pingüino", "façade")] == [
+        "como",
+        "año",
+        "pinguino",
+        "facade",
+    ]
+    assert strip_marks("Año") == "ano"
+
+
+def _words(text: str) -> list[list[str]]:
+    return [[" ".join(word.parts) for word in clause.words] for clause in read(text).clauses]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Hola, me llamo Ana.", [["Hola"], ["me", "llamo", "Ana"]]),
+        ("Ana ¿quién es Ana?", [["Ana"], ["quién", "es", "Ana"]]),
+        ("El Sr. Pérez y J. Gil", [["El", "Sr.", "Pérez", "y", "J", "Gil"]]),
+        ("uc3m.es", [["uc3m", "es"]]),
+        ("Hola.Adiós", [["Hola"], ["Adiós"]]),
+        ("Bueno... pues sí", [["Bueno"], ["pues", "sí"]]),
+        ("ex-marido d'Ors", [["ex", "marido", "d", "Ors"]]),
+        ("son 3,5 € o 1.000,50 € o 5%", [["son", "3,5", "€", "o", "1.000,50", "€", "o", "5", "%"]]),
+        ("el 12.10.2024 a las 10:30", [["el", "12", "10", "2024", "a", "las", "10:30"]]),
+        ("treinta y un años y dos mil", [["treinta y un", "años", "y", "dos mil"]]),
+        ("un 1º", [["un", "1º"]]),
+        ("clase 1ºA", [["clase", "1º", "A"]]),
+        ("", []),
+        ("...", []),
+    ],
+)
+def test_reading_finds_clauses_and_words(text: str, words: list[list[str]]) -> None:
+    assert _words(text) == words
+
+
+@pytest.mark.parametrize(
+    "laugh", ["jajaja", "jajja", "JAJAJAJA", "jeje", "jijiji", "ajajaja", "haha", "xD", "xdd"]
+)
+def test_laughter_is_a_sentence_of_its_own(laugh: str) -> None:
+    sentences = [
+        [word.lower for word in clause.words] for clause in read(f"qué gracioso {laugh} adiós").clauses
+    ]
+    assert sentences == [["qué", "gracioso"], ["risa"], ["adiós"]]
+    assert [clause.closes for clause in read(f"{laugh}, vale").clauses] == [True, True]
+
+
+@pytest.mark.parametrize("word", ["ja", "hijo", "haya", "jej", "ajá", "x", "Jan"])
+def test_what_only_looks_like_laughter_is_read_as_it_is_typed(word: str) -> None:
+    (clause,) = read(word).clauses
+    assert [each.lower for each in clause.words] == [word.lower()]
+
+
+@pytest.mark.parametrize(
+    ("text", "ends"),
+    [
+        ("Hola, adiós.", [(",", False), (".", True)]),
+        ("¿Qué?! Sí", [("?", True), ("", True)]),
+        ("¡Qué!? Sí", [("?", True), ("", True)]),
+        ("Bueno… Sí", [(".", True), ("", True)]),
+        ("bueno… sí", [(",", False), ("", True)]),
+        ("Hola, 😀. Sí", [(".", True), ("", True)]),
+        ("Hola\nsí", [("", True), ("", True)]),
+    ],
+)
+def test_reading_finds_where_sentences_end(text: str, ends: list[tuple[str, bool]]) -> None:
+    assert [(clause.end, clause.closes) for clause in read(text).clauses] == ends
+
+
+@pytest.mark.parametrize(
+    ("words", "value", "used"),
+    [
+        ("cero", 0, 1),
+        ("uno", 1, 1),
+        ("un", 0, 0),
+        ("una casa", 0, 0),
+        ("quince", 15, 1),
+        ("dieciseis años", 16, 1),
+        ("veintiun", 21, 1),
+        ("treinta y cinco", 35, 3),
+        ("treinta y pico", 30, 1),
+        ("cien", 100, 1),
+        ("ciento uno", 101, 2),
+        ("quinientas veinte", 520, 2),
+        ("novecientos noventa y nueve mil novecientos noventa y nueve", 999_999, 9),
+        ("mil", 1000, 1),
+        ("dos mil veinticuatro", 2024, 3),
+        ("siete ocho", 7, 1),
+        ("hola", 0, 0),
+        ("", 0, 0),
+    ],
+)
+def test_number_words_are_read(words: str, value: int, used: int) -> None:
+    assert read_number_words(words.split()) == (value, used)
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("12", ["12"]),
+        ("1.000", ["1000"]),
+        ("1.234.567,8", ["1234567,8"]),
+        ("3,5", ["3,5"]),
+        ("3.5", ["3,5"]),
+        ("1,2,3", ["1", "2", "3"]),
+        ("12.10.2024", ["12", "", "2024"]),
+        ("007", ["007"]),
+        ("x", []),
+    ],
+)
+def test_digits_are_read_as_spanish_writes_them(text: str, values: list[str]) -> None:
+    assert [part.value for part in match_digits(text, 0)] == values
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("¿Vienes?", SentenceType.YES_NO_QUESTION),
+        ("Vienes?", SentenceType.YES_NO_QUESTION),
+        ("¿Dónde vives?", SentenceType.WH_QUESTION),
+        ("¿de donde eres?", SentenceType.WH_QUESTION),
+        ("¿Y tú cómo estás?", SentenceType.WH_QUESTION),
+        ("¿Sabes cómo se llama?", SentenceType.YES_NO_QUESTION),
+        ("¿Haces qué?", SentenceType.WH_QUESTION),
+        ("Hola, ¿cuándo vienes?", SentenceType.WH_QUESTION),
+        ("donde vives", SentenceType.WH_QUESTION),
+        ("como estas", SentenceType.WH_QUESTION),
+        ("cuando vienes", SentenceType.WH_QUESTION),
+        ("Cuando llegue, te llamo", SentenceType.STATEMENT),
+        ("Como pan", SentenceType.STATEMENT),
+        ("Que tengas buen día", SentenceType.STATEMENT),
+        ("¡Qué bien!", SentenceType.EXCLAMATION),
+        ("¡¿Vienes?!", SentenceType.YES_NO_QUESTION),
+        ("Vengo.", SentenceType.STATEMENT),
+    ],
+)
+def test_the_type_of_a_sentence(text: str, kind: SentenceType) -> None:
+    assert sentence_type(read(text).clauses) is kind
+
+
+@pytest.mark.parametrize(
+    ("text", "negated"),
+    [
+        ("No vengo", True),
+        ("Nooooo vengo", True),
+        ("Nunca vengo", True),
+        ("No hay nadie", True),
+        ("Vienes, ¿no?", False),
+        ("De nada", False),
+        ("Vengo", False),
+        ("Una nota", False),
+    ],
+)
+def test_whether_a_sentence_is_negated(text: str, negated: bool) -> None:
+    assert is_negated(read(text).clauses) is negated
+
+
+@pytest.mark.parametrize(
+    ("word", "signs"),
+    [
+        ("Ana", "A N A"),
+        ("Guillermo", "G U I LL E R M O"),
+        ("Chorra", "CH O RR A"),
+        ("LLUVIA", "LL U V I A"),
+        ("Ñoño", "Ñ O Ñ O"),
+        ("n\u0303u", "Ñ U"),
+        ("pingüino", "P I N G U I N O"),
+        ("Barça", "B A R C A"),
+        ("Müßig", "M U S S I G"),
+        ("llll", "LL LL"),
+        ("", ""),
+    ],
+)
+def test_spelling(word: str, signs: str) -> None:
+    assert letters(word) == tuple(signs.split())
+    assert unsignable(word) == ()
+
+
+def test_what_no_letter_sign_exists_for_is_named_once() -> None:
+    assert unsignable("Иван и Иван"[:4] + "aИ") == ("И", "в", "а", "н")

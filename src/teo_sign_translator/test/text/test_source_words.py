@@ -1,0 +1,120 @@
+"""A sentence as a model's input, however it is typed."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.text.source_words import SourceWord, source_words
+
+MORPHOLOGY = Morphology.load()
+
+
+def _read(sentence: str) -> tuple[SourceWord, ...]:
+    return source_words(sentence, MORPHOLOGY)
+
+
+def _forms(sentence: str) -> list[str]:
+    return [word.form for word in _read(sentence)]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "forms"),
+    [
+        ("Como una manzana.", "como|una|manzana|."),
+        ("¿Quién es Ana?", "quién|es|ana|?"),
+        ("Hola,  Ana: ¿vienes?", "hola|,|ana|,|vienes|?"),
+        ("Tengo treinta y uno; tú 31.", "tengo|31|,|tú|31|."),
+        ("Cuesta 1.000 € o 3,5 $", "cuesta|1000|euros|o|3,5|dólares"),
+        ("Son 10 000 personas", "son|10000|personas"),
+        ("Mi teléfono es 600 257 707.", "mi|teléfono|es|600257707|."),
+        ("A las 15:30 h", "a|las|15:30|horas"),
+        ("A las 15.30 h o 9h05", "a|las|15:30|horas|o|9:05"),
+        ("el 25/12 y el 1/2", "el|25|diciembre|y|el|1|febrero"),
+        ("1/2 kilo el 3-4-2024", "1|2|kilo|el|3|abril|2024"),
+        ("el 10 % o el 10 por ciento", "el|10|por ciento|o|el|10|por ciento"),
+        ("la 2ª y el 3er piso", "la|segunda|y|el|tercero|piso"),
+        ("20ºC, -5 °", "20|grados|,|menos|5|grados"),
+        ("5 km, 5 m, m", "5|kilómetros|,|5|metros|,|m"),
+        ("El Sr. Gil y la Dra. Ruiz, p. ej.", "el|señor|gil|y|la|doctora|ruiz|,|por|ejemplo|."),
+        ("Vivo en EE. UU. y tú no.", "vivo|en|estados unidos|y|tú|no|."),
+        ("q haces? xq tb vienes", "que|haces|?|porque|también|vienes"),
+        ("xq lloras? Porque sí", "por|qué|lloras|?|porque|sí"),
+        ("vitamina K y plan Q", "vitamina|k|y|plan|q"),
+        ("Holaaaa, síííí", "hola|,|sí"),
+        ("leeer un libro", "leer|un|libro"),
+        ("Carlos III y el siglo XXI", "carlos|3|y|el|siglo|21"),
+        ("FELIPE VI", "felipe|vi"),
+        ("Q tal? K haces? plan Q", "que|tal|?|que|haces|?|plan|q"),
+        ("x la tarde, tengo x", "por|la|tarde|,|tengo|x"),
+        ("UC3M, mp3 y 3m", "uc3m|,|mp3|y|3|metros"),
+        ("el 3.er piso izda.", "el|tercero|piso|izquierda|."),
+        ("ciento un días", "101|días"),
+        ("Julia Díez, veintidós, veintidos", "julia|díez|,|22|,|22"),
+        ("ﬁn", "fin"),
+        ("Me gusta 😀 mucho!!!", "me|gusta|mucho|!"),
+        ("co\u200bmo e\u0301l", "como|él"),
+        ("“Hola”, dijo", "hola|,|dijo"),
+        ("", ""),
+    ],
+)
+def test_a_sentence_becomes_words_and_marks(sentence: str, forms: str) -> None:
+    assert _forms(sentence) == [form for form in forms.split("|") if form]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "capitals"),
+    [
+        ("Ana quiere a Pedro", ["Pedro"]),
+        ("Hola, Ana. Dile a Luis", ["Ana", "Luis"]),
+        ("Ana, ¿Quién es Ana?", ["Ana"]),
+        ("QUIERO VER A ANA", []),
+        ("El Sr. Gil tiene 5 €", ["Gil"]),
+    ],
+)
+def test_only_capitals_that_mean_something_count(sentence: str, capitals: list[str]) -> None:
+    assert [word.text for word in _read(sentence) if word.capital] == capitals
+
+
+def test_a_capital_inside_a_sentence_may_be_a_name_that_no_list_holds() -> None:
+    (name,) = (word for word in _read("Quiero ver a Xandrolf") if word.capital)
+    assert (name.readings[0].lemma, name.readings[0].tag) == ("Xandrolf", "NAME")
+    assert all(not reading.tag.startswith("NAME") for reading in _read("quiero ver a xandrolf")[-1].readings)
+
+
+def test_x_is_a_number_that_is_not_said() -> None:
+    assert [(r.lemma, r.tag) for r in _read("Yo tengo X años")[2].readings] == [("X", "NUM")]
+
+
+def test_words_that_one_short_form_stands_for_share_what_was_typed() -> None:
+    assert [(word.text, word.form) for word in _read("p. ej. ven, xfa")] == [
+        ("p. ej.", "por"),
+        ("p. ej.", "ejemplo"),
+        ("ven", "ven"),
+        (",", ","),
+        ("xfa", "por"),
+        ("xfa", "favor"),
+    ]
+
+
+def test_marks_and_numbers_have_one_reading() -> None:
+    hello, comma, number = _read("hola, treinta y dos")
+    assert not hello.is_mark
+    assert comma.is_mark
+    assert [(reading.lemma, reading.tag) for reading in number.readings] == [("32", "NUM")]
+
+
+@given(st.text())
+@settings(max_examples=300, deadline=None)
+def test_any_text_can_be_read(text: str) -> None:
+    try:
+        words = _read(text)
+    except TranslationError as error:
+        assert error.code in ("broken_encoding", "text_too_long")
+        return
+    for word in words:
+        assert word.text and word.form and 1 <= len(word.readings) <= 4
+        assert word.is_mark == (word.form in (",", ".", "?", "!"))

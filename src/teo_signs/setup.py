@@ -1,0 +1,25 @@
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = "teo_signs"
+
+setup(
+    name=PACKAGE,
+    version="0.2.0",
+    packages=find_packages(exclude=["test", "test.*"]),
+    package_data={PACKAGE: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        (f"share/{PACKAGE}/lut", ["lut/sign.schema.json"]),
+        (f"share/{PACKAGE}/lut/lse", sorted(map(str, Path("lut/lse").glob("*.json")))),
+    ],
+    install_requires=["setuptools", "numpy", "pillow", "pydantic", "scipy"],
+    zip_safe=False,
+    maintainer="TEO signing project",
+    maintainer_email="teo-sign@example.org",
+    description="A sign and the table of signs: file, schema, evidence, tokens, lexicon, mirroring, export.",
+    license="Apache-2.0",
+    extras_require={"test": ["pytest"]},
+)

@@ -1,0 +1,1 @@
+"""Signs as motions in the formats of programs that play motions."""

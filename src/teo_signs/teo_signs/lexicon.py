@@ -1,0 +1,149 @@
+"""From tokens to signs: look a token up, and spell what the table lacks."""
+
+from __future__ import annotations
+
+import dataclasses
+import unicodedata
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from teo_signs.errors import LutError, PlanError
+from teo_signs.sign import Sign, gloss_key
+from teo_signs.sign_schema import STANDINGS, Standing
+from teo_signs.tokens import Kind, Token, check_tokens
+
+_SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
+_TILDE = "\N{COMBINING TILDE}"
+
+#: Signs of a lower standing are spelled instead. A sketch has no source: a viewer who knows LSE would read
+#: something
+#: else, or nothing, where letters tell the word.
+DEFAULT_STANDING: Standing = "described"
+
+# Signs that can spell have names this short: "A", "CH". Longer entries are not read when spelling.
+_LONGEST_SPELLER = 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class SignedToken:
+    """A token and the sign that makes it; `sign` is None for a pause."""
+
+    token: Token
+    sign: Sign | None
+
+
+class Lexicon:
+    """Finds signs in a look-up table.
+
+    A lexical gloss that the table lacks is spelled with the table's own letters, longest match first, so
+    that CH, LL and RR are one sign where the table has them; digits in it become number signs and "_" a
+    pause. Accents are dropped first, except on Ñ, which is a letter of its own. So is a gloss whose sign is
+    of too low a standing; letters and digits are always used, for nothing could stand for them.
+
+    The digits of one word are a number: it is made with its own sign where the table has one that is good
+    enough (11 to 14 in the package's), and else digit by digit. Tens and units are not put together: no
+    source says how LSE does it, and a digit for each is understood by everybody.
+    """
+
+    def __init__(self, signs: Mapping[str, Sign], least_standing: Standing = DEFAULT_STANDING) -> None:
+        """Use a table, which may change between two calls of `resolve`.
+
+        Args:
+            signs: The table.
+            least_standing: The lowest standing that a lexical sign may have.
+        """
+        self._signs = signs
+        self._good_enough = STANDINGS[: STANDINGS.index(least_standing) + 1]
+
+    def resolve(self, tokens: Sequence[Token]) -> tuple[SignedToken, ...]:
+        """Find a sign for every token.
+
+        Returns:
+            In order; a spelled gloss gives one entry for each sign that replaces it, with the token's word
+            index, confidence and duration scale.
+
+        Raises:
+            PlanError: A token cannot be signed ("unknown_sign", "invalid_sign" or see `check_tokens`).
+        """
+        check_tokens(tokens)
+        return tuple(signed for token in self._numbers_joined(tokens) for signed in self._resolve(token))
+
+    def _numbers_joined(self, tokens: Sequence[Token]) -> Iterator[Token]:
+        """Tokens, those of one number's digits as one where the number has a sign of its own."""
+        for (kind, _), run in groupby(tokens, key=lambda token: (token.kind, token.word_index)):
+            word = tuple(run)
+            gloss = "".join(token.gloss.strip() for token in word)
+            if kind == Kind.NUMBER and len(word) > 1 and self._find(gloss, Kind.NUMBER) is not None:
+                yield dataclasses.replace(word[0], gloss=gloss)
+            else:
+                yield from word
+
+    def _resolve(self, token: Token) -> list[SignedToken]:
+        if token.kind == Kind.PAUSE:
+            return [SignedToken(token=token, sign=None)]
+        gloss = gloss_key(token.gloss.strip()).upper()
+        sign = self._find(gloss, token.kind)
+        if sign is not None:
+            return [SignedToken(token=token, sign=sign)]
+        if token.kind == Kind.LETTER:
+            sign = self._find(without_accents(gloss), Kind.LETTER)
+            if sign is None:
+                raise PlanError("unknown_sign", f"expected a letter of the table, got {token.gloss!r}")
+            return [SignedToken(token=token, sign=sign)]
+        return self._spell(token, without_accents(gloss))
+
+    def _find(self, gloss: str, kind: Kind) -> Sign | None:
+        if gloss not in self._signs:
+            return None
+        try:
+            sign = self._signs[gloss]
+        except LutError as error:
+            raise PlanError("invalid_sign", f"the entry of {gloss!r} cannot be used: {error}") from error
+        must = kind == Kind.LETTER or (kind == Kind.NUMBER and len(gloss) == 1)
+        if not must and sign.provenance.standing not in self._good_enough:
+            return None
+        return sign if sign.kind == _SIGN_KIND[kind] else None
+
+    def _spell(self, token: Token, text: str) -> list[SignedToken]:
+        signed: list[SignedToken] = []
+        position = 0
+        while position < len(text):
+            if text[position] == "_" and token.kind == Kind.LEXICAL:
+                pause = dataclasses.replace(token, gloss="", kind=Kind.PAUSE)
+                signed.append(SignedToken(token=pause, sign=None))
+                position += 1
+                continue
+            for length in range(_LONGEST_SPELLER, 0, -1):
+                piece = text[position : position + length]
+                kind = Kind.NUMBER if piece.isdecimal() else Kind.LETTER
+                # Digits one by one: "1012" is not ten and twelve.
+                if (kind == Kind.NUMBER and length > 1) or (token.kind == Kind.NUMBER != kind):
+                    continue
+                sign = self._find(piece, kind) if len(piece) == length else None
+                if sign is not None:
+                    letter = dataclasses.replace(token, gloss=piece, kind=kind)
+                    signed.append(SignedToken(token=letter, sign=sign))
+                    position += length
+                    break
+            else:
+                raise PlanError("unknown_sign", self._missing(token, text[position]))
+        return signed
+
+    @staticmethod
+    def _missing(token: Token, character: str) -> str:
+        if token.kind == Kind.NUMBER:
+            return f"expected a number of the table, got {token.gloss!r}: there is no sign for {character!r}"
+        return (
+            f"expected a gloss of the table or one that its letters can spell, got {token.gloss!r}: "
+            f"there is neither a sign of that name nor a letter for {character!r}"
+        )
+
+
+def without_accents(text: str) -> str:
+    """Drop the accents of letters, as the manual alphabet does; Ñ stays."""
+    kept: list[str] = []
+    for character in unicodedata.normalize("NFD", text):
+        if not unicodedata.combining(character) or (character == _TILDE and kept and kept[-1] in "Nn"):
+            kept.append(character)
+    return unicodedata.normalize("NFC", "".join(kept))

@@ -1,0 +1,125 @@
+"""How different two signs look: handshape, orientation of the palm, movement, place.
+
+Each is measured on both hands at moments spread over the sign, and counted in the difference that is just
+seen with certainty at conversation distance: the thickness of a finger, 15 deg, or two neighbouring places on
+the face. Signs are told apart by any one of them on either hand, so that the largest is the difference of the
+pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description.robot import Robot
+from teo_signs.sign import Sign
+
+Array = NDArray[np.float64]
+
+SEEN_LENGTH = 0.015
+"""[m] The thickness of one of TEO's fingers."""
+SEEN_ANGLE = float(np.radians(15.0))
+"""[rad] A finger's tip moves by a finger's thickness when the hand turns by about this much."""
+
+SEEN_PLACE = 0.028
+"""[m] TEO's mouth and chin are so far apart."""
+
+_MOMENTS = 25
+_FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+_SIDES = ("Right", "Left")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Difference:
+    """How two signs differ.
+
+    Attributes:
+        first: Gloss of one sign.
+        second: Gloss of the other.
+        handshape: Largest distance of a finger tip's places in the palm, mean over the sign [m].
+        orientation: Angle between the palms, mean over the sign [rad].
+        movement: Largest distance of a finger tip's ways, each from its own middle [m].
+        place: Distance between the palms' middle places [m]; 0 of letters, which are spelled at any place.
+    """
+
+    first: str
+    second: str
+    handshape: float
+    orientation: float
+    movement: float
+    place: float
+
+    @property
+    def seen(self) -> float:
+        """The largest of the four, in differences that are just seen: below 1 the signs look alike."""
+        lengths = max(self.handshape, self.movement) / SEEN_LENGTH
+        return max(lengths, self.orientation / SEEN_ANGLE, self.place / SEEN_PLACE)
+
+
+def nearest_pairs(robot: Robot, signs: Iterable[Sign]) -> list[Difference]:
+    """Every pair of signs, the most alike first; two names of one sign are no pair."""
+    seen = [(sign, [_appearance(robot, sign, side) for side in _SIDES]) for sign in signs]
+    found = [
+        _difference(first, second, zip(one, other, strict=True))
+        for (first, one), (second, other) in combinations(seen, 2)
+        if not np.array_equal(first.knots, second.knots)
+    ]
+    return sorted(found, key=lambda difference: difference.seen)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Appearance:
+    """One hand in a sign."""
+
+    local_tips: Array
+    """Finger tips in palm axes [m]. Shape (moments, 5, 3)."""
+    palms: Array
+    """Orientations of the palm. Shape (moments, 3, 3)."""
+    ways: Array
+    """Finger tips from their middle over the sign [m]. Shape (moments, 5, 3)."""
+    place: Array
+    """Middle of the palm's places [m]. Shape (3,)."""
+
+
+def _appearance(robot: Robot, sign: Sign, side: str) -> _Appearance:
+    moments = np.linspace(0.0, sign.duration, _MOMENTS)
+    positions = np.column_stack([np.interp(moments, sign.times, column) for column in sign.knots.T])
+    frames = (f"{side.lower()}_palm", *(f"{side}{finger}FingerTip" for finger in _FINGERS))
+    places = np.array(
+        [
+            robot.placements(robot.configuration(dict(zip(sign.joints, row.tolist(), strict=True))), frames)
+            for row in positions
+        ]
+    )
+    palms, tips = places[:, 0], places[:, 1:, :3, 3]
+    local = np.einsum("tij,tki->tkj", palms[:, :3, :3], tips - palms[:, None, :3, 3])
+    return _Appearance(
+        local_tips=local,
+        palms=palms[:, :3, :3],
+        ways=tips - tips.mean(axis=0),
+        place=palms[:, :3, 3].mean(axis=0),
+    )
+
+
+def _difference(first: Sign, second: Sign, hands: Iterable[tuple[_Appearance, _Appearance]]) -> Difference:
+    shape = turn = movement = place = 0.0
+    for one, other in hands:
+        cosines = (np.einsum("tij,tij->t", one.palms, other.palms) - 1.0) / 2.0
+        tips = np.linalg.norm(one.local_tips - other.local_tips, axis=2).max(axis=1).mean()
+        shape = max(shape, float(tips))
+        turn = max(turn, float(np.arccos(np.clip(cosines, -1.0, 1.0)).mean()))
+        movement = max(movement, float(np.linalg.norm(one.ways - other.ways, axis=2).max()))
+        place = max(place, float(np.linalg.norm(one.place - other.place)))
+    spelled = "letter" in (first.kind, second.kind)
+    return Difference(
+        first=first.gloss,
+        second=second.gloss,
+        handshape=shape,
+        orientation=turn,
+        movement=movement,
+        place=0.0 if spelled else place,
+    )

@@ -1,0 +1,169 @@
+"""The table as a left-handed signer makes it: every sign as its mirror image.
+
+What the right hand does the left one does, and the other way round; head and trunk turn to the other side.
+The limits of TEO's arms are not quite mirror images: the left upper arm turns in 5.4 deg less than the right
+one, its wrist turns out 4 deg less. A posture that lies beyond is replaced by the one within the limits that
+brings the hand nearest to its mirror image, and the sign says how far off that is (`mirror_error_mm`,
+`mirror_error_deg` in its quality): by 14 mm and 8 deg at most in the package's table. What is beyond a limit
+elsewhere stays so, and a planner refuses it by name.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
+from teo_description.robot import Robot
+from teo_signs.sign import Sign
+from teo_signs.sign_file import LIMIT_TOLERANCE
+from teo_signs.sign_schema import Handedness
+
+Array = NDArray[np.float64]
+
+_OTHER_HAND: dict[Handedness, Handedness] = {"right": "left", "left": "right", "both": "both"}
+_ARMS = {"right": RIGHT_ARM, "left": LEFT_ARM}
+
+_PLACE = 8.0
+"""[rad/m] 2 cm of place count as much as 9 deg of the palm: what is lost is shared out between the two."""
+_NEAR = (0.03, 0.3, 1.0, 3.0)
+"""What a radian of way from the posture just within the limits costs: chooses among equals; or more, so that
+the arm stays where it is clear, if it would touch."""
+_CLEAR = 0.005
+"""[m] Distance that parts of the robot keep in a posture: the planner's curves between knots close less."""
+
+
+class MirroredSigns(Mapping[str, Sign]):
+    """A table whose signs are mirrored when they are asked for; what changes there is seen here."""
+
+    def __init__(self, signs: Mapping[str, Sign], robot: Robot) -> None:
+        """Mirror a table.
+
+        Args:
+            signs: The table; signs keep their names.
+            robot: TEO.
+        """
+        self._signs = signs
+        self._robot = robot
+        self._known: dict[str, tuple[Sign, Sign]] = {}
+
+    def __getitem__(self, gloss: str) -> Sign:
+        """The mirror image of a sign, made once.
+
+        Raises:
+            LutError: As of the table.
+            KeyError: As of the table.
+        """
+        sign = self._signs[gloss]
+        known = self._known.get(gloss)
+        if known is None or known[0] is not sign:
+            known = self._known[gloss] = sign, mirrored_sign(self._robot, sign)
+        return known[1]
+
+    def __contains__(self, gloss: object) -> bool:
+        """Whether the table holds a gloss."""
+        return gloss in self._signs
+
+    def __iter__(self) -> Iterator[str]:
+        """Glosses as the table gives them."""
+        return iter(self._signs)
+
+    def __len__(self) -> int:
+        """How many signs there are."""
+        return len(self._signs)
+
+
+def mirrored_joint(name: str) -> str:
+    """The joint on the other side; joints of head and trunk are their own."""
+    if "Left" in name:
+        return name.replace("Left", "Right")
+    return name.replace("Right", "Left")
+
+
+def mirrored_positions(joints: tuple[str, ...], positions: Array) -> Array:
+    """Positions of the mirrored joints in the mirror image of a posture [rad], in the same order.
+
+    Axes across the body (Frontal) turn the same way on both sides, and a hand's axes are flexions; turns
+    about an upright axis or one to the front change sign.
+    """
+    turned: Array = positions * [-1.0 if name.startswith(("Axial", "Sagittal")) else 1.0 for name in joints]
+    return turned
+
+
+def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
+    """The mirror image of a sign, within the limits."""
+    joints = tuple(mirrored_joint(name) for name in sign.joints)
+    knots = mirrored_positions(sign.joints, sign.knots)
+    place = turn = 0.0
+    for side, arm in _ARMS.items():
+        if not set(arm) <= set(joints):
+            continue
+        columns = [joints.index(name) for name in arm]
+        limits = joint_limits(arm)
+        for row in knots:
+            within = np.clip(row[columns], limits.lower, limits.upper)
+            # An entry keeps six decimals: what is beyond by less is on the limit.
+            if np.abs(within - row[columns]).max() > LIMIT_TOLERANCE:
+                wanted = row[columns]
+                for near in _NEAR:
+                    row[columns], found = _nearest(robot, side, wanted, within, near)
+                    if _is_clear(robot, joints, row):
+                        break
+                place, turn = max(place, found[0]), max(turn, found[1])
+    errors = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
+    notes = f"{sign.provenance.notes} Mirrored for a left-handed signer.".strip()
+    return replace(
+        sign,
+        handedness=_OTHER_HAND[sign.handedness],
+        joints=joints,
+        knots=knots,
+        provenance=sign.provenance.model_copy(update={"notes": notes}),
+        quality={**sign.quality, **errors} if turn else sign.quality,
+    )
+
+
+def _is_clear(robot: Robot, joints: tuple[str, ...], row: Array) -> bool:
+    pose = dict(zip(joints, row.tolist(), strict=True))
+    return robot.clearance(robot.configuration(pose)).distance >= _CLEAR
+
+
+def _nearest(
+    robot: Robot, side: str, wanted: Array, start: Array, near: float
+) -> tuple[Array, tuple[float, float]]:
+    """The arm within its limits that brings the hand nearest to where another arm would.
+
+    Args:
+        robot: TEO.
+        side: Which arm.
+        wanted: The arm beyond its limits [rad]. Shape (6,).
+        start: The same within them. Shape (6,).
+        near: What a radian of way from the start costs.
+
+    Returns:
+        The arm, shape (6,), and how far off its palm is [m] and [rad].
+    """
+    limits = joint_limits(_ARMS[side])
+
+    def palm(arm: Array) -> Array:
+        q = robot.configuration(dict(zip(_ARMS[side], arm.tolist(), strict=True)))
+        return robot.placement(q, f"{side}_palm")
+
+    goal = palm(wanted)
+
+    def residuals(arm: Array) -> Array:
+        placed = palm(arm)
+        turned = (placed[:3, :3] - goal[:3, :3]).ravel() / np.sqrt(2.0)
+        return np.concatenate([_PLACE * (placed[:3, 3] - goal[:3, 3]), turned, near * (arm - start)])
+
+    inside = np.clip(start, limits.lower + 1e-6, limits.upper - 1e-6)
+    fit = least_squares(residuals, inside, bounds=(limits.lower, limits.upper))
+    found = np.clip(fit.x, limits.lower, limits.upper)
+    placed = palm(found)
+    cosine = (np.trace(placed[:3, :3].T @ goal[:3, :3]) - 1.0) / 2.0
+    distance = float(np.linalg.norm(placed[:3, 3] - goal[:3, 3]))
+    return found, (distance, math.acos(min(1.0, max(-1.0, cosine))))

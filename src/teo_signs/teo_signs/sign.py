@@ -1,0 +1,73 @@
+"""A sign as the robot makes it."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import description_hash
+from teo_signs.sign_schema import Handedness, Kind, Provenance
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sign:
+    """One sign of the look-up table.
+
+    Attributes:
+        gloss: Name, upper-case Spanish with accents, a space written "_".
+        language: Sign language, "lse".
+        kind: "lexical", "letter" or "number".
+        handedness: Hands that make the sign: "right", "left" or "both".
+        joints: Names of the joints that the sign moves; the others are free.
+        times: Times of the knots [s], from 0, strictly increasing. Shape (n,), read-only.
+        knots: Positions [rad], a column for each of `joints`. Shape (n, len(joints)), read-only.
+        provenance: Where the sign came from.
+        quality: Figures of the capture, by name.
+    """
+
+    gloss: str
+    language: str
+    kind: Kind
+    handedness: Handedness
+    joints: tuple[str, ...]
+    times: NDArray[np.float64]
+    knots: NDArray[np.float64]
+    provenance: Provenance
+    quality: Mapping[str, float]
+
+    @property
+    def duration(self) -> float:
+        """Time from the first knot to the last [s]; 0 for a held pose."""
+        return float(self.times[-1])
+
+    def pose(self, knot: int) -> dict[str, float]:
+        """Positions of one knot [rad], by joint name; -1 is the last knot."""
+        return dict(zip(self.joints, self.knots[knot].tolist(), strict=True))
+
+
+def gloss_key(gloss: str) -> str:
+    """The name under which a gloss is kept: composed Unicode, spaces written "_"."""
+    return unicodedata.normalize("NFC", gloss).replace(" ", "_")
+
+
+def sign_warnings(sign: Sign) -> tuple[str, ...]:
+    """What is odd about a sign that can be used all the same; a sentence each."""
+    warnings = []
+    made_for, in_use = sign.provenance.description_hash, description_hash()
+    if made_for != in_use:
+        warnings.append(
+            f"{sign.gloss}: provenance.description_hash: expected {in_use[:12]}… (the robot in use), "
+            f"got {made_for[:12]}…; made for another description of the robot, look at it again"
+        )
+    sides = {side for side in ("Left", "Right") if any(side in joint for joint in sign.joints)}
+    expected = {"right": {"Right"}, "left": {"Left"}, "both": {"Left", "Right"}}[sign.handedness]
+    if sides != expected:
+        warnings.append(
+            f"{sign.gloss}: handedness: expected joints of {', '.join(sorted(expected))} for "
+            f"{sign.handedness!r}, got {', '.join(sorted(sides)) or 'none of an arm or hand'}"
+        )
+    return tuple(warnings)

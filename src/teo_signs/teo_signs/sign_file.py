@@ -1,0 +1,288 @@
+"""The file of a sign: read with every check, written whole or not at all."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import tempfile
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_signs.errors import LutError
+from teo_signs.sign import Sign, gloss_key
+from teo_signs.sign_schema import SCHEMA_VERSION, Provenance, SignFile
+
+# 28 joints at 25 frames a second for a minute are 0.8 MB of text; no sign is longer than that.
+MAX_FILE_BYTES = 1_000_000
+
+# Entries keep 1e-6 rad; the encoders resolve 1e-5 rad.
+_DECIMALS = 6
+# A knot on a limit that another program rounded may be beyond it by half a digit.
+LIMIT_TOLERANCE = 1e-6  # [rad]
+
+
+def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
+    """Read and check one entry.
+
+    Args:
+        text: Content of the file.
+        file: Its name: the stem must be the gloss, and every message begins with it.
+
+    Returns:
+        The sign, with read-only arrays.
+
+    Raises:
+        LutError: The entry is not a good one; the message names file, field, expected and got.
+    """
+    content = _Reader(Path(file)).read(text)
+    times = np.array(content.times, dtype=np.float64)
+    knots = np.array(content.knots, dtype=np.float64)
+    times.setflags(write=False)
+    knots.setflags(write=False)
+    return Sign(
+        gloss=content.gloss,
+        language=content.language,
+        kind=content.kind,
+        handedness=content.handedness,
+        joints=tuple(content.joints),
+        times=times,
+        knots=knots,
+        provenance=content.provenance,
+        quality=MappingProxyType(dict(content.quality)),
+    )
+
+
+def read_sign(path: Path) -> Sign:
+    """Read and check one entry from its file.
+
+    Raises:
+        LutError: The file cannot be read or is not a good entry.
+    """
+    try:
+        with path.open("rb") as file:
+            # One byte more than allowed tells a file that is too large without reading it all.
+            return parse_sign(file.read(MAX_FILE_BYTES + 1), file=path)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise LutError("unreadable", f"{path.name}: expected a file to read, got: {reason}") from error
+
+
+def format_sign(sign: Sign) -> str:
+    """The text of a sign's file: fields in the order of the schema, a line for each knot."""
+    head: dict[str, Any] = {
+        "schema": SCHEMA_VERSION,
+        "gloss": sign.gloss,
+        "language": sign.language,
+        "kind": sign.kind,
+        "handedness": sign.handedness,
+        "joints": list(sign.joints),
+        "times": np.round(sign.times, _DECIMALS).tolist(),
+    }
+    lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
+    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign).tolist()]))
+    for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
+        lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def save_sign(directory: Path, sign: Sign, *, replace: bool = False) -> Path:
+    """Write a sign into a table, whole or not at all; what would not be read back is not written.
+
+    Args:
+        directory: Directory of the table; made if it is not there.
+        sign: The sign.
+        replace: Whether an entry of that name may be replaced.
+
+    Returns:
+        The file written.
+
+    Raises:
+        LutError: The sign is not a good one ("outside_limits", ...), or is there already ("exists").
+        OSError: The directory cannot be written.
+    """
+    path = directory / f"{gloss_key(sign.gloss)}.json"
+    try:
+        text = format_sign(sign)
+    except ValueError as error:  # NaN and infinity have no JSON
+        raise LutError("non_finite", f"{path.name}: expected finite numbers, got: {error}") from error
+    parse_sign(text, file=path)
+    if not replace and path.exists():
+        message = f"{path.name}: expected a gloss that {directory} does not hold, got {sign.gloss!r}"
+        raise LutError("exists", message)
+    directory.mkdir(parents=True, exist_ok=True)
+    # Begins with a dot and has another ending, so that a table opened meanwhile does not list it.
+    descriptor, temporary = tempfile.mkstemp(dir=directory, prefix=".", suffix=".tmp")
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(temporary).chmod(0o644)  # mkstemp makes files that only their owner may read
+        Path(temporary).replace(path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+    return path
+
+
+class _Reader:
+    """Reads one file; every check that fails names it."""
+
+    def __init__(self, file: Path) -> None:
+        self._name = file.name
+        self._stem = gloss_key(file.stem)
+
+    def read(self, text: str | bytes) -> SignFile:
+        content = self._check_fields(self._load_json(text))
+        if content.gloss != self._stem:
+            self._refuse("gloss_mismatch", "gloss", f"{self._stem!r}, the file's name", repr(content.gloss))
+        self._check_joints(content.joints)
+        self._check_times(content.times)
+        self._check_knots(content)
+        return content
+
+    def _refuse(self, code: str, field: str, expected: str, got: str) -> NoReturn:
+        place = f"{self._name}: {field}" if field else self._name
+        raise LutError(code, f"{place}: expected {expected}, got {got}")
+
+    def _load_json(self, text: str | bytes) -> dict[str, Any]:
+        if len(text) > MAX_FILE_BYTES:
+            self._refuse("too_large", "", f"at most {MAX_FILE_BYTES} bytes", "more")
+        if not text.strip():
+            self._refuse("empty_file", "", "a JSON object", "nothing")
+        try:
+            if isinstance(text, bytes):
+                text = text.decode("utf-8")
+            content = json.loads(text, object_pairs_hook=self._fields, parse_constant=self._constant)
+        except UnicodeDecodeError as error:
+            byte = error.object[error.start]
+            self._refuse("not_utf8", "", "UTF-8 text", f"byte 0x{byte:02x} at offset {error.start}")
+        except json.JSONDecodeError as error:
+            self._refuse("not_json", "", "JSON", f"line {error.lineno}, column {error.colno}: {error.msg}")
+        except (RecursionError, ValueError) as error:  # nested without end, a number of thousands of digits
+            self._refuse("not_json", "", "JSON of a sign", str(error))
+        if not isinstance(content, dict):
+            self._refuse("not_an_object", "", "a JSON object", _short(content))
+        return content
+
+    def _fields(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for key, value in pairs:
+            if key in found:
+                self._refuse("duplicate_field", key, "each field once", "it twice")
+            found[key] = value
+        return found
+
+    def _constant(self, word: str) -> NoReturn:
+        self._refuse("non_finite", "", "finite numbers", word)
+
+    def _check_fields(self, content: dict[str, Any]) -> SignFile:
+        version = content.get("schema", SCHEMA_VERSION)
+        if type(version) is not int or version != SCHEMA_VERSION:
+            self._refuse("unsupported_schema", "schema", f"{SCHEMA_VERSION}", _short(version))
+        try:
+            checked = SignFile.model_validate(content)
+        except ValidationError as errors:
+            self._refuse_field(errors.errors(include_url=False)[0])
+        return checked
+
+    def _refuse_field(self, error: ErrorDetails) -> NoReturn:
+        loc, kind, got = error["loc"], error["type"], _short(error["input"])
+        field = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)[1:]
+        # "Input should be a valid string", "Value error, upper case": keep what is expected.
+        expected = error["msg"].removeprefix("Input should be ").removeprefix("Value error, ")
+        if kind == "missing":
+            self._refuse("missing_field", field, "the field", "no such field")
+        elif kind == "extra_forbidden":
+            model = Provenance if loc[0] == "provenance" else SignFile
+            names = [info.alias or name for name, info in model.model_fields.items()]
+            self._refuse("unknown_field", field, f"one of {', '.join(names)}", f"{loc[-1]!r}")
+        elif kind == "finite_number":
+            self._refuse("non_finite", field, "a finite number", got)
+        elif kind.endswith(("_type", "_parsing", "_unicode")):
+            self._refuse("bad_type", field, expected, got)
+        self._refuse("bad_value", field, expected, got)
+
+    def _check_joints(self, joints: list[str]) -> None:
+        seen: set[str] = set()
+        for index, joint in enumerate(joints):
+            if joint not in _limits():
+                names = ", ".join(_limits())
+                self._refuse("unknown_joint", f"joints[{index}]", f"one of {names}", repr(joint))
+            if joint in seen:
+                self._refuse("duplicate_joint", f"joints[{index}]", "each joint once", f"{joint!r} again")
+            seen.add(joint)
+
+    def _check_times(self, times: list[float]) -> None:
+        if times[0] != 0.0:
+            self._refuse("bad_start", "times[0]", "0 s", f"{times[0]:g} s")
+        for index in range(1, len(times)):
+            if times[index] <= times[index - 1]:
+                expected = f"more than {times[index - 1]:g} s, the time before"
+                self._refuse("times_not_increasing", f"times[{index}]", expected, f"{times[index]:g} s")
+
+    def _check_knots(self, content: SignFile) -> None:
+        rows, columns = len(content.times), len(content.joints)
+        if len(content.knots) != rows:
+            self._refuse("wrong_length", "knots", f"{rows} rows, one a time", f"{len(content.knots)}")
+        for index, row in enumerate(content.knots):
+            if len(row) != columns:
+                expected = f"{columns} positions, one a joint"
+                self._refuse("wrong_length", f"knots[{index}]", expected, f"{len(row)}")
+        knots = np.array(content.knots, dtype=np.float64)
+        lower, upper = _bounds(content.joints)
+        outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
+        if outside.size:
+            row_index, column = outside[0].tolist()
+            expected = f"{content.joints[column]} within {lower[column]:.6f} .. {upper[column]:.6f} rad"
+            got = f"{knots[row_index, column]:.6f} rad"
+            self._refuse("outside_limits", f"knots[{row_index}][{column}]", expected, got)
+
+
+@functools.cache
+def _limits() -> dict[str, tuple[float, float]]:
+    limits = joint_limits(COMMANDED_JOINTS)
+    bounds = zip(limits.lower.tolist(), limits.upper.tolist(), strict=True)
+    return dict(zip(limits.names, bounds, strict=True))
+
+
+def _bounds(joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    lower, upper = np.array([_limits()[joint] for joint in joints]).T
+    return lower, upper
+
+
+def _rounded_within(sign: Sign) -> NDArray[np.float64]:
+    """Knots rounded for the file, inwards where the nearest digit lies beyond a limit that the knot keeps."""
+    rounded: NDArray[np.float64] = np.round(sign.knots, _DECIMALS)
+    if not set(sign.joints) <= set(_limits()) or rounded.ndim != 2 or not np.isfinite(rounded).all():
+        return rounded  # refused by name when it is read
+    lower, upper = _bounds(list(sign.joints))
+    step = 10.0**-_DECIMALS
+    rounded = np.where(
+        (rounded > upper) & (sign.knots <= upper), np.round(rounded - step, _DECIMALS), rounded
+    )
+    return np.where((rounded < lower) & (sign.knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
+def _block(key: str, brackets: str, lines: list[str]) -> str:
+    if not lines:
+        return f'  "{key}": {brackets}'
+    inside = ",\n".join(f"    {line}" for line in lines)
+    return f'  "{key}": {brackets[0]}\n{inside}\n  {brackets[1]}'
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

@@ -1,0 +1,141 @@
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+import pytest
+
+from teo_signs.errors import LutError, PlanError
+from teo_signs.lexicon import Lexicon, without_accents
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign
+from teo_signs.tokens import Kind, Token
+
+MakeSign = Callable[..., Sign]
+
+
+def resolved(table: Mapping[str, Sign], *tokens: Token) -> list[tuple[str, str]]:
+    signs = Lexicon(table).resolve(tokens)
+    return [(item.token.gloss, "pause" if item.sign is None else item.sign.gloss) for item in signs]
+
+
+def lexical(gloss: str) -> Token:
+    return Token(gloss=gloss)
+
+
+def test_a_sign_of_the_table_is_taken(table: Mapping[str, Sign]) -> None:
+    assert resolved(table, lexical("TÚ"), Token(gloss="7", kind=Kind.NUMBER)) == [("TÚ", "TÚ"), ("7", "7")]
+
+
+def test_a_missing_gloss_is_spelled_by_the_longest_letters(table: Mapping[str, Sign]) -> None:
+    assert resolved(table, lexical("CALLÁ")) == [(name, name) for name in ("C", "A", "LL", "A")]
+
+
+def test_letters_of_a_missing_gloss_keep_what_the_token_said(table: Mapping[str, Sign]) -> None:
+    token = Token(gloss="LANA", confidence=0.5, duration_scale=2.0, word_index=3, source_words=("Lana",))
+    for item in Lexicon(table).resolve([token]):
+        kept = item.token
+        assert (kept.kind, kept.confidence, kept.duration_scale) == (Kind.LETTER, 0.5, 2.0)
+        assert (kept.word_index, kept.source_words) == (3, ("Lana",))
+
+
+def test_the_tilde_of_ene_is_no_accent(table: Mapping[str, Sign]) -> None:
+    assert without_accents("ÑÁÜÇñ") == "ÑAUCñ"
+    assert resolved(table, lexical("CAÑA"))[2] == ("Ñ", "Ñ")
+
+
+def test_a_blank_in_a_missing_gloss_is_a_pause_and_digits_are_numbers(table: Mapping[str, Sign]) -> None:
+    assert resolved(table, lexical("LA 17")) == [
+        ("L", "L"),
+        ("A", "A"),
+        ("", "pause"),
+        ("1", "1"),
+        ("7", "7"),
+    ]
+
+
+def test_a_long_number_is_signed_digit_by_digit(table: Mapping[str, Sign]) -> None:
+    assert resolved(table, Token(gloss="171", kind=Kind.NUMBER)) == [("1", "1"), ("7", "7"), ("1", "1")]
+
+
+def digits(text: str, *, word: int = 0) -> list[Token]:
+    """A number as the translator sends it: a token for each digit, of one word."""
+    return [Token(gloss=digit, kind=Kind.NUMBER, word_index=word) for digit in text]
+
+
+def test_a_number_with_a_sign_of_its_own_is_made_with_it(
+    table: Mapping[str, Sign], make_sign: MakeSign
+) -> None:
+    eleven = make_sign("11", table["1"].knots, kind="number")
+    signs = {**table, "11": eleven}
+    assert resolved(signs, Token(gloss="11", kind=Kind.NUMBER)) == [("11", "11")]
+    assert resolved(signs, *digits("11")) == [("11", "11")]
+    # One word is one number: no part of a longer one, and no two words.
+    assert resolved(signs, *digits("711")) == [("7", "7"), ("1", "1"), ("1", "1")]
+    assert resolved(signs, Token(gloss="711", kind=Kind.NUMBER)) == [("7", "7"), ("1", "1"), ("1", "1")]
+    assert resolved(signs, *digits("1"), *digits("1", word=1)) == [("1", "1"), ("1", "1")]
+
+
+def test_a_number_of_too_low_a_standing_is_signed_in_digits_which_are_always_used(
+    table: Mapping[str, Sign], make_sign: MakeSign
+) -> None:
+    def sketched(sign: Sign) -> Sign:
+        return replace(sign, provenance=sign.provenance.model_copy(update={"standing": "sketched"}))
+
+    signs = {
+        **table,
+        "1": sketched(table["1"]),
+        "11": sketched(make_sign("11", table["1"].knots, kind="number")),
+    }
+    assert resolved(signs, *digits("11")) == [("1", "1"), ("1", "1")]
+    (whole,) = Lexicon(signs, least_standing="sketched").resolve(digits("11"))
+    assert whole.token.gloss == "11"
+
+
+def test_the_package_signs_11_to_14_as_one_and_other_numbers_in_digits() -> None:
+    lut = Lut.open()
+    for number in ("11", "12", "13", "14"):
+        assert resolved(lut, *digits(number)) == [(number, number)]
+    for number in ("15", "20", "21", "85", "100", "1112", "1999"):
+        assert resolved(lut, *digits(number)) == [(digit, digit) for digit in number]
+
+
+def test_a_letter_is_not_taken_for_a_sign_of_the_same_name(table: Mapping[str, Sign]) -> None:
+    (item,) = Lexicon(table).resolve([lexical("A")])
+    assert item.token.kind == Kind.LETTER
+
+
+def test_an_accented_letter_is_signed_without(table: Mapping[str, Sign]) -> None:
+    assert resolved(table, Token(gloss="Á", kind=Kind.LETTER)) == [("Á", "A")]
+
+
+@pytest.mark.parametrize(
+    ("token", "named"),
+    [
+        (lexical("CASAS"), "'S'"),
+        (lexical("L'A"), '"\'"'),
+        (Token(gloss="W", kind=Kind.LETTER), "'W'"),
+        (Token(gloss="9", kind=Kind.NUMBER), "'9'"),
+        (Token(gloss="A", kind=Kind.NUMBER), "'A'"),
+        (Token(gloss="TÚ", kind=Kind.LETTER), "'TÚ'"),
+        (lexical("你好"), "'你'"),
+    ],
+)
+def test_what_the_table_cannot_sign_is_refused_by_name(
+    table: Mapping[str, Sign], token: Token, named: str
+) -> None:
+    with pytest.raises(PlanError) as refusal:
+        Lexicon(table).resolve([lexical("TÚ"), token])
+    assert refusal.value.code == "unknown_sign"
+    assert named in str(refusal.value)
+    assert repr(token.gloss) in str(refusal.value)
+
+
+def test_a_broken_entry_is_refused_with_its_reason(table: Mapping[str, Sign]) -> None:
+    class Broken(dict[str, Sign]):
+        def __getitem__(self, gloss: str) -> Sign:
+            raise LutError("not_json", f"{gloss}.json: expected JSON")
+
+    with pytest.raises(PlanError, match=r"TÚ\.json") as refusal:
+        Lexicon(Broken(table)).resolve([lexical("TÚ")])
+    assert refusal.value.code == "invalid_sign"

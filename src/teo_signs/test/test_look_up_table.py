@@ -1,0 +1,159 @@
+"""The table: lists at once, reads when asked, keeps what it read."""
+
+from __future__ import annotations
+
+import unicodedata
+from pathlib import Path
+
+import pytest
+
+from teo_signs.look_up_table import Lut, LutError, default_lut_directory
+from teo_signs.sign import sign_warnings
+from teo_signs.sign_file import format_sign
+
+TABLE = default_lut_directory()
+LETTERS = [
+    "A",
+    "B",
+    "C",
+    "CH",
+    "D",
+    "E",
+    "F",
+    "G",
+    "H",
+    "I",
+    "J",
+    "K",
+    "L",
+    "LL",
+    "M",
+    "N",
+    "Ñ",
+    "O",
+    "P",
+    "Q",
+    "R",
+    "RR",
+    "S",
+    "T",
+    "U",
+    "V",
+    "W",
+    "X",
+    "Y",
+    "Z",
+]
+
+
+def copy_of(gloss: str, directory: Path, name: str) -> None:
+    text = (TABLE / f"{gloss}.json").read_text(encoding="utf-8")
+    (directory / f"{name}.json").write_text(
+        text.replace(f'"gloss": "{gloss}"', f'"gloss": "{name}"'), "utf-8"
+    )
+
+
+def test_ten_thousand_entries_open(tmp_path: Path) -> None:
+    for number in range(10_000):
+        (tmp_path / f"SEÑA{number}.json").touch()
+    lut = Lut.open(tmp_path)
+    glosses = lut.glosses()
+    assert len(glosses) == len(lut) == 10_000
+    assert list(glosses) == sorted(glosses)
+
+
+def test_an_entry_is_read_when_it_is_first_asked_for_and_then_kept(tmp_path: Path) -> None:
+    copy_of("A", tmp_path, "A")
+    (tmp_path / "ROTO.json").write_text("{")
+    lut = Lut.open(tmp_path)
+    assert "ROTO" in lut
+    first = lut["A"]
+    (tmp_path / "A.json").unlink()
+    assert lut["A"] is first
+    with pytest.raises(LutError) as caught:
+        lut["ROTO"]
+    assert caught.value.code == "not_json"
+
+
+def test_a_changed_table_is_seen_after_reload(tmp_path: Path) -> None:
+    copy_of("A", tmp_path, "A")
+    lut = Lut.open(tmp_path)
+    copy_of("A", tmp_path, "B")
+    assert lut.glosses() == ("A",)
+    lut.reload()
+    assert lut.glosses() == ("A", "B")
+
+
+def test_an_unknown_gloss_is_refused_by_name(tmp_path: Path) -> None:
+    lut = Lut.open(tmp_path)
+    assert lut.glosses() == ()
+    with pytest.raises(LutError, match="got 'NADA'") as caught:
+        lut["NADA"]
+    assert caught.value.code == "unknown_sign"
+    assert "NADA" not in lut
+    assert 7 not in lut
+
+
+def test_accents_are_found_in_either_unicode_form_and_spaces_as_underscores(tmp_path: Path) -> None:
+    (tmp_path / unicodedata.normalize("NFD", "ADIÓS.json")).touch()
+    (tmp_path / "POR_FAVOR.json").touch()
+    lut = Lut.open(tmp_path)
+    assert lut.glosses() == ("ADIÓS", "POR_FAVOR")
+    assert unicodedata.normalize("NFD", "ADIÓS") in lut
+    assert "POR FAVOR" in lut
+
+
+def test_two_files_of_one_gloss_are_refused(tmp_path: Path) -> None:
+    (tmp_path / unicodedata.normalize("NFD", "Ñ.json")).touch()
+    (tmp_path / unicodedata.normalize("NFC", "Ñ.json")).touch()
+    if len(list(tmp_path.iterdir())) < 2:
+        pytest.skip("this file system takes both Unicode forms of a name for one")
+    with pytest.raises(LutError) as caught:
+        Lut.open(tmp_path)
+    assert caught.value.code == "duplicate_gloss"
+
+
+def test_other_files_are_not_signs(tmp_path: Path) -> None:
+    for name in (".A.json", "notes.txt", ".tmp123.tmp"):
+        (tmp_path / name).touch()
+    assert Lut.open(tmp_path).glosses() == ()
+
+
+def test_a_missing_directory_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(LutError) as caught:
+        Lut.open(tmp_path / "nowhere")
+    assert caught.value.code == "no_directory"
+
+
+def test_the_package_finds_its_own_table() -> None:
+    assert set(LETTERS) <= set(Lut.open(default_lut_directory()).glosses())
+
+
+def test_the_table_holds_alphabet_digits_demonstrated_signs_and_every_score_without_a_warning() -> None:
+    lut = Lut.open(TABLE)
+    assert {gloss for gloss in lut if lut[gloss].kind == "letter"} == set(LETTERS)
+    assert {gloss for gloss in lut if lut[gloss].kind == "number"} == {
+        *map(str, range(21)),
+        *map(str, range(30, 101, 10)),
+    }
+    scores = {path.stem for path in (TABLE.parent.parent / "scores" / "lse").glob("*.yaml")}
+    assert {gloss for gloss in lut if lut[gloss].kind == "lexical"} == {"HOLA", "MI", "NOMBRE"} | scores
+    assert [warning for gloss in lut for warning in sign_warnings(lut[gloss])] == []
+
+
+def test_entries_are_kept_in_the_form_in_which_they_would_be_written() -> None:
+    lut = Lut.open(TABLE)
+    for gloss in lut:
+        assert lut.path(gloss).read_text(encoding="utf-8") == format_sign(lut[gloss])
+
+
+def test_an_entry_for_another_robot_or_hand_is_warned_of(tmp_path: Path) -> None:
+    text = (TABLE / "A.json").read_text(encoding="utf-8")
+    made_for = Lut.open(TABLE)["A"].provenance.description_hash
+    (tmp_path / "A.json").write_text(
+        text.replace(made_for, "0" * 64).replace('"handedness": "right"', '"handedness": "both"'), "utf-8"
+    )
+    warnings = sign_warnings(Lut.open(tmp_path)["A"])
+    assert len(warnings) == 2
+    assert "provenance.description_hash" in warnings[0]
+    assert "handedness" in warnings[1]

@@ -1,0 +1,263 @@
+"""An entry's file: what is written is read back, and whatever is wrong is refused with its reason."""
+
+from __future__ import annotations
+
+import json
+import unicodedata
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from teo_description import COMMANDED_JOINTS, description_hash, joint_limits
+from teo_signs.errors import LutError
+from teo_signs.sign import Sign
+from teo_signs.sign_file import MAX_FILE_BYTES, format_sign, parse_sign, read_sign, save_sign
+from teo_signs.sign_schema import Provenance, sign_json_schema
+
+PACKAGE = Path(__file__).resolve().parent.parent
+
+
+def entry() -> dict[str, Any]:
+    return {
+        "schema": 1,
+        "gloss": "TÚ",
+        "language": "lse",
+        "kind": "lexical",
+        "handedness": "right",
+        "joints": ["FrontalRightElbow", "RightIndexFinger"],
+        "times": [0.0, 0.5],
+        "knots": [[-0.5, 0.2], [-1.0, 0.2]],
+        "provenance": {
+            "standing": "recorded",
+            "source": "made up",
+            "method": "by hand",
+            "recorded": None,
+            "created": "2025-01-01",
+            "licence": "Apache-2.0",
+            "description_hash": description_hash(),
+            "notes": "",
+        },
+        "quality": {"error_mm": 3.5},
+    }
+
+
+def refusal(content: object, file: str = "TÚ.json") -> LutError:
+    text = content if isinstance(content, str | bytes) else json.dumps(content)
+    with pytest.raises(LutError) as caught:
+        parse_sign(text, file=file)
+    return caught.value
+
+
+def changed(change: Callable[[dict[str, Any]], object]) -> dict[str, Any]:
+    content = entry()
+    change(content)
+    return content
+
+
+def test_a_good_entry_is_read_as_it_says() -> None:
+    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    assert (sign.gloss, sign.kind, sign.handedness) == ("TÚ", "lexical", "right")
+    assert sign.joints == ("FrontalRightElbow", "RightIndexFinger")
+    np.testing.assert_array_equal(sign.knots, [[-0.5, 0.2], [-1.0, 0.2]])
+    assert sign.duration == 0.5
+    assert sign.provenance.licence == "Apache-2.0"
+    assert sign.quality == {"error_mm": 3.5}
+
+
+def test_arrays_of_a_sign_cannot_be_changed() -> None:
+    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    with pytest.raises(ValueError, match="read-only"):
+        sign.knots[0, 0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        sign.times[0] = 1.0
+
+
+def test_a_single_knot_is_a_sign() -> None:
+    content = changed(lambda c: c.update(times=[0], knots=[[-0.5, 0.2]]))
+    assert parse_sign(json.dumps(content), file="TÚ.json").duration == 0.0
+
+
+WRONG = [
+    ("not_json", "", lambda c: json.dumps(c)[:150]),
+    ("not_json", "", lambda _: "[" * 100_000),
+    ("not_json", "", lambda c: json.dumps(c).replace("0.5", "9" * 5000, 1)),
+    ("not_utf8", "", lambda _: b'{"gloss": "T\xda"}'),
+    ("empty_file", "", lambda _: ""),
+    ("empty_file", "", lambda _: " \n\t"),
+    ("too_large", "", lambda _: " " * (MAX_FILE_BYTES + 1)),
+    ("not_an_object", "", lambda _: "[1, 2]"),
+    ("non_finite", "", lambda c: json.dumps(c).replace("-0.5", "NaN", 1)),
+    ("non_finite", "", lambda c: json.dumps(c).replace("-0.5", "-Infinity", 1)),
+    ("non_finite", "knots[0][0]", lambda c: json.dumps(c).replace("-0.5", "1e999", 1)),
+    ("duplicate_field", "gloss", lambda c: json.dumps(c).replace('"gloss"', '"gloss": "A", "gloss"', 1)),
+    ("missing_field", "knots", lambda c: c.__delitem__("knots")),
+    ("missing_field", "provenance.licence", lambda c: c["provenance"].__delitem__("licence")),
+    ("unknown_field", "speed", lambda c: c.update(speed=2)),
+    ("unknown_field", "provenance.author", lambda c: c["provenance"].update(author="x")),
+    ("unsupported_schema", "schema", lambda c: c.update(schema=2)),
+    ("unsupported_schema", "schema", lambda c: c.update(schema="1")),
+    ("unsupported_schema", "schema", lambda c: c.update(schema=True)),
+    ("missing_field", "schema", lambda c: c.__delitem__("schema")),
+    ("gloss_mismatch", "gloss", lambda c: c.update(gloss="TU")),
+    ("bad_value", "gloss", lambda c: c.update(gloss="tú")),
+    ("bad_value", "gloss", lambda c: c.update(gloss=unicodedata.normalize("NFD", "TÚ"))),
+    ("bad_value", "gloss", lambda c: c.update(gloss="")),
+    ("bad_value", "gloss", lambda c: c.update(gloss="../TÚ")),
+    ("bad_value", "gloss", lambda c: c.update(gloss="A" * 61)),
+    ("bad_value", "language", lambda c: c.update(language="Spanish")),
+    ("bad_value", "kind", lambda c: c.update(kind="word")),
+    ("bad_value", "handedness", lambda c: c.update(handedness="none")),
+    ("bad_value", "joints", lambda c: c.update(joints=[])),
+    ("bad_type", "joints", lambda c: c.update(joints="FrontalRightElbow")),
+    ("unknown_joint", "joints[1]", lambda c: c.update(joints=["FrontalRightElbow", "RightElbow"])),
+    ("unknown_joint", "joints[1]", lambda c: c.update(joints=["FrontalRightElbow", "FrontalRightKnee"])),
+    ("duplicate_joint", "joints[1]", lambda c: c.update(joints=["FrontalRightElbow", "FrontalRightElbow"])),
+    ("bad_value", "times", lambda c: c.update(times=[])),
+    ("bad_start", "times[0]", lambda c: c.update(times=[0.1, 0.5])),
+    ("bad_start", "times[0]", lambda c: c.update(times=[-0.1, 0.5])),
+    ("times_not_increasing", "times[1]", lambda c: c.update(times=[0.0, 0.0])),
+    ("bad_type", "times[1]", lambda c: c.update(times=[0.0, "0.5"])),
+    ("bad_type", "times[1]", lambda c: c.update(times=[0.0, True])),
+    ("bad_type", "times[1]", lambda c: c.update(times=[0.0, None])),
+    ("bad_value", "knots", lambda c: c.update(knots=[])),
+    ("wrong_length", "knots", lambda c: c.update(knots=[[-0.5, 0.2]])),
+    ("wrong_length", "knots[1]", lambda c: c.update(knots=[[-0.5, 0.2], [-1.0]])),
+    ("wrong_length", "knots[1]", lambda c: c.update(knots=[[-0.5, 0.2], [-1.0, 0.2, 0.0]])),
+    ("outside_limits", "knots[1][0]", lambda c: c.update(knots=[[-0.5, 0.2], [-2.0, 0.2]])),
+    ("outside_limits", "knots[0][1]", lambda c: c.update(knots=[[-0.5, 0.0], [-1.0, 0.2]])),
+    ("bad_value", "provenance.created", lambda c: c["provenance"].update(created="2025-02-30")),
+    ("bad_value", "provenance.recorded", lambda c: c["provenance"].update(recorded="yesterday")),
+    ("bad_value", "provenance.description_hash", lambda c: c["provenance"].update(description_hash="abc")),
+    ("bad_value", "provenance.source", lambda c: c["provenance"].update(source="")),
+    ("bad_type", "quality.error_mm", lambda c: c["quality"].update(error_mm="small")),
+]
+
+
+@pytest.mark.parametrize(("code", "field", "spoil"), WRONG)
+def test_a_spoiled_entry_is_refused_with_file_field_and_reason(
+    code: str, field: str, spoil: Callable[[dict[str, Any]], object]
+) -> None:
+    content = entry()
+    spoiled = spoil(content)
+    error = refusal(spoiled if isinstance(spoiled, str | bytes) else content)
+    assert error.code == code
+    assert str(error).startswith(f"TÚ.json: {field}: expected " if field else "TÚ.json: expected ")
+    assert ", got " in str(error)
+    assert len(str(error)) < 1000
+
+
+def test_every_joint_name_appears_where_one_is_not_known() -> None:
+    message = str(refusal(changed(lambda c: c.update(joints=["FrontalRightElbow", "x"]))))
+    assert all(joint in message for joint in COMMANDED_JOINTS)
+
+
+def test_a_knot_may_be_on_its_limit() -> None:
+    lower = float(joint_limits(("FrontalRightElbow",)).lower[0])
+    content = changed(lambda c: c.update(knots=[[lower, 0.2], [round(lower, 6), 0.2]]))
+    parse_sign(json.dumps(content), file="TÚ.json")
+
+
+def test_a_file_name_in_decomposed_unicode_is_the_same_name() -> None:
+    parse_sign(json.dumps(entry()), file=unicodedata.normalize("NFD", "TÚ.json"))
+
+
+def test_a_file_that_cannot_be_read_says_so(tmp_path: Path) -> None:
+    with pytest.raises(LutError) as caught:
+        read_sign(tmp_path / "NADA.json")
+    assert caught.value.code == "unreadable"
+    (tmp_path / "X.json").mkdir()
+    with pytest.raises(LutError) as caught:
+        read_sign(tmp_path / "X.json")
+    assert caught.value.code == "unreadable"
+
+
+def made(knots: np.ndarray, times: np.ndarray, joints: tuple[str, ...], gloss: str = "TÚ") -> Sign:
+    return Sign(
+        gloss=gloss,
+        language="lse",
+        kind="letter",
+        handedness="right",
+        joints=joints,
+        times=times,
+        knots=knots,
+        provenance=Provenance(**entry()["provenance"]),
+        quality={"palm_angle_error_deg": 1.5},
+    )
+
+
+@given(data=st.data())
+def test_what_is_written_is_read_back_to_a_microradian(data: st.DataObject) -> None:
+    joints = tuple(data.draw(st.lists(st.sampled_from(COMMANDED_JOINTS), min_size=1, unique=True)))
+    limits = joint_limits(joints)
+    count = data.draw(st.integers(1, 5))
+    share = np.array(
+        data.draw(st.lists(st.floats(0, 1), min_size=count * len(joints), max_size=count * len(joints)))
+    )
+    ratio = share.reshape(count, len(joints))
+    knots = np.clip(limits.lower + ratio * (limits.upper - limits.lower), limits.lower, limits.upper)
+    steps = data.draw(st.lists(st.floats(0.001, 5.0), min_size=count - 1, max_size=count - 1))
+    times = np.concatenate([[0.0], np.cumsum(steps)])
+    sign = made(knots, times, joints)
+    again = parse_sign(format_sign(sign), file="TÚ.json")
+    assert again.joints == joints
+    np.testing.assert_allclose(again.knots, knots, atol=1.1e-6)
+    assert ((again.knots >= limits.lower) & (again.knots <= limits.upper)).all()
+    np.testing.assert_allclose(again.times, times, atol=5.1e-7)
+    assert again.provenance == sign.provenance
+    assert format_sign(again) == format_sign(sign)
+
+
+def test_a_saved_sign_is_in_the_table_whole_and_alone(tmp_path: Path) -> None:
+    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    path = save_sign(tmp_path / "new", sign)
+    assert path == tmp_path / "new" / "TÚ.json"
+    assert [file.name for file in path.parent.iterdir()] == ["TÚ.json"]
+    assert read_sign(path).pose(1) == {"FrontalRightElbow": -1.0, "RightIndexFinger": 0.2}
+
+
+def test_an_entry_is_not_replaced_unless_told(tmp_path: Path) -> None:
+    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    save_sign(tmp_path, sign)
+    with pytest.raises(LutError) as caught:
+        save_sign(tmp_path, sign)
+    assert caught.value.code == "exists"
+    save_sign(tmp_path, sign, replace=True)
+
+
+@pytest.mark.parametrize(
+    ("code", "knots", "gloss"),
+    [("outside_limits", [[9.0]], "TÚ"), ("non_finite", [[np.nan]], "TÚ"), ("bad_value", [[0.0]], "a/b")],
+)
+def test_what_could_not_be_read_back_is_not_written(
+    tmp_path: Path, code: str, knots: list[list[float]], gloss: str
+) -> None:
+    sign = made(np.array(knots), np.zeros(1), ("FrontalRightElbow",), gloss)
+    with pytest.raises(LutError) as caught:
+        save_sign(tmp_path, sign)
+    assert caught.value.code == code
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_failed_write_leaves_the_old_entry(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    path = save_sign(tmp_path, sign)
+    before = path.read_bytes()
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        save_sign(tmp_path, sign, replace=True)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_published_schema_is_the_one_in_use() -> None:
+    published = json.loads((PACKAGE / "lut" / "sign.schema.json").read_text(encoding="utf-8"))
+    assert published == sign_json_schema(), "write it anew: ros2 run teo_lut_executor lut schema"

@@ -1,0 +1,99 @@
+"""The images of a bag, each with its depth and camera."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+from teo_skeleton_retriever.bags.bag_reader import Bag
+from teo_skeleton_retriever.bags.topic_choice import Topics
+from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, stamp_of
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
+from teo_skeleton_retriever.camera.synchroniser import NO_COLOR, Pair, Synchroniser
+from teo_skeleton_retriever.errors import BagError, RetrieverError
+
+# In a recording nothing is late: this bounds the memory where a topic has long gaps.
+_CAPACITY = 30
+
+
+class BagImage(NamedTuple):
+    """One image of a bag."""
+
+    image: RgbdImage
+    stamp: int
+    """Of the colour image [ns]."""
+    time: int
+    """Of the bag, when the image was complete [ns]."""
+    frame_id: str
+    """Of the camera's optical frame."""
+
+
+class BagImages:
+    """Reads a bag from its beginning to its end, and counts what could not be used."""
+
+    def __init__(self, bag: Bag, topics: Topics, *, slop: int, rectified: bool = False) -> None:
+        """Read nothing yet.
+
+        Args:
+            bag: to read.
+            topics: of it.
+            slop: greatest difference between the stamps of colour and depth [ns].
+            rectified: see `camera_of`.
+        """
+        self._bag = bag
+        self._topics = topics
+        self._slop = slop
+        self._rectified = rectified
+        self.dropped: Counter[str] = Counter()
+        """Colour images that could not be used, by reason."""
+        self.reasons: dict[str, str] = {}
+        """A sentence for the first of each reason."""
+
+    def images(self, on_message: Callable[[], None] = lambda: None) -> Iterator[BagImage]:
+        """Give the images in order.
+
+        Args:
+            on_message: called after each message that is read, to show progress.
+
+        Raises:
+            BagError: there is no camera_info.
+        """
+        synchroniser = Synchroniser(slop=self._slop, capacity=_CAPACITY)
+        # Where camera_info was recorded once, or begins late, it holds for the images before it as well.
+        info = self._bag.first(self._topics.camera_info)
+        if info is None:
+            raise BagError("no_camera_info", f"expected a message on {self._topics.camera_info}, got none")
+        time = 0
+        for topic, time, message in self._bag.messages(self._topics):
+            on_message()
+            if topic == self._topics.camera_info:
+                info = message
+                continue
+            add = synchroniser.add_color if topic == self._topics.color else synchroniser.add_depth
+            yield from self._usable(add(stamp_of(message), message), info, time)
+        yield from self._usable(synchroniser.finish(), info, time)
+        self.dropped += Counter({k: n for k, n in synchroniser.dropped.items() if k != NO_COLOR})
+
+    def _usable(self, pairs: list[Pair], info: Any, time: int) -> Iterator[BagImage]:
+        for pair in pairs:
+            try:
+                image = self._image(pair, info)
+            except RetrieverError as error:
+                self.drop(error)
+                continue
+            frame_id = pair.color.header.frame_id or info.header.frame_id
+            yield BagImage(image, pair.stamp, time, frame_id)
+
+    def _image(self, pair: Pair, info: Any) -> RgbdImage:
+        return RgbdImage(
+            stamp=pair.stamp * 1e-9,
+            color=color_of(pair.color),
+            depth=depth_of(pair.depth),
+            camera=camera_of(info, rectified=self._rectified),
+        )
+
+    def drop(self, error: RetrieverError) -> None:
+        """Count an image that could not be used."""
+        self.dropped[error.code] += 1
+        self.reasons.setdefault(error.code, error.sentence)

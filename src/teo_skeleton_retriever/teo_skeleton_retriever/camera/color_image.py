@@ -1,0 +1,79 @@
+"""Colour images as RGB, from what cameras publish."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.camera.depth_image import MAX_PIXELS
+from teo_skeleton_retriever.errors import ImageError
+
+ColorArray = NDArray[np.uint8]
+Bytes = bytes | bytearray | memoryview | np.ndarray
+
+
+class _Encoding(NamedTuple):
+    """Bytes per pixel, and OpenCV's conversion to RGB; None if it is that already."""
+
+    channels: int
+    conversion: int | None
+
+
+_ENCODINGS = {
+    "rgb8": _Encoding(3, None),
+    "bgr8": _Encoding(3, cv2.COLOR_BGR2RGB),
+    "8UC3": _Encoding(3, cv2.COLOR_BGR2RGB),  # says no order; what writes it is OpenCV, whose order is BGR
+    "rgba8": _Encoding(4, cv2.COLOR_RGBA2RGB),
+    "bgra8": _Encoding(4, cv2.COLOR_BGRA2RGB),
+    "8UC4": _Encoding(4, cv2.COLOR_BGRA2RGB),
+    "mono8": _Encoding(1, cv2.COLOR_GRAY2RGB),
+    "8UC1": _Encoding(1, cv2.COLOR_GRAY2RGB),
+    "yuv422": _Encoding(2, cv2.COLOR_YUV2RGB_UYVY),
+    "uyvy": _Encoding(2, cv2.COLOR_YUV2RGB_UYVY),
+    "yuv422_yuy2": _Encoding(2, cv2.COLOR_YUV2RGB_YUY2),
+    "yuyv": _Encoding(2, cv2.COLOR_YUV2RGB_YUY2),
+}
+COLOR_ENCODINGS = tuple(_ENCODINGS)
+"""Encodings of sensor_msgs/Image that are understood."""
+
+
+def decode_color(data: Bytes, *, width: int, height: int, encoding: str, step: int = 0) -> ColorArray:
+    """Decode the fields of a sensor_msgs/Image.
+
+    Args:
+        data: rows of `step` bytes.
+        width: [px].
+        height: [px].
+        encoding: one of `COLOR_ENCODINGS`. All are of single bytes, so that their order does not matter.
+        step: bytes from a row to the next; 0 for rows without padding.
+
+    Returns:
+        RGB; may share its memory with `data`. Shape (height, width, 3).
+
+    Raises:
+        ImageError: the encoding is not known, or the sizes do not fit together.
+    """
+    if encoding not in _ENCODINGS:
+        raise ImageError(
+            "wrong_encoding",
+            f"expected a colour encoding among {', '.join(COLOR_ENCODINGS)}, got {encoding!r:.40}",
+        )
+    channels, conversion = _ENCODINGS[encoding]
+    if width <= 0 or height <= 0 or width * height > MAX_PIXELS:
+        raise ImageError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
+    if channels == 2 and width % 2:
+        raise ImageError("bad_size", f"expected an even width in {encoding}, got {width} px")
+    row = width * channels
+    step = step or row
+    if step < row or len(data) < step * (height - 1) + row:
+        raise ImageError(
+            "wrong_length",
+            f"expected {height} rows of {row} bytes or more, got {len(data)} bytes with a step of {step}",
+        )
+    image: ColorArray = np.ndarray((height, width, channels), np.uint8, data, strides=(step, channels, 1))
+    if conversion is None:
+        return np.ascontiguousarray(image)
+    return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), conversion), dtype=np.uint8)

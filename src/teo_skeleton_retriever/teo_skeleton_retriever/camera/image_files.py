@@ -1,0 +1,65 @@
+"""One image from files: colour, depth and camera."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from teo_skeleton_retriever.arrays import DepthArray
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.camera.compressed_image import decode_compressed_color
+from teo_skeleton_retriever.camera.depth_image import metres
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
+from teo_skeleton_retriever.errors import CameraError, DepthError, ImageError
+
+
+def read_rgbd_image(color: Path, depth: Path, camera_info: Path) -> RgbdImage:
+    """Read an image; its stamp is 0.
+
+    Args:
+        color: PNG, JPEG or what else OpenCV reads.
+        depth: PNG or TIFF of 16 bits [mm], or TIFF or EXR of floats [m], aligned to colour.
+        camera_info: JSON with width, height, k, d and distortion_model, as in sensor_msgs/CameraInfo.
+
+    Raises:
+        RetrieverError: a file cannot be read, or is not what it should be.
+    """
+    try:
+        pixels = decode_compressed_color(color.read_bytes())
+    except OSError as error:
+        raise ImageError("unreadable_file", f"expected a colour image in {color}: {error.strerror}") from None
+    return RgbdImage(stamp=0.0, color=pixels, depth=_depth(depth), camera=_camera(camera_info))
+
+
+def _depth(path: Path) -> DepthArray:
+    try:
+        data = np.frombuffer(path.read_bytes(), np.uint8)
+    except OSError as error:
+        raise DepthError("unreadable_file", f"expected a depth image in {path}: {error.strerror}") from None
+    image = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
+    if image is None:
+        raise DepthError("not_an_image", f"expected a depth image in {path}, got {len(data)} other bytes")
+    return metres(image)
+
+
+def _camera(path: Path) -> CameraModel:
+    try:
+        info = json.loads(path.read_text(encoding="utf-8"))
+        return CameraModel.from_camera_info(
+            width=int(info["width"]),
+            height=int(info["height"]),
+            k=np.array(info["k"], dtype=np.float64),
+            d=np.array(info.get("d", ()), dtype=np.float64),
+            distortion_model=str(info.get("distortion_model", "")),
+        )
+    except OSError as error:
+        raise CameraError("unreadable_file", f"expected camera_info in {path}: {error.strerror}") from None
+    except (ValueError, KeyError, TypeError) as error:
+        raise CameraError(
+            "bad_camera_info",
+            f"expected JSON with width, height, k, d, distortion_model in {path}: "
+            f"{type(error).__name__} {error}",
+        ) from None

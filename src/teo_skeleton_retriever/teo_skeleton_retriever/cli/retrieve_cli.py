@@ -1,0 +1,223 @@
+"""`retrieve`: skeletons from a bag, or from one image, without ROS running."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+from std_msgs.msg import Header
+
+from teo_skeleton_retriever.bags.bag_images import BagImage, BagImages
+from teo_skeleton_retriever.bags.bag_reader import Bag
+from teo_skeleton_retriever.bags.topic_choice import choose_topics
+from teo_skeleton_retriever.camera.image_files import read_rgbd_image
+from teo_skeleton_retriever.detectors import DETECTORS, make_detector
+from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.image_retriever import COMPAT_MODES, ImageRetriever, Retrieved, make_retriever
+from teo_skeleton_retriever.node.node_parameters import (
+    DEFAULT_SLOP,
+    detector_options_from,
+    parameters_from_words,
+)
+from teo_skeleton_retriever.output.messages import skeleton_array
+from teo_skeleton_retriever.output.overlay import Overlay
+from teo_skeleton_retriever.output.overlay_video import OverlayVideo
+from teo_skeleton_retriever.output.retrieval_summary import RetrievalSummary
+from teo_skeleton_retriever.output.skeleton_bag import SkeletonBag
+from teo_skeleton_retriever.output.skeleton_json import as_json
+
+_out = Console()
+_err = Console(stderr=True)
+# No markup in the help: it would swallow units in brackets.
+_app = typer.Typer(add_completion=False, rich_markup_mode=None)
+
+
+@_app.command()
+def _retrieve(
+    bag: Annotated[
+        Path | None,
+        typer.Argument(help="ROS 2 bag (folder, .mcap, .db3) or ROS 1 bag (.bag).", show_default=False),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="MCAP file for the topic /skeletons.")] = None,
+    video: Annotated[Path | None, typer.Option(help="MP4 file for the overlay.")] = None,
+    color: Annotated[Path | None, typer.Option(help="One colour image, instead of a bag.")] = None,
+    depth: Annotated[
+        Path | None, typer.Option(help="Its depth: 16 bits in millimetres, or floats in metres.")
+    ] = None,
+    camera_info: Annotated[
+        Path | None, typer.Option(help="Its camera: JSON with width, height, k, d, distortion_model.")
+    ] = None,
+    as_lines: Annotated[
+        bool, typer.Option("--json", help="Print the skeletons as JSON, a line for each image.")
+    ] = False,
+    detector: Annotated[str, typer.Option(help=f"One of {', '.join(DETECTORS)}.")] = "mediapipe",
+    detector_option: Annotated[
+        list[str] | None, typer.Option(help="NAME=VALUE of the detector. Repeatable.")
+    ] = None,
+    compat: Annotated[
+        str, typer.Option(help=f"Processing of the original: {' or '.join(filter(None, COMPAT_MODES))}.")
+    ] = "",
+    compat_option: Annotated[
+        list[str] | None, typer.Option(help="group::name=VALUE of the original. Repeatable.")
+    ] = None,
+    parameter: Annotated[
+        list[str] | None,
+        typer.Option("--parameter", "-p", help="NAME=VALUE of the retriever; see the node's. Repeatable."),
+    ] = None,
+    slop: Annotated[
+        float, typer.Option(min=0.0, max=1.0, help="Between the stamps of colour and depth [s].")
+    ] = DEFAULT_SLOP,
+    rectified: Annotated[
+        bool, typer.Option("--rectified", help="The images were rectified: use P of camera_info.")
+    ] = False,
+    color_topic: Annotated[str, typer.Option(help="Found by itself where only one can be meant.")] = "",
+    depth_topic: Annotated[str, typer.Option(help="Likewise.")] = "",
+    camera_info_topic: Annotated[str, typer.Option(help="Likewise.")] = "",
+) -> None:
+    """Find people's bodies, hands and faces in space.
+
+    Exit status: 0 if all went well, 1 if something could not be read or written (what could be was), 2 for
+    wrong options.
+
+    Examples: retrieve take/ --out skeletons.mcap --video overlay.mp4
+
+    retrieve --color a.png --depth b.png --camera-info c.json --json
+    """
+    files = (color, depth, camera_info)
+    if (bag is None) == (None in files) or (bag is not None and any(files)):
+        raise typer.BadParameter("give either a bag, or --color, --depth and --camera-info")
+    if bag is None and (out or video):
+        raise typer.BadParameter("--out and --video are for bags")
+    try:
+        chosen = parameters_from_words(parameter or [], detector=detector, one_image=bag is None)
+        retriever = make_retriever(chosen, compat, compat_option or [])
+        options = detector_options_from(detector_option or [])
+    except RetrieverError as error:
+        raise typer.BadParameter(error.sentence) from None
+    try:
+        with ExitStack() as stack:
+            images = ImageRetriever(make_detector(detector, **options), retriever)
+            stack.callback(images.close)
+            if color is not None and depth is not None and camera_info is not None:
+                _one(images, color, depth, camera_info, as_lines)
+                return
+            assert bag is not None
+            opened = Bag(bag)
+            topics = choose_topics(
+                opened, color=color_topic, depth=depth_topic, camera_info=camera_info_topic
+            )
+            reader = BagImages(opened, topics, slop=round(slop * 1e9), rectified=rectified)
+            total = sum(opened.counts.get(topic, 0) for topic in topics)
+            summary = RetrievalSummary()
+            found = _found(reader, images, summary, stack.enter_context(_progress()), total)
+            _write(found, out, video, as_lines, stack)
+    except RetrieverError as error:
+        _complain(f"{error.code}: {error.sentence}")
+        raise typer.Exit(1) from None
+    except OSError as error:
+        _complain(f"cannot write {error.filename}: {error.strerror}")
+        raise typer.Exit(1) from None
+    _tell(summary.table(reader), [path for path in (out, video) if path is not None], quiet=as_lines)
+    for reason, sentence in reader.reasons.items():
+        _complain(f"{reader.dropped[reason]} images left out, {reason}: {sentence}")
+    if opened.problem:
+        _complain(f"{bag}: {opened.problem}")
+    if not summary.images:
+        _complain(f"no image of {topics.color} could be used: {dict(reader.dropped) or 'there is none'}")
+    if opened.problem or reader.reasons or not summary.images:
+        raise typer.Exit(1)
+
+
+def _found(
+    reader: BagImages, images: ImageRetriever, summary: RetrievalSummary, progress: Progress, total: int
+) -> Iterator[tuple[BagImage, Retrieved]]:
+    """Go through the bag; an image that the detector or the retriever refuses is counted and left out."""
+    task = progress.add_task("retrieving", total=total)
+    for found in reader.images(on_message=lambda: progress.advance(task)):
+        try:
+            result = images.process(found.image)
+        except RetrieverError as error:
+            reader.drop(error)
+            continue
+        summary.add(result)
+        yield found, result
+
+
+def _write(
+    found: Iterator[tuple[BagImage, Retrieved]],
+    out: Path | None,
+    video: Path | None,
+    as_lines: bool,
+    stack: ExitStack,
+) -> None:
+    film = stack.enter_context(OverlayVideo(video)) if video is not None else None
+    skeletons = stack.enter_context(SkeletonBag(out)) if out is not None else None
+    overlay = Overlay()
+    for bag_image, result in found:
+        if film is not None:
+            film.add(overlay.draw(bag_image.image, result), bag_image.image.stamp)
+        if skeletons is not None:
+            header = Header(frame_id=bag_image.frame_id)
+            header.stamp.sec, header.stamp.nanosec = divmod(bag_image.stamp, 1_000_000_000)
+            skeletons.write(skeleton_array(result.skeletons, header), bag_image.time)
+        if as_lines:
+            print(json.dumps(as_json(bag_image.image.stamp, result.skeletons)))
+
+
+def _one(images: ImageRetriever, color: Path, depth: Path, camera_info: Path, as_lines: bool) -> None:
+    image = read_rgbd_image(color, depth, camera_info)
+    result = images.process(image)
+    if as_lines:
+        print(json.dumps(as_json(image.stamp, result.skeletons)))
+        return
+    for skeleton in result.skeletons:
+        table = Table(
+            "keypoint", r"x \[m]", r"y \[m]", r"z \[m]", "status", title=f"person {skeleton.track_id}"
+        )
+        person = as_json(image.stamp, [skeleton])["skeletons"][0]
+        for name, keypoint in person["body"].items():
+            table.add_row(name, *(f"{value:.3f}" for value in keypoint["position"]), keypoint["status"])
+        _out.print(table)
+    _out.print(f"{len(result.skeletons)} of {len(result.people)} people whom the detector saw, in space")
+
+
+def _progress() -> Progress:
+    return Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("messages"),
+        TimeRemainingColumn(),
+        console=_err,
+        transient=True,
+    )
+
+
+def _tell(table: Table, written: list[Path], *, quiet: bool) -> None:
+    console = _err if quiet else _out
+    console.print(table)
+    for path in written:
+        console.print(f"wrote {path}", highlight=False, markup=False, soft_wrap=True)
+
+
+def _complain(sentence: str) -> None:
+    _err.print(f"retrieve: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
+
+
+def main() -> None:
+    """Run the command line."""
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(encoding="utf-8", errors="backslashreplace")  # type: ignore[union-attr]
+    _app()
+
+
+if __name__ == "__main__":
+    main()

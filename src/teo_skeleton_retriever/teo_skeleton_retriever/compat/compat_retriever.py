@@ -1,0 +1,116 @@
+"""The original skeletonRetriever behind the interface of ours: its processing, our skeletons."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
+from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
+from teo_skeleton_retriever.compat.skeleton_std import FROM_BODY_25, SKELETON_STD
+from teo_skeleton_retriever.detectors.detection_frame import Frame
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.body_frame import body_frame
+from teo_skeleton_retriever.layouts.face_70 import FACE_70
+from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
+from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
+
+_ROWS = np.array([BODY_25.index[name] for name in FROM_BODY_25])
+_SOURCES = np.array([SKELETON_STD.index[tag] for tag in FROM_BODY_25.values()])
+
+
+class CompatRetriever:
+    """The original's processing with the defaults of its code, the signer chosen by our rule.
+
+    As the original it takes the camera for one with its field of view, centred and without distortion, gives
+    17 keypoints of the body (those of BODY_25 that it knows), and neither hands, face, confidence nor sigma.
+    """
+
+    def __init__(self, parameters: RetrieverParameters, original: OriginalParameters | None = None) -> None:
+        """Build a retriever that has seen nobody yet.
+
+        Args:
+            parameters: of which only those of the choice of the signer matter.
+            original: of the processing.
+        """
+        self._original = original or OriginalParameters()
+        self._signer = SignerChoice(
+            "central" if parameters.signer_rule == "central" else "nearest", parameters.signer_patience
+        )
+        self._camera: CameraModel | None = None
+        self._retriever: OriginalRetriever | None = None
+
+    def process(self, frame: Frame) -> tuple[Skeleton, ...]:
+        """Take one image. Another camera begins anew, as a restart of the original did."""
+        if self._retriever is None or not _same(self._camera, frame.camera):
+            self._camera = frame.camera
+            seen = CameraModel.from_field_of_view(
+                width=frame.camera.width,
+                height=frame.camera.height,
+                horizontal=2.0 * math.atan2(frame.camera.width, 2.0 * frame.camera.fx),
+            )
+            self._retriever = OriginalRetriever(seen, self._original)
+        found = self._retriever.step(frame.stamp, frame.people, frame.depth)
+        signer = self._signer.step(frame.stamp, _places(found))
+        return tuple(_skeleton(i, i == signer, found[i]) for i in sorted(found))
+
+    def lock_signer(self, track_id: int | None) -> None:
+        """Follow this person as the signer; None chooses by the rule again."""
+        if track_id is None:
+            self._signer.unlock()
+        else:
+            self._signer.lock(track_id)
+
+
+def _same(one: CameraModel | None, other: CameraModel) -> bool:
+    return one is not None and (one.width, one.height, one.fx) == (other.width, other.height, other.fx)
+
+
+def _places(found: Mapping[int, OriginalSkeleton]) -> dict[int, FloatArray]:
+    """Where the people are whose chest or, in its stead, anything else is known."""
+    places = {}
+    for track_id, skeleton in found.items():
+        known = skeleton.points[skeleton.updated & np.isfinite(skeleton.points).all(axis=1)]
+        if len(known):
+            places[track_id] = known.mean(axis=0)
+    return places
+
+
+def _skeleton(track_id: int, is_signer: bool, original: OriginalSkeleton) -> Skeleton:
+    body = Keypoints3D.lost(len(BODY_25))
+    points, pixels, status = body.points.copy(), body.pixels.copy(), body.status.copy()
+    points[_ROWS] = original.points[_SOURCES]
+    pixels[_ROWS] = original.pixels[_SOURCES]
+    known = np.isfinite(points).all(axis=1)
+    updated = np.zeros(len(BODY_25), dtype=bool)
+    updated[_ROWS] = original.updated[_SOURCES]
+    status[known] = KeypointStatus.HELD  # "stale" in the original: where it was last
+    status[known & updated] = KeypointStatus.MEASURED
+    confidence = np.where(known, np.nan, 0.0)
+    sigma = np.full((len(BODY_25), 3), np.nan)
+
+    def place(name: str) -> FloatArray:
+        row: FloatArray = points[BODY_25.index[name]]
+        return row
+
+    return Skeleton(
+        track_id=track_id,
+        is_signer=is_signer,
+        body=Keypoints3D(points=points, confidence=confidence, status=status, sigma=sigma, pixels=pixels),
+        left_hand=Keypoints3D.lost(len(HAND_21)),
+        right_hand=Keypoints3D.lost(len(HAND_21)),
+        face=Keypoints3D.lost(len(FACE_70)),
+        body_frame=body_frame(
+            left_shoulder=place("LShoulder"),
+            right_shoulder=place("RShoulder"),
+            left_hip=place("LHip"),
+            right_hip=place("RHip"),
+        ),
+    )

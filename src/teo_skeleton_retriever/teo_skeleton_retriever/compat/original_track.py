@@ -1,0 +1,113 @@
+"""One person over time: keypoints held, filtered, limbs calibrated and optimised, as the original does it."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.compat.body_planes import body_planes
+from teo_skeleton_retriever.compat.original_limb_length import OriginalLimbLength
+from teo_skeleton_retriever.compat.original_median import OriginalMedian
+from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
+from teo_skeleton_retriever.compat.skeleton_std import CHAINS, LIMBS, PARENTS, SKELETON_STD
+from teo_skeleton_retriever.depth.limb_chain import LimbChain, LimbSolution
+
+_INDEX = SKELETON_STD.index
+
+
+class LimbSolver(Protocol):
+    """What moves the depths of a limb."""
+
+    def solve(self, chain: LimbChain) -> LimbSolution:
+        """Solve one limb."""
+
+
+class OriginalTrack:
+    """One person. `skeleton` is what the original publishes."""
+
+    def __init__(self, camera: CameraModel, parameters: OriginalParameters, solver: LimbSolver) -> None:
+        self.skeleton = OriginalSkeleton()
+        self.pivots = self.skeleton.pivots()
+        self._camera = camera
+        self._parameters = parameters
+        self._solver = solver
+        start = np.full(3, np.nan)
+        self._medians = [
+            OriginalMedian(parameters.filter_keypoint_order, start) for _ in SKELETON_STD.keypoints
+        ]
+        self._lengths = {limb: OriginalLimbLength(parameters.filter_limblength_order) for limb in LIMBS}
+        self._misses_left = np.zeros(len(SKELETON_STD), dtype=int)
+
+    def length(self, limb: str) -> float | None:
+        """Calibrated length of the limb that ends at this keypoint [m]; None until then."""
+        return self._lengths[limb].value
+
+    def step(self, seen: OriginalSkeleton) -> None:
+        """Take what one image shows of the person."""
+        samples, updated = self._hold(seen)
+        for i in np.flatnonzero(updated):
+            self.skeleton.points[i] = self._medians[i].step(samples[i])
+        self.skeleton.updated = updated
+        self.skeleton.updated = updated & ~self._calibrate()
+        if self._parameters.optimize_limblength:
+            for chain in CHAINS:
+                self._optimise(chain)
+        self._orient()
+        self.pivots = seen.pivots()
+
+    def _hold(self, seen: OriginalSkeleton) -> tuple[FloatArray, BoolArray]:
+        """Give what goes into the filters: seen keypoints, and for a while the last of those that are not."""
+        samples, updated = seen.points.copy(), seen.updated.copy()
+        for i in range(len(samples)):
+            if seen.updated[i]:
+                if self._misses_left[i] == 0:
+                    self._medians[i].restart(seen.points[i])
+                self._misses_left[i] = self._parameters.keys_acceptable_misses
+                self.skeleton.pixels[i] = seen.pixels[i]
+            elif self._misses_left[i] > 0:
+                samples[i], updated[i] = self.skeleton.points[i], True
+                self._misses_left[i] -= 1
+        return samples, updated
+
+    def _calibrate(self) -> BoolArray:
+        """Take the lengths of the limbs; give the keypoints that are too far from their parents."""
+        too_far = np.zeros(len(SKELETON_STD), dtype=bool)
+        for limb, length in self._lengths.items():
+            i, parent = _INDEX[limb], _INDEX[str(PARENTS[limb])]
+            if self.skeleton.updated[i] and self.skeleton.updated[parent]:
+                measured = float(np.linalg.norm(self.skeleton.points[i] - self.skeleton.points[parent]))
+                length.step(measured)
+                too_far[i] = length.too_long(measured)
+        return too_far
+
+    def _optimise(self, tags: tuple[str, ...]) -> None:
+        rows = [_INDEX[tag] for tag in tags]
+        lengths = [self._lengths[tag].value for tag in tags[1:]]
+        anchor = self.skeleton.points[_INDEX[str(PARENTS[tags[0]])], 2]
+        known = [length for length in lengths if length is not None]
+        if not self.skeleton.updated[rows].all() or len(known) < len(lengths) or not np.isfinite(anchor):
+            return
+        if min(known) <= 0.0:
+            return  # keypoints in one place while it was calibrated: no length to hold
+        chain = LimbChain.original(self.skeleton.points[rows], np.array(known), anchor_depth=float(anchor))
+        solution = self._solver.solve(chain)
+        if solution.converged:
+            self.skeleton.pixels[rows] = self._camera.project(self.skeleton.points[rows])
+            self.skeleton.points[rows] = chain.points(solution.depths)
+
+    def _orient(self) -> None:
+        def updated(tag: str) -> FloatArray:
+            i = _INDEX[tag]
+            return self.skeleton.points[i] if self.skeleton.updated[i] else np.full(3, np.nan)
+
+        self.skeleton.planes = body_planes(
+            left_shoulder=updated("shoulderLeft"),
+            right_shoulder=updated("shoulderRight"),
+            shoulder_center=updated("shoulderCenter"),
+            hip_center=updated("hipCenter"),
+            before=self.skeleton.planes,
+        )

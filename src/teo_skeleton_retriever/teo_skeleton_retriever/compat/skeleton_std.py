@@ -1,0 +1,81 @@
+"""The 17 keypoints of the original skeletonRetriever ("SkeletonStd"), their tree and where they come from.
+
+Source: robotology/assistive-rehab, library `skeleton` and module `skeletonRetriever` (BSD-3-Clause).
+"""
+
+from __future__ import annotations
+
+from teo_skeleton_retriever.layouts.layout import Layout
+
+PARENTS: dict[str, str | None] = {
+    "shoulderCenter": None,
+    "head": "shoulderCenter",
+    "shoulderLeft": "shoulderCenter",
+    "elbowLeft": "shoulderLeft",
+    "handLeft": "elbowLeft",
+    "shoulderRight": "shoulderCenter",
+    "elbowRight": "shoulderRight",
+    "handRight": "elbowRight",
+    "hipCenter": "shoulderCenter",
+    "hipLeft": "hipCenter",
+    "kneeLeft": "hipLeft",
+    "ankleLeft": "kneeLeft",
+    "footLeft": "ankleLeft",
+    "hipRight": "hipCenter",
+    "kneeRight": "hipRight",
+    "ankleRight": "kneeRight",
+    "footRight": "ankleRight",
+}
+"""The parent of each keypoint, in the order of the data."""
+
+SKELETON_STD = Layout(
+    "SkeletonStd",
+    tuple(PARENTS),
+    tuple((parent, child) for child, parent in PARENTS.items() if parent is not None),
+)
+
+FROM_BODY_25: dict[str, str] = {
+    "Nose": "head",
+    "Neck": "shoulderCenter",
+    "RShoulder": "shoulderRight",
+    "RElbow": "elbowRight",
+    "RWrist": "handRight",
+    "LShoulder": "shoulderLeft",
+    "LElbow": "elbowLeft",
+    "LWrist": "handLeft",
+    "MidHip": "hipCenter",
+    "RHip": "hipRight",
+    "RKnee": "kneeRight",
+    "RAnkle": "ankleRight",
+    "LHip": "hipLeft",
+    "LKnee": "kneeLeft",
+    "LAnkle": "ankleLeft",
+    "LBigToe": "footLeft",
+    "RBigToe": "footRight",
+}
+
+FALLBACKS: dict[str, str] = {"footLeft": "LSmallToe", "footRight": "RSmallToe"}
+"""What stands in where the keypoint of `FROM_BODY_25` was not seen."""
+
+MIDPOINTS: dict[str, tuple[str, str]] = {
+    "shoulderCenter": ("shoulderLeft", "shoulderRight"),
+    "hipCenter": ("hipLeft", "hipRight"),
+}
+"""Where a centre was not seen itself, it is put between these two, without a pixel."""
+
+PIVOTS = ("shoulderCenter", "hipCenter")
+"""People are told apart by the pixels of these; a skeleton with neither is refused."""
+
+LIMBS: tuple[str, ...] = (
+    *("elbowLeft", "handLeft", "elbowRight", "handRight"),
+    *("kneeLeft", "ankleLeft", "footLeft", "kneeRight", "ankleRight", "footRight"),
+)
+"""Limbs whose length is calibrated, each named by its far end."""
+
+CHAINS: tuple[tuple[str, ...], ...] = (
+    ("shoulderLeft", "elbowLeft", "handLeft"),
+    ("shoulderRight", "elbowRight", "handRight"),
+    ("hipLeft", "kneeLeft", "ankleLeft", "footLeft"),
+    ("hipRight", "kneeRight", "ankleRight", "footRight"),
+)
+"""Chains whose depths are optimised together."""

@@ -1,0 +1,202 @@
+"""Where an arm is, by what is seen at its joints, and by its lengths where something hides them.
+
+What is seen at a keypoint is either the arm itself, or something nearer that hides it. Which of the two, for
+elbow and wrist, follows from the lengths of the limbs: every combination is solved with the fast limb solver,
+balanced, and the likeliest is taken, among those that an elbow can bend to.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.depth.limb_chain import LimbChain
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
+
+MAX_FLEXION = math.radians(150.0)
+"""[rad] How far an elbow bends, from straight.
+Source: AAOS, "Joint Motion: Method of Measuring and Recording" (1965)."""
+_FLEXION_SIGMA = 0.05  # of the cosine between the limbs: 5 deg there, goniometers and keypoints are no better
+_REACH = 0.35  # [m] how far behind what hides it a joint may be: a forearm and half a hand
+_TIGHT = 2.0  # [sigma] to either side of a measured depth that the solver may use
+_HIDING = 6.0  # what it costs to suppose that a joint is hidden: as much as lengths off by 2.4 sigma
+_BEHIND_SIGMA = 0.12  # [m] and how far behind what hides it: a hand or an arm lies on what it hides
+_FREE = 9.0  # beyond it an expectation does not speak against a depth any more: arms move fast
+_ACCEPTED = 6.0  # a cost below it is no reason to suppose anything: 95 % of unhidden arms (chi-squared, 2)
+_STEPS = 3  # of Gauss-Newton from a good start
+_GUESSED = 1.5  # errors over sigma of hidden joints, on rendered people: the lengths are estimates, too
+_HIDDEN_ACROSS = 5.0  # a detector guesses hidden joints so many times worse: 5 cm for elbows behind hands
+
+
+class Arm(NamedTuple):
+    """What one image shows of an arm: shoulder, elbow, wrist."""
+
+    rays: FloatArray
+    """x/z, y/z. Shape (3, 2)"""
+    across: FloatArray
+    """standard deviations of the joints across the ray [m]. Shape (3,)"""
+    measured: FloatArray
+    """depths if nothing hides the joints [m]; NaN where nothing was measured. Shape (3,)"""
+    sigma: FloatArray
+    """their standard deviations [m]; NaN likewise. Shape (3,)"""
+    certain: BoolArray
+    """joints that are surely not hidden: a wrist whose hand was measured. Shape (3,)"""
+    expected: FloatArray
+    """depths by the images before [m]; NaN where there were none. Shape (3,)"""
+    expected_sigma: FloatArray
+    """their standard deviations [m]. Shape (3,)"""
+    lengths: FloatArray
+    """of upper arm and forearm [m]. Shape (2,)"""
+    length_sigma: FloatArray
+    """their standard deviations [m]. Shape (2,)"""
+
+
+class ArmSolution(NamedTuple):
+    """Where an arm was put."""
+
+    points: FloatArray
+    """[m]. Shape (3, 3)"""
+    sigma: FloatArray
+    """standard deviations across the ray and along the optical axis [m]. Shape (3, 2)"""
+    hidden: BoolArray
+    """joints whose depth follows from the lengths, not from what is seen there. Shape (3,)"""
+    cost: float
+    """how unlikely it is: about the sum of two squared standard normal variables if all is well"""
+
+
+class _Candidate(NamedTuple):
+    depths: FloatArray
+    hidden: BoolArray
+
+
+class ArmSolver:
+    """Solves arms. Not safe to share between threads, as the limb solver."""
+
+    def __init__(self) -> None:
+        self._solver = FastLimbSolver()
+        self._solver.prepare(3)
+
+    def solve(self, arm: Arm) -> ArmSolution | None:
+        """Find the likeliest place of an arm; None if its shoulder has none, or nothing fits."""
+        shoulder = float(arm.measured[0] if np.isfinite(arm.measured[0]) else arm.expected[0])
+        if not (math.isfinite(shoulder) and np.isfinite(arm.rays).all()):
+            return None
+        seen = np.isfinite(arm.measured)
+        if seen.all():
+            plain = _balanced(arm, [_Candidate(arm.measured, np.zeros(3, dtype=bool))])
+            if plain.cost <= _ACCEPTED:
+                return plain
+        candidates = []
+        for elbow_hidden, wrist_hidden in product((False, True), repeat=2):
+            hidden = np.array([not seen[0], elbow_hidden, wrist_hidden])
+            if (seen | hidden).all() and not (hidden & arm.certain).any():
+                candidates += [
+                    _Candidate(depths, hidden) for depths in self._solutions(arm, hidden, shoulder)
+                ]
+        return _balanced(arm, candidates) if candidates else None
+
+    def _solutions(self, arm: Arm, hidden: BoolArray, shoulder: float) -> list[FloatArray]:
+        """Solve with each hidden joint on either side of where its limb is shortest."""
+        if not hidden.any():
+            return [arm.measured]
+        boxes: list[list[tuple[float, float]]] = []
+        for i in range(3):
+            if not hidden[i]:
+                middle, half = float(arm.measured[i]), _TIGHT * float(arm.sigma[i])
+                boxes.append([(middle - half, middle + half)])
+            elif i == 0:
+                half = _TIGHT * float(arm.expected_sigma[0])
+                boxes.append([(shoulder - half, shoulder + half)])
+            else:
+                boxes.append(_halves(arm, i, hidden, shoulder))
+        found = []
+        for box in product(*boxes):
+            lower, upper = (np.array(bounds) for bounds in zip(*box, strict=True))
+            if not ((lower > 0.0) & (upper - lower > 1e-4)).all():
+                continue
+            start = np.where(hidden & np.isfinite(arm.expected), arm.expected, (lower + upper) / 2.0)
+            start = np.clip(start, lower, upper)
+            chain = LimbChain(rays=arm.rays, lengths=arm.lengths, start=start, lower=lower, upper=upper)
+            solution = self._solver.solve(chain)
+            if solution.converged:
+                found.append(solution.depths)
+        return found
+
+
+def _halves(arm: Arm, i: int, hidden: BoolArray, shoulder: float) -> list[tuple[float, float]]:
+    """Give the depths of a hidden joint that are nearer and farther than closest to its neighbour."""
+    before = shoulder if i == 1 else float(arm.expected[1] if hidden[1] else arm.measured[1])
+    if not math.isfinite(before):
+        before = shoulder
+    own, other = np.append(arm.rays[i], 1.0), np.append(arm.rays[i - 1], 1.0)
+    closest = before * float(own @ other) / float(own @ own)
+    # Hidden is only what lies behind what is seen.
+    nearest = float(arm.measured[i]) if np.isfinite(arm.measured[i]) else closest - _REACH
+    farthest = max(nearest, closest) + _REACH
+    if nearest >= closest:
+        return [(nearest, farthest)]
+    return [(nearest, closest), (closest, farthest)]
+
+
+def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
+    """Move the joints of each candidate to where lengths, rays and depths agree best; give the likeliest.
+
+    Gauss-Newton steps on the misfits over their sigmas, of all candidates at once. Unknown are the places in
+    space: a keypoint is off its joint across the ray, too, and known lengths put that right.
+    """
+    k = len(candidates)
+    hidden = np.stack([candidate.hidden for candidate in candidates])
+    rays = np.column_stack([arm.rays, np.ones(3)])
+    points = rays * np.stack([candidate.depths for candidate in candidates])[..., None]
+    target = np.where(hidden, points[..., 2], arm.measured)
+    depth_weight = np.where(hidden, 1.0 / _BEHIND_SIGMA, 1.0 / arm.sigma)
+    across = 1.0 / (arm.across * np.where(hidden, _HIDDEN_ACROSS, 1.0))
+    slope = np.zeros((k, 11, 9))
+    for i in range(3):
+        slope[:, 3 * i, 3 * i] = slope[:, 3 * i + 1, 3 * i + 1] = across[:, i]
+        slope[:, 3 * i : 3 * i + 2, 3 * i + 2] = -across[:, i, None] * arm.rays[i]
+        slope[:, 3 * i + 2, 3 * i + 2] = depth_weight[:, i]
+    missed = np.zeros((k, 11))
+    for step in range(_STEPS + 1):
+        limbs = points[:, 1:] - points[:, :-1]
+        lengths = np.sqrt((limbs**2).sum(axis=2))
+        unit = limbs / (lengths * arm.length_sigma)[..., None]
+        slope[:, 9, 0:3], slope[:, 9, 3:6] = -unit[:, 0], unit[:, 0]
+        slope[:, 10, 3:6], slope[:, 10, 6:9] = -unit[:, 1], unit[:, 1]
+        off = points[..., :2] - arm.rays * points[..., 2:]
+        missed[:, :9].reshape(k, 3, 3)[..., :2] = off * across[..., None]
+        missed[:, 2:9:3] = (points[..., 2] - target) * depth_weight
+        missed[:, 9:] = (lengths - arm.lengths) / arm.length_sigma
+        turned = slope.transpose(0, 2, 1)
+        normal = turned @ slope
+        if step < _STEPS:
+            points = points - np.linalg.solve(normal, turned @ missed[..., None]).reshape(k, 3, 3)
+    cost = (missed**2).sum(axis=1) + _penalties(arm, points, hidden, limbs, lengths)
+    best = int(np.argmin(cost))
+    spread = np.sqrt(np.diag(np.linalg.inv(normal[best]))).reshape(3, 3)
+    sigma = np.column_stack([spread[:, :2].mean(axis=1), spread[:, 2]])
+    sigma[hidden[best]] *= _GUESSED
+    return ArmSolution(points[best], sigma, hidden[best], float(cost[best]))
+
+
+def _penalties(
+    arm: Arm, points: FloatArray, hidden: BoolArray, limbs: FloatArray, lengths: FloatArray
+) -> FloatArray:
+    """What else speaks against each candidate. Shape (k,)."""
+    folded = -(limbs[:, 0] * limbs[:, 1]).sum(axis=1) / np.maximum(lengths[:, 0] * lengths[:, 1], 1e-9)
+    beyond = np.maximum(folded - math.cos(math.pi - MAX_FLEXION), 0.0)
+    cost = (beyond / _FLEXION_SIGMA) ** 2
+    cost += _HIDING * hidden[:, 1:].sum(axis=1)
+    with np.errstate(invalid="ignore"):
+        behind = ((points[..., 2] - arm.measured) / _BEHIND_SIGMA) ** 2
+        surprise = ((points[..., 2] - arm.expected) / arm.expected_sigma) ** 2
+    behind[np.isnan(behind)] = 0.0
+    surprise[np.isnan(surprise)] = 0.0
+    cost += np.where(hidden, behind, 0.0).sum(axis=1)
+    cost += (surprise * _FREE / (surprise + _FREE))[:, 1:].sum(axis=1)
+    total: FloatArray = cost
+    return total

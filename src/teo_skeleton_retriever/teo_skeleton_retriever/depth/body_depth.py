@@ -1,0 +1,238 @@
+"""The depths of a body's 25 joints in one image: skin, what hides it, and the lengths of arms and legs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolver
+from teo_skeleton_retriever.depth.depth_lookup import Surfaces
+from teo_skeleton_retriever.depth.filtered_keypoints import points_of
+from teo_skeleton_retriever.depth.skin import BODY_CAPS, BODY_DEPTHS, along_ray
+from teo_skeleton_retriever.depth.viewing_rays import Detected
+from teo_skeleton_retriever.detectors.mediapipe.calibration import across_by_confidence
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_layout import ARMS, ROW
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
+from teo_skeleton_retriever.tracking.body_size import BodySize
+from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
+
+_N = len(BODY_25)
+_LEGS = [[ROW[f"{side}{joint}"] for joint in ("Hip", "Knee", "Ankle")] for side in ("R", "L")]
+_TRUNK = np.array(
+    [ROW[name] for name in ("Nose", "Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
+)
+_SHOULDERS = np.array([ROW[name] for name in ("Neck", "RShoulder", "LShoulder")])
+_HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
+_LIMBS = np.array(
+    [
+        (ROW[f"{side}{joint}"], ROW[f"{side}{other}"])
+        for side in ("R", "L")
+        for joint, other in (("Shoulder", "Elbow"), ("Elbow", "Shoulder"), ("Knee", "Hip"), ("Ankle", "Knee"))
+    ]
+)
+"""Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on."""
+
+_SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
+_HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
+_UNEVEN = 0.09  # [m] a chest's roundness and a raised shoulder are less, a hand before a shoulder more
+_BEFORE_HEAD = 0.12  # [m] of someone who turns or leans back shoulders are nearer than the eyes, hands more
+_BEHIND_HEAD = 0.12  # [m] from the eyes to the shoulders' joints; of rendered people it was 0.06 to 0.19
+_BEHIND_HEAD_SIGMA = 0.06  # [m] they lean and turn
+_EVEN_SIGMA = 0.03  # [m] how evenly shoulders lie about the neck
+_ACROSS = np.full(_N, 0.012)  # [m] how far the detector's keypoints are from the joints
+_ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
+_ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
+_SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
+_HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
+
+
+class WristView(NamedTuple):
+    """A wrist as the hand's own keypoints show it."""
+
+    ray: FloatArray
+    """x/z, y/z. Shape (2,)"""
+    depth: float
+    """[m]"""
+    sigma: float
+    """its standard deviation [m]"""
+    certain: bool
+    """whether so much of the hand was measured that nothing hides it"""
+
+
+class BodyDepths(NamedTuple):
+    """The depths of a body."""
+
+    rays: FloatArray
+    """x/z, y/z; where an arm's lengths say so, beside what the detector saw. Shape (25, 2)"""
+    depths: FloatArray
+    """of the joints [m]; NaN if not known. Shape (25,)"""
+    across: FloatArray
+    """standard deviations across the ray [m]. Shape (25,)"""
+    sigma: FloatArray
+    """standard deviations of the depths [m]; NaN likewise. Shape (25,)"""
+    measured: FloatArray
+    """the joints by what is seen at them alone, the lengths left aside [m]; NaN if hidden. Shape (25, 3)"""
+    optimised: BoolArray
+    """joints whose depth follows from the lengths of an arm. Shape (25,)"""
+
+
+class BodyDepth:
+    """Finds the depths of one person's body. Not safe to share between threads, as the arm solver."""
+
+    def __init__(self, parameters: RetrieverParameters) -> None:
+        self._parameters = parameters
+        self._arms = ArmSolver()
+
+    def find(
+        self,
+        seen: Detected,
+        surfaces: Surfaces,
+        before: FilterOutput,
+        size: BodySize,
+        *,
+        wrists: Mapping[str, WristView],
+    ) -> BodyDepths:
+        """Find the depths in one image.
+
+        Args:
+            seen: by the detector.
+            surfaces: measured around the joints.
+            before: what the images before let expect.
+            size: of the person.
+            wrists: the left ("L") and right ("R") wrist by the hand; only those that are known.
+        """
+        depth, sigma = self._measure(surfaces, before, size)
+        rays, across = seen.rays.copy(), _ACROSS.copy()
+        if self._parameters.detector == "mediapipe":
+            across = across_by_confidence(across, seen.confidence)
+            # Beside the joint is another depth than at it.
+            sigma = np.hypot(sigma, _SLOPE * np.maximum(across - _ACROSS, 0.0))
+        for side, wrist in wrists.items():
+            row = ARMS[side][2]
+            rays[row], across[row] = wrist.ray, _HAND_ACROSS
+            depth[row], sigma[row] = wrist.depth, wrist.sigma
+        _reject_hidden_trunk(depth, before)
+        replaced = _behind_the_head(depth, sigma) | _even_shoulders(depth, sigma)
+        points = np.column_stack([rays, np.ones(_N)]) * depth[:, None]
+        _reject_long_legs(depth, points, size)
+        points[replaced] = np.nan
+        found = BodyDepths(rays, depth, across, sigma, points, replaced)
+        if self._parameters.optimise_limbs:
+            for side, rows in ARMS.items():
+                certain = np.array([False, False, side in wrists and wrists[side].certain])
+                self._solve_arm(rows, certain, found, before, size)
+        return found
+
+    def _measure(
+        self, surfaces: Surfaces, before: FilterOutput, size: BodySize
+    ) -> tuple[FloatArray, FloatArray]:
+        """Give the depths of the joints by what is seen at them, and their sigmas [m]. Shapes (25,)."""
+        behind, slanted = self._behind_skin(before, size)
+        sample = surfaces.closest(before.depth - behind)
+        return sample.depth + behind, np.hypot(sample.sigma, np.hypot(_SKIN_SIGMA, slanted))
+
+    def _behind_skin(self, before: FilterOutput, size: BodySize) -> tuple[FloatArray, FloatArray]:
+        """Give how far behind the skin the joints are along the optical axis, and how uncertain that is [m].
+
+        Shapes (25,).
+        """
+        if not self._parameters.skin_offset:
+            return np.zeros(_N), np.zeros(_N)
+        radius = BODY_DEPTHS * size.scale
+        points = points_of(before)
+        limb = np.full((_N, 3), np.nan)
+        limb[_LIMBS[:, 0]] = points[_LIMBS[:, 1]] - points[_LIMBS[:, 0]]
+        behind = along_ray(radius, limb, points, BODY_CAPS)
+        return behind, behind - radius
+
+    def _solve_arm(
+        self,
+        rows: list[int],
+        certain: BoolArray,
+        found: BodyDepths,
+        before: FilterOutput,
+        size: BodySize,
+    ) -> None:
+        """Put an arm right, in place."""
+        lengths, sigmas = zip(*(size.length(limb) for limb in ("upper arm", "forearm")), strict=True)
+        arm = Arm(
+            rays=found.rays[rows],
+            across=found.across[rows],
+            measured=found.depths[rows],
+            sigma=found.sigma[rows],
+            certain=certain,
+            expected=before.depth[rows],
+            expected_sigma=before.sigma[rows, 2],
+            lengths=np.array(lengths),
+            length_sigma=np.array(sigmas),
+        )
+        solution = self._arms.solve(arm)
+        if solution is None:
+            return
+        found.rays[rows] = solution.points[:, :2] / solution.points[:, 2:]
+        found.depths[rows] = solution.points[:, 2]
+        found.across[rows], found.sigma[rows] = solution.sigma.T
+        hidden = np.array(rows)[solution.hidden]
+        found.optimised[hidden] = True
+        found.measured[hidden] = np.nan
+
+
+def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
+    """Forget depths of the trunk that are nearer than it can have come."""
+    with np.errstate(invalid="ignore"):
+        nearer = before.depth - depth > np.maximum(_HIDDEN, 4.0 * before.sigma[:, 2])
+    rows = _TRUNK[nearer[_TRUNK]]
+    depth[rows] = np.nan
+
+
+def _behind_the_head(depth: FloatArray, sigma: FloatArray) -> BoolArray:
+    """Put shoulders and neck that a hand hides, as they lie before the head, about where they are.
+
+    Returns:
+        Joints that were put there. Shape (25,).
+    """
+    replaced = np.zeros(_N, dtype=bool)
+    known = depth[_HEAD][np.isfinite(depth[_HEAD])]
+    if len(known):
+        head = float(np.median(known))
+        with np.errstate(invalid="ignore"):
+            hidden = _SHOULDERS[depth[_SHOULDERS] < head - _BEFORE_HEAD]
+        depth[hidden], sigma[hidden], replaced[hidden] = head + _BEHIND_HEAD, _BEHIND_HEAD_SIGMA, True
+    return replaced
+
+
+def _even_shoulders(depth: FloatArray, sigma: FloatArray) -> BoolArray:
+    """Put a shoulder, or the neck, that something nearer hides where the other two say, in place.
+
+    The neck is midway between the shoulders, also of a person who is turned.
+
+    Returns:
+        Joints that were put there. Shape (25,).
+    """
+    neck, right, left = (ROW[name] for name in ("Neck", "RShoulder", "LShoulder"))
+    replaced = np.zeros(_N, dtype=bool)
+    if not np.isfinite(depth[[neck, right, left]]).all():
+        return replaced
+    even = {
+        neck: (depth[right] + depth[left]) / 2.0,
+        right: 2.0 * depth[neck] - depth[left],
+        left: 2.0 * depth[neck] - depth[right],
+    }
+    # Hidden is the joint that is nearer than both others and than they let expect.
+    row = min(even, key=lambda i: float(depth[i]))
+    others = min(float(depth[i]) for i in even if i != row)
+    if depth[row] < min(others, float(even[row])) - _UNEVEN:
+        depth[row], sigma[row], replaced[row] = even[row], _EVEN_SIGMA, True
+    return replaced
+
+
+def _reject_long_legs(depth: FloatArray, points: FloatArray, size: BodySize) -> None:
+    """Forget depths that make a leg longer than belief."""
+    for hip, knee, ankle in _LEGS:
+        for near, far, limb in ((hip, knee, "thigh"), (knee, ankle, "shank")):
+            if size.too_long(limb, float(np.linalg.norm(points[far] - points[near]))):
+                depth[far] = points[far] = np.nan

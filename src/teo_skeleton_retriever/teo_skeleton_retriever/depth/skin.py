@@ -1,0 +1,73 @@
+"""From the skin, which a depth camera sees, to the centre of the joint behind it.
+
+A joint is taken for where round limbs end: the ray to the centre meets the skin earlier by the limb's radius,
+and by more where a limb comes towards the camera. Radii are in proportion to the person's size.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+
+BODY_DEPTH: dict[str, float] = {
+    "Nose": -0.012,
+    "Neck": 0.06,
+    **dict.fromkeys(("RShoulder", "LShoulder"), 0.057),
+    **dict.fromkeys(("RElbow", "LElbow"), 0.043),
+    **dict.fromkeys(("RWrist", "LWrist"), 0.022),
+    "MidHip": 0.15,
+    **dict.fromkeys(("RHip", "LHip"), 0.125),
+    **dict.fromkeys(("RKnee", "LKnee"), 0.08),
+    **dict.fromkeys(("RAnkle", "LAnkle"), 0.05),
+    **dict.fromkeys(("REye", "LEye"), 0.0),
+    **dict.fromkeys(("REar", "LEar"), 0.019),
+    **dict.fromkeys(("LBigToe", "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel"), 0.02),
+}
+"""[m] From the skin to the joint, of an average adult, seen across the limb."""
+
+HAND_DEPTH: dict[str, float] = {
+    name: 0.025
+    if name == "Wrist"
+    else 0.015
+    if name.endswith(("CMC", "MCP"))
+    else 0.009
+    if name.endswith(("PIP", "DIP", "IP"))
+    else 0.004
+    for name in HAND_21.keypoints
+}
+"""[m] Likewise."""
+
+_LEAST_SINE = 0.65  # of the angle between ray and limb: a limb that points at the camera ends in its tip
+
+_CAP = {"Elbow": 0.5, "Knee": 0.6}
+"""How far a limb reaches beyond a joint, of the depth under the skin across the limb: a bent elbow's tip is 2
+cm from its axis, a kneecap 5 cm from the knee's. A shoulder is a ball."""
+
+BODY_DEPTHS: FloatArray = np.array([BODY_DEPTH[name] for name in BODY_25.keypoints])
+BODY_CAPS: FloatArray = np.array([_CAP.get(name[1:], 1.0) for name in BODY_25.keypoints])
+HAND_DEPTHS: FloatArray = np.array([HAND_DEPTH[name] for name in HAND_21.keypoints])
+
+
+def along_ray(radius: FloatArray, limb: FloatArray, ray: FloatArray, cap: FloatArray) -> FloatArray:
+    """Give how far behind the skin joints lie, along the optical axis [m].
+
+    A limb that comes towards the camera is a tube: the ray is longer in it the more it slants. Of one that
+    leads away the ray meets the end, which is round: half an ellipsoid.
+
+    Args:
+        radius: of the limb at each joint [m]. Shape (n,).
+        limb: way from each joint along its limb, of any length; NaN or zero if not known. Shape (n, 3).
+        ray: from the camera to each joint, of any length. Shape (n, 3).
+        cap: how far the limb's end reaches beyond the joint, of the radius. Shape (n,).
+    """
+    squares = (limb * limb).sum(axis=1) * (ray * ray).sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        away = np.where(squares > 0.0, (limb * ray).sum(axis=1) / np.sqrt(squares), 0.0)
+    shares = np.where(
+        away < 0.0, np.maximum(1.0 - away**2, _LEAST_SINE**2), 1.0 + away**2 * (cap**-2.0 - 1.0)
+    )
+    behind: FloatArray = radius / np.sqrt(shares)
+    return behind

@@ -1,0 +1,53 @@
+"""What the detector saw of a person, as viewing rays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+
+
+class Detected(NamedTuple):
+    """Keypoints in one image; NaN and 0 where not seen."""
+
+    pixels: FloatArray
+    """[px]. Shape (n, 2)"""
+    rays: FloatArray
+    """x/z, y/z. Shape (n, 2)"""
+    confidence: FloatArray
+    """0 to 1. Shape (n,)"""
+    seen: BoolArray
+    """Shape (n,)"""
+
+    def only(self, believed: BoolArray) -> Detected:
+        """Forget the keypoints that are not believed."""
+        return Detected(
+            np.where(believed[:, None], self.pixels, np.nan),
+            np.where(believed[:, None], self.rays, np.nan),
+            np.where(believed, self.confidence, 0.0),
+            self.seen & believed,
+        )
+
+    def part(self, rows: slice) -> Detected:
+        """Keep some of the keypoints."""
+        return Detected(self.pixels[rows], self.rays[rows], self.confidence[rows], self.seen[rows])
+
+
+def detected(keypoints: FloatArray, camera: CameraModel, min_confidence: float) -> Detected:
+    """Keep the keypoints that are in the image and that the detector is sure of.
+
+    Args:
+        keypoints: x, y [px], confidence. Shape (n, 3).
+        camera: of the image.
+        min_confidence: of the detector; 0 means absent in every layout, whatever is asked.
+    """
+    seen = (keypoints[:, 2] >= min_confidence) & (keypoints[:, 2] > 0.0) & camera.contains(keypoints[:, :2])
+    pixels = np.where(seen[:, None], keypoints[:, :2], np.nan)
+    rays = np.full((len(keypoints), 2), np.nan)
+    rays[seen] = camera.rays(pixels[seen])[:, :2]
+    seen &= np.isfinite(rays).all(axis=1)  # a lens may image nothing there
+    confidence = np.where(seen, np.clip(keypoints[:, 2], 0.0, 1.0), 0.0)
+    return Detected(pixels, rays, confidence, seen)

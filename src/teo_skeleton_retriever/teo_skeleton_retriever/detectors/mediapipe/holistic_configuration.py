@@ -1,0 +1,191 @@
+"""What MediaPipe's Holistic graph is made of here: the packaged one, without what is not asked of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import mediapipe
+from google.protobuf import text_format
+from mediapipe.calculators.core.split_vector_calculator_pb2 import SplitVectorCalculatorOptions
+from mediapipe.calculators.tensor.tensors_to_detections_calculator_pb2 import (
+    TensorsToDetectionsCalculatorOptions,
+)
+from mediapipe.calculators.util.thresholding_calculator_pb2 import ThresholdingCalculatorOptions
+from mediapipe.framework import calculator_pb2
+from mediapipe.framework.tool.switch_container_pb2 import SwitchContainerOptions
+from mediapipe.modules.holistic_landmark.calculators.roi_tracking_calculator_pb2 import (
+    RoiTrackingCalculatorOptions,
+)
+from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resource_util
+
+from teo_skeleton_retriever.detectors.mediapipe.graph_pruning import only_for
+from teo_skeleton_retriever.detectors.mediapipe.network_pruning import without_output
+
+LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
+"""Input streams beside that of images: whether to look at a hand in this image."""
+_FOLDER = Path(mediapipe.__file__).parent
+_POSE = "poselandmarkcpu__"
+_POSE_BY_ROI = f"{_POSE}poselandmarkbyroicpu__"
+_POSE_TENSORS = f"{_POSE_BY_ROI}tensorstoposelandmarksandsegmentation__"
+_FACE = "facelandmarksfromposecpu__"
+_DETECTION_NODE = f"{_POSE}posedetectioncpu__TensorsToDetectionsCalculator"
+_TRACKING_NODE = f"{_POSE_TENSORS}ThresholdingCalculator"
+_HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
+_POSE_NETWORK = "pose_network"
+_OUTLINE = (1, 256, 256, 1)
+"""Of all outputs of the pose's network, what draws the person's outline."""
+_THREADS = (os.cpu_count() or 1) + 2
+"""Two more than MediaPipe takes, which is one a core: while they tell Python what they found, for which they
+may have to wait, networks go on."""
+_SIDE_INPUTS = {
+    # The only pose model that comes with the package; the two others would be downloaded.
+    "model_complexity": packet_creator.create_int(1),
+    # A filter over the pose makes the hands' crops trail: at 1.5 m/s the pose's wrist comes 0.2 frames
+    # late with twice the error, and the hand is lost in 3 of 60 frames; without it in none.
+    "smooth_landmarks": packet_creator.create_bool(False),
+    "use_prev_landmarks": packet_creator.create_bool(True),
+    # Gives the pupils, and finer eyes and lips, for less than a millisecond.
+    "refine_face_landmarks": packet_creator.create_bool(True),
+}
+
+
+def holistic_configuration(
+    streams: Iterable[str],
+    *,
+    min_detection_confidence: float,
+    min_tracking_confidence: float,
+    lite_hands: bool,
+) -> tuple[Any, dict[str, Packet]]:
+    """Read the packaged graph, set what may be set, and leave out what none of some streams follows from.
+
+    Args:
+        streams: that will be observed.
+        min_detection_confidence: below which a person's first sight does not count.
+        min_tracking_confidence: below which a followed person counts as lost.
+        lite_hands: look at hands with the smaller of the two networks.
+
+    Returns:
+        The CalculatorGraphConfig, and the side packets that it is to be started with.
+    """
+    resource_util.set_resource_dir(str(_FOLDER.parent))  # the models' paths in the graph start above
+    packaged = ValidatedGraphConfig()
+    packaged.initialize(
+        binary_graph_path=str(_FOLDER / "modules/holistic_landmark/holistic_landmark_cpu.binarypb")
+    )
+    configuration = calculator_pb2.CalculatorGraphConfig()
+    configuration.ParseFromString(packaged.binary_config)
+    for node in configuration.node:
+        if node.name == _DETECTION_NODE:
+            options = node.options.Extensions[TensorsToDetectionsCalculatorOptions.ext]
+            options.min_score_thresh = min_detection_confidence
+        elif node.name == _TRACKING_NODE:
+            node.options.Extensions[ThresholdingCalculatorOptions.ext].threshold = min_tracking_confidence
+        elif _HAND_MODEL_SWITCH in node.name and node.calculator.startswith("Switch"):
+            node.options.Extensions[SwitchContainerOptions.ext].select = 0 if lite_hands else 1
+        elif node.calculator == "LandmarkProjectionCalculator":
+            # The same result, and no warning that crops must be square: they are.
+            node.input_stream.append(f"IMAGE_DIMENSIONS:{_POSE}image_size")
+    del configuration.executor[:]  # an empty one, which stands for a thread a core
+    configuration.num_threads = _THREADS
+    _leave_out_the_outline(configuration)
+    _look_for_the_face_only_where_it_is_lost(configuration)
+    _look_at_hands_only_when_told(configuration)
+    network = (_FOLDER / "modules/pose_landmark/pose_landmark_full.tflite").read_bytes()
+    side_packets = _SIDE_INPUTS | {
+        _POSE_NETWORK: packet_creator.create_string(without_output(network, _OUTLINE))
+    }
+    return only_for(configuration, streams), side_packets
+
+
+def _leave_out_the_outline(configuration: Any) -> None:
+    """Use a network of the pose that does not draw it, and pass its other outputs on as before."""
+    nodes = {node.name: node for node in configuration.node}
+    loader = nodes[f"{_POSE_BY_ROI}poselandmarkmodelloader__TfLiteModelCalculator"]
+    loader.input_side_packet[:] = [f"MODEL_BLOB:{_POSE_NETWORK}"]
+    configuration.input_side_packet.append(_POSE_NETWORK)
+    split = nodes[f"{_POSE_TENSORS}SplitTensorVectorCalculator"]
+    split.output_stream.remove(f"{_POSE_TENSORS}segmentation_tensor")
+    # A range of one output for each stream, in order: without the outline there is one less.
+    del split.options.Extensions[SplitVectorCalculatorOptions.ext].ranges[-1]
+    gate = nodes[f"{_POSE_TENSORS}GateCalculator_1"]
+    gate.input_stream.remove(f"{_POSE_TENSORS}segmentation_tensor")
+    gate.output_stream.remove(f"{_POSE_TENSORS}ensured_segmentation_tensor")
+
+
+def _look_for_the_face_only_where_it_is_lost(configuration: Any) -> None:
+    """Follow a face that was in the image before, as the pose is followed.
+
+    The packaged graph looks for the face in every image, by a network that takes more than a millisecond, and
+    mostly goes on from the last image all the same. Here the body says whether the followed face is still its
+    own, and where the face is if it is not: eyes, ears and mouth span 0.48 of the square that suits the
+    network, a third of the one to look for a face in.
+    """
+    for node in configuration.node:
+        if node.name == f"{_FACE}facetracking__RoiTrackingCalculator":
+            options = node.options.Extensions[RoiTrackingCalculatorOptions.ext]
+            options.ClearField("rect_requirements")  # the body knows the face's place, not its outline
+            _rename(node.input_stream, f"{_FACE}face_roi_from_detection", "followed_face_by_body")
+            _rename(node.output_stream, f"{_FACE}face_tracking_roi", "followed_face")
+        elif f"NORM_RECT:{_FACE}face_roi_from_pose" in node.input_stream:
+            _rename(node.input_stream, f"{_FACE}face_roi_from_pose", "lost_face_by_body")
+    added = f"""
+        node {{
+            calculator: "PacketPresenceCalculator"
+            input_stream: "PACKET:{_FACE}facetracking__prev_face_landmarks"
+            output_stream: "PRESENCE:face_is_followed"
+        }}
+        node {{
+            calculator: "RectTransformationCalculator"
+            input_stream: "NORM_RECT:{_FACE}face_roi_from_pose"
+            input_stream: "IMAGE_SIZE:{_FACE}image_size"
+            output_stream: "face_by_body"
+            options {{
+                [mediapipe.RectTransformationCalculatorOptions.ext] {{
+                    scale_x: 0.7 scale_y: 0.7 shift_y: -0.05 square_long: true
+                }}
+            }}
+        }}
+        node {{
+            calculator: "GateCalculator"
+            input_stream: "face_by_body"
+            input_stream: "ALLOW:face_is_followed"
+            output_stream: "followed_face_by_body"
+        }}
+        node {{
+            calculator: "GateCalculator"
+            input_stream: "{_FACE}face_roi_from_pose"
+            input_stream: "DISALLOW:face_is_followed"
+            output_stream: "lost_face_by_body"
+        }}
+        node {{
+            calculator: "MergeCalculator"
+            input_stream: "followed_face"
+            input_stream: "{_FACE}face_roi_from_detection"
+            output_stream: "{_FACE}face_tracking_roi"
+        }}
+    """
+    configuration.node.extend(text_format.Parse(added, type(configuration)()).node)
+
+
+def _look_at_hands_only_when_told(configuration: Any) -> None:
+    """Begin with a hand only where its stream of LOOKS says so."""
+    for side in ("left", "right"):
+        by_body = f"handlandmarksleftandrightcpu__{side}_hand_landmarks_from_pose"
+        for node in configuration.node:
+            _rename(node.input_stream, by_body, f"{side}_hand_to_look_at")
+        look = LOOKS[f"{side}_hand"]
+        configuration.input_stream.append(look)
+        gate = configuration.node.add(calculator="GateCalculator")
+        gate.input_stream.extend([by_body, f"ALLOW:{look}"])
+        gate.output_stream.append(f"{side}_hand_to_look_at")
+
+
+def _rename(streams: Any, name: str, new: str) -> None:
+    """Let a node read or write another stream under the same tag."""
+    for i, entry in enumerate(streams):
+        tag, colon, stream = entry.rpartition(":")
+        if stream == name:
+            streams[i] = f"{tag}{colon}{new}"

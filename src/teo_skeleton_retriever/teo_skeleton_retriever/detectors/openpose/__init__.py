@@ -1,0 +1,1 @@
+"""OpenPose's files of keypoints, as it writes them or beside a recording."""

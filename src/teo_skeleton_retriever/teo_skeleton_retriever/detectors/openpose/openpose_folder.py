@@ -1,0 +1,92 @@
+"""The folder into which OpenPose writes a file of keypoints for each image, while it still writes."""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose.openpose_reader import read_frame
+from teo_skeleton_retriever.errors import DetectorError, OpenPoseFormatError
+
+_NAME = re.compile(r"(?:^|.*?)(\d+)_keypoints\.json")
+"""The frame's number is what the name ends in: `000000000012_keypoints.json`, `video_12_keypoints.json`."""
+_HALF_WRITTEN = frozenset({"not_json", "not_text"})
+"""How a file looks that is still being written; nothing else of it can be right."""
+_SETTLED_NS = 100_000_000
+"""A folder's time of change is coarse (jiffies, or 10 ms on some file systems): one that changed just now may
+change again without telling."""
+PERIOD = 0.01
+"""Between two looks at the folder [s]; short beside the 0.2 s that OpenPose takes for an image."""
+
+
+class OpenPoseFolder:
+    """Finds files by frame number and reads them when they are whole.
+
+    Args:
+        folder: what `--write_json` was given.
+
+    Raises:
+        DetectorError: there is no such folder.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._scanned_ns = -1
+        self._files: dict[int, Path] = {}
+        self._names: set[str] = set()
+        self.files()
+
+    def files(self) -> Mapping[int, Path]:
+        """Give the files by frame number, whole or not; looks only if the folder has changed.
+
+        Raises:
+            DetectorError: the folder is gone or cannot be read, or a name carries no number.
+        """
+        try:
+            changed_ns = self._folder.stat().st_mtime_ns
+            if changed_ns != self._scanned_ns:
+                with os.scandir(self._folder) as entries:  # ten thousand files in a few milliseconds
+                    for entry in entries:
+                        self._add(entry.name)
+                # Coarse times: believe them only when they are old.
+                self._scanned_ns = changed_ns if time.time_ns() - changed_ns > _SETTLED_NS else -1
+        except OSError as error:
+            raise DetectorError(
+                "no_folder", f"{self._folder}: expected a folder of OpenPose's files, got: {error.strerror}"
+            ) from error
+        return self._files
+
+    def read(self, path: Path) -> OpenPoseFrame | None:
+        """Read a file; None if it is not whole yet.
+
+        Raises:
+            DetectorError: it is whole and not OpenPose's.
+        """
+        try:
+            return read_frame(path)
+        except OpenPoseFormatError as error:
+            if error.code in _HALF_WRITTEN:
+                return None
+            raise DetectorError("bad_file", error.sentence) from error
+
+    def _add(self, name: str) -> None:
+        if name in self._names or name.startswith(".") or not name.endswith("_keypoints.json"):
+            return
+        match = _NAME.fullmatch(name)
+        if match is None:
+            raise DetectorError(
+                "no_number", f"{self._folder / name}: expected a name that ends in a frame number"
+            )
+        number = int(match[1])
+        if number in self._files:
+            raise DetectorError(
+                "two_series",
+                f"{self._folder}: expected one file of number {number}, got {self._files[number].name} "
+                f"and {name}; take a folder for each recording",
+            )
+        self._names.add(name)
+        self._files[number] = self._folder / name

@@ -1,0 +1,141 @@
+"""OpenPose beside us: its files, read as it writes them, or beside a recording."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
+from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointScale
+from teo_skeleton_retriever.detectors.openpose.openpose_folder import PERIOD, OpenPoseFolder
+from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose.stamp_table import StampTable
+from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+Found = TypeVar("Found")
+PAIRINGS = ("order", "stamp", "newest")
+
+
+class OpenPoseJsonDetector:
+    """Gives what OpenPose wrote for an image. The image itself is looked at for its size only.
+
+    How a file is found that belongs to an image:
+
+    - `order`: the first image is the file of the lowest number, each following one that of the next number.
+      For a folder beside a recording, and live where OpenPose sees every image that comes here.
+    - `stamp`: by a table of the time of each number.
+    - `newest`: the newest file that is whole and was not given before. For a camera that both watch; the
+      keypoints are those of some image shortly before, which suits slow movements only.
+
+    A frame that OpenPose left out is one without people; `missing` counts them.
+
+    Args:
+        folder: what OpenPose's `--write_json` was given.
+        pairing: `order`, `stamp` or `newest`. Default: `stamp` if there are stamps, else `order`.
+        stamps: the table for `stamp`; see `StampTable`.
+        wait: how long a file is waited for that is not there, or not whole, yet [s]. OpenPose takes about
+            0.2 s for an image on a good GPU.
+        keypoint_scale: what OpenPose was given; see `KeypointScale`.
+        resolution: likewise.
+
+    Raises:
+        DetectorError: no such folder, or options that do not go together.
+    """
+
+    name = "openpose_json"
+    images_at_once = 1
+
+    def __init__(
+        self,
+        *,
+        folder: str | Path,
+        pairing: str | None = None,
+        stamps: Mapping[int, float] | Mapping[str, float] | str | Path | None = None,
+        wait: float = 1.0,
+        keypoint_scale: int = 0,
+        resolution: Sequence[int] | None = None,
+    ) -> None:
+        pairing = pairing or ("order" if stamps is None else "stamp")
+        if pairing not in PAIRINGS or (pairing == "stamp") != (stamps is not None):
+            raise DetectorError(
+                "bad_option",
+                f"expected a pairing of {', '.join(PAIRINGS)}, and stamps for 'stamp' alone, got {pairing!r} "
+                f"{'without' if stamps is None else 'with'} stamps",
+            )
+        if not 0.0 <= wait < float("inf"):
+            raise DetectorError("bad_option", f"wait: expected a time [s], got {wait}")
+        self._folder = OpenPoseFolder(Path(folder))
+        self._table = None if stamps is None else StampTable(stamps)
+        self._scale = KeypointScale(keypoint_scale, resolution)
+        self._wait = wait
+        self._newest = pairing == "newest"
+        # What is there already was written before this began.
+        self._last = max(self._folder.files(), default=-1) if self._newest else None
+        self._closed = False
+        self.missing = 0
+
+    def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
+        """Give the people of the image; see `Detector.detect`.
+
+        Raises:
+            DetectorError: a file did not come or was not whole in time, or is not OpenPose's. The next image
+                is paired with its own file all the same.
+        """
+        if self._closed:
+            raise DetectorError("closed", "expected an open detector, got one that was closed")
+        check_image(image, stamp)
+        frame = self._frame(stamp)
+        height, width = image.shape[:2]
+        return tuple(self._scale.to_pixels(person, width, height) for person in frame.people)
+
+    def close(self) -> None:
+        """Give nothing any more."""
+        self._closed = True
+
+    def _frame(self, stamp: float) -> OpenPoseFrame:
+        if self._newest:
+            return self._within_wait(self._read_newest, "a new file")
+        number = self._next_number() if self._table is None else self._table.number_at(stamp)
+        if number is None:
+            return self._left_out()
+        return self._within_wait(lambda: self._read(number), f"the file of frame {number}")
+
+    def _within_wait(self, look: Callable[[], Found | None], what: str) -> Found:
+        deadline = time.monotonic() + self._wait
+        while (found := look()) is None:
+            if time.monotonic() >= deadline:
+                raise DetectorError("late", f"expected {what}, whole, within {self._wait} s; got none")
+            time.sleep(PERIOD)
+        return found
+
+    def _next_number(self) -> int:
+        if self._last is None:
+            self._last = -1 + self._within_wait(
+                lambda: min(self._folder.files(), default=None), "a first file"
+            )
+        self._last += 1
+        return self._last
+
+    def _read(self, number: int) -> OpenPoseFrame | None:
+        files = self._folder.files()
+        if number in files:
+            return self._folder.read(files[number])
+        # OpenPose writes in order: what a later file has overtaken does not come any more.
+        return self._left_out() if any(other > number for other in files) else None
+
+    def _read_newest(self) -> OpenPoseFrame | None:
+        assert self._last is not None
+        files = self._folder.files()
+        for number in sorted((number for number in files if number > self._last), reverse=True):
+            frame = self._folder.read(files[number])
+            if frame is not None:
+                self._last = number
+                return frame
+        return None
+
+    def _left_out(self) -> OpenPoseFrame:
+        self.missing += 1
+        return OpenPoseFrame(())

@@ -1,0 +1,47 @@
+"""Bodies of every layout that a detector gives, as BODY_25."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.coco_18 import COCO_18, body_25_from_coco_18
+from teo_skeleton_retriever.layouts.midpoint import midpoint
+
+_MPI: tuple[str | None, ...] = (
+    *(None, "Neck"),  # the top of the head is no keypoint of BODY_25
+    *("RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist"),
+    *("RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle"),
+    None,  # nor is the chest
+)
+"""The 15 keypoints of OpenPose's MPI model. Source: `poseParameters.cpp` of OpenPose 1.7."""
+
+
+def as_body_25(body: FloatArray) -> FloatArray:
+    """Bring a body into BODY_25.
+
+    Args:
+        body: x, y [px], confidence, in BODY_25, COCO or MPI; or no rows. Shape (n, 3).
+
+    Returns:
+        x, y [px], confidence; absent keypoints are zero. Shape (25, 3).
+
+    Raises:
+        KeypointError: another number of keypoints.
+    """
+    if len(body) == len(BODY_25):
+        return body
+    if len(body) == len(COCO_18):
+        return body_25_from_coco_18(body)
+    out = np.zeros((len(BODY_25), 3))
+    if len(body) == 0:
+        return out
+    if len(body) != len(_MPI):
+        raise KeypointError("wrong_layout", f"expected BODY_25, COCO or MPI, got {len(body)} keypoints")
+    for name, row in zip(_MPI, body, strict=True):
+        if name is not None:
+            out[BODY_25.index[name]] = row
+    out[BODY_25.index["MidHip"]] = midpoint(out[BODY_25.index["RHip"]], out[BODY_25.index["LHip"]])
+    return out

@@ -1,0 +1,55 @@
+"""All keypoints of a person in one array, and what is known of each before any is seen."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.face_70 import FACE_70
+from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+
+BODY = slice(0, len(BODY_25))
+LEFT_HAND = slice(BODY.stop, BODY.stop + len(HAND_21))
+RIGHT_HAND = slice(LEFT_HAND.stop, LEFT_HAND.stop + len(HAND_21))
+FACE = slice(RIGHT_HAND.stop, RIGHT_HAND.stop + len(FACE_70))
+N = FACE.stop
+
+ROW = BODY_25.index
+ARMS: dict[str, list[int]] = {
+    side: [ROW[f"{side}{joint}"] for joint in ("Shoulder", "Elbow", "Wrist")] for side in ("L", "R")
+}
+"""Rows of shoulder, elbow and wrist on the left and on the right."""
+HANDS = {"L": LEFT_HAND, "R": RIGHT_HAND}
+
+
+def _each(body: float, hands: float, face: float, **joints: float) -> FloatArray:
+    values = np.concatenate([np.full(len(BODY_25), body), np.full(42, hands), np.full(70, face)])
+    for name, value in joints.items():
+        for row, keypoint in enumerate(BODY_25.keypoints):
+            if keypoint.endswith(name):
+                values[row] = value
+    return values
+
+
+RADIUS = _each(0.03, 0.008, 0.01)
+"""[m] Around a keypoint that depth is looked at: half a wrist, a finger, half an eye."""
+GAP = _each(0.06, 0.03, 0.05)
+"""[m] Depths that are this far apart belong to different surfaces: less than from forearm to chest, from a
+finger to the other hand, from a hand to the face."""
+ACCELERATION = _each(5.0, 25.0, 6.0, Elbow=12.0, Wrist=25.0)
+"""[m/s^2] Usual standard deviation: a stroke of a sign is 0.3 m in 0.2 s, a nod 5 cm in 0.2 s."""
+SPEED = _each(1.0, 5.0, 1.0, Elbow=3.0, Wrist=5.0)
+"""[m/s] Which nobody exceeds: fast strokes of signs were seen at 2 to 3 m/s, a nod at 0.5 m/s."""
+ACROSS = _each(0.005, 0.004, 0.003)
+"""[m] How the detector's keypoints jump across the ray from image to image."""
+PIXEL = _each(0.5, 0.5, 0.4)
+"""[px] And no less than this."""
+DRIFT = _each(0.3, 1.2, 0.3, Elbow=0.8, Wrist=1.2)
+"""[m/s] How fast a keypoint that is not seen may get away from where it is thought to be: people sway, wrists
+are on their way to the next sign."""
+JUMP = _each(0.015, 0.012, 0.01)
+"""[m] How far off where it is believed a keypoint may be seen all the time, for constant offsets."""
+BIAS: FloatArray = np.column_stack([_each(0.015, 0.009, 0.006), _each(0.015, 0.012, 0.008)])
+"""[m] Standard deviations across the ray and along it of what no averaging removes: how detector and skin
+differ from person to person and from pose to pose."""

@@ -1,0 +1,95 @@
+"""People in space as the retriever gives them: keypoints, each with how far it is to be trusted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import FloatArray, frozen
+from teo_skeleton_retriever.layouts.body_frame import BodyFrame
+
+
+class KeypointStatus(IntEnum):
+    """Where the place of a keypoint comes from."""
+
+    LOST = 0
+    """not known: never seen, or not for too long"""
+    MEASURED = 1
+    """seen by the detector, and its depth measured"""
+    HELD = 2
+    """not seen now, where it was last or is by the keypoints around it"""
+    OPTIMISED = 3
+    """seen by the detector; its depth follows from the lengths of limbs or the shape of the hand"""
+
+
+@dataclass(frozen=True, eq=False)
+class Keypoints3D:
+    """The keypoints of one part of a person, in the order of its layout.
+
+    Attributes:
+        points: centres of the joints in the camera's optical frame (x right, y down, z forward) [m]; NaN
+            where lost. Shape (n, 3).
+        confidence: of the detector, 0 to 1; 0 where lost. Shape (n,).
+        status: of `KeypointStatus`. Shape (n,).
+        sigma: standard deviation along x, y and z [m]; NaN where lost. Shape (n, 3).
+        pixels: where the detector saw it [px]; NaN where it did not. Shape (n, 2).
+    """
+
+    points: FloatArray
+    confidence: FloatArray
+    status: NDArray[np.uint8]
+    sigma: FloatArray
+    pixels: FloatArray
+
+    def __post_init__(self) -> None:
+        for name in ("points", "confidence", "sigma", "pixels"):
+            object.__setattr__(self, name, frozen(getattr(self, name)))
+        status = np.array(self.status, dtype=np.uint8)
+        status.flags.writeable = False
+        object.__setattr__(self, "status", status)
+
+    @classmethod
+    def lost(cls, n: int) -> Keypoints3D:
+        """Give n keypoints of which nothing is known."""
+        return cls(
+            points=np.full((n, 3), np.nan),
+            confidence=np.zeros(n),
+            status=np.zeros(n, dtype=np.uint8),
+            sigma=np.full((n, 3), np.nan),
+            pixels=np.full((n, 2), np.nan),
+        )
+
+    def part(self, rows: slice) -> Keypoints3D:
+        """Keep some of the keypoints."""
+        return Keypoints3D(
+            self.points[rows], self.confidence[rows], self.status[rows], self.sigma[rows], self.pixels[rows]
+        )
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Skeleton:
+    """One person at the time of one image.
+
+    Attributes:
+        track_id: stays with the person through crossings and gaps; never given to another.
+        is_signer: whether this is the one person whose signing is followed.
+        body: in BODY_25.
+        left_hand: in HAND_21, the person's own left.
+        right_hand: likewise.
+        face: in FACE_70.
+        body_frame: the person's own frame, x out of the chest; None while the shoulders are not known.
+    """
+
+    track_id: int
+    is_signer: bool
+    body: Keypoints3D
+    left_hand: Keypoints3D
+    right_hand: Keypoints3D
+    face: Keypoints3D
+    body_frame: BodyFrame | None

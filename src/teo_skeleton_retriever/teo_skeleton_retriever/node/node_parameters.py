@@ -1,0 +1,199 @@
+"""The parameters of `retriever_node`, in one table: its own, and those of the retriever."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+
+from teo_common.parameters import ParameterRow, Value
+from teo_skeleton_retriever.detectors import DETECTORS
+from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.image_retriever import COMPAT_MODES
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
+
+DEFAULT_SLOP = 0.017
+"""[s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart."""
+_DETECTOR = "detector"
+TRANSPORTS_COLOR = ("auto", "raw", "compressed")
+TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
+
+
+_NODE = (
+    ParameterRow(
+        name="detector",
+        default="mediapipe",
+        choices=DETECTORS,
+        description="What finds people in the colour image.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="detector_options",
+        default=("",),  # ROS could not tell the type of an empty list
+        description="Options of the detector, NAME=VALUE each.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="compat",
+        default="",
+        choices=COMPAT_MODES,
+        description="Whose processing after the detector: ours if empty, or that of the original.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="compat_options",
+        default=("",),
+        description="Parameters of the original, group::name=value each, as in its configuration file.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="color_transport",
+        default="auto",
+        choices=TRANSPORTS_COLOR,
+        description="Which form of the colour image is subscribed to; auto: raw, unless only compressed is "
+        "published.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="depth_transport",
+        default="auto",
+        choices=TRANSPORTS_DEPTH,
+        description="Which form of the depth image is subscribed to; likewise.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="rectified",
+        default=False,
+        description="Whether the images were rectified, and so have the projection of P and no distortion.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="slop",
+        default=DEFAULT_SLOP,
+        low=0.0,
+        high=1.0,
+        description="Greatest difference between the stamps of colour and depth [s]; with more than half the "
+        "time between images the depth of another image could be taken.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="queue_size",
+        default=5,
+        low=1,
+        high=100,
+        description="Images that wait for their depth: a sixth of a second at 30 Hz.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="period",
+        default=0.0,
+        low=0.0,
+        high=60.0,
+        description="Least time between images that are processed [s]; 0 takes every one.",
+    ),
+)
+
+
+def _retriever_rows() -> tuple[ParameterRow, ...]:
+    defaults = RetrieverParameters()
+    return tuple(
+        ParameterRow(
+            name=name,
+            default=getattr(defaults, name),
+            low=info.lowest,
+            high=info.highest,
+            choices=info.choices,
+            description=info.description + (f" [{info.unit}]" if info.unit else ""),
+        )
+        for name, info in parameter_info().items()
+        if name != _DETECTOR  # the node has one of its own, from which this follows
+    )
+
+
+PARAMETERS = (*_NODE, *_retriever_rows())
+
+
+def retriever_parameters_from(values: Mapping[str, Value], detector: str) -> RetrieverParameters:
+    """Give the retriever's parameters.
+
+    Args:
+        values: by name; others than the retriever's do not matter.
+        detector: name of the one that is used.
+
+    Raises:
+        ParameterError: a value is wrong, or two do not go together.
+    """
+    chosen: dict[str, Value] = {row.name: values[row.name] for row in _retriever_rows()}
+    if _DETECTOR in parameter_info():
+        known = detector in parameter_info()[_DETECTOR].choices
+        chosen[_DETECTOR] = detector if known else "other"
+    return RetrieverParameters(**chosen)  # type: ignore[arg-type]  # checked by the class itself
+
+
+def check_choices(values: Mapping[str, Value]) -> None:
+    """Check what ROS does not: words among allowed ones.
+
+    Raises:
+        ParameterError: a word is none of those allowed.
+    """
+    for row in PARAMETERS:
+        if row.choices and values[row.name] not in row.choices:
+            raise ParameterError(
+                "unknown_choice", f"{row.name}: expected one of {row.choices}, got {values[row.name]!r}"
+            )
+
+
+def detector_options_from(words: Sequence[str]) -> dict[str, object]:
+    """Read the options of a detector.
+
+    Args:
+        words: NAME=VALUE each, where the value is JSON or else text; empty ones do not matter.
+
+    Raises:
+        ParameterError: a word is not of this form.
+    """
+    options: dict[str, object] = {}
+    for word in filter(None, words):
+        name, found, text = word.partition("=")
+        if not (found and name.isidentifier()):
+            raise ParameterError("bad_option", f"expected NAME=VALUE as detector option, got {word!r:.80}")
+        try:
+            options[name] = json.loads(text)
+        except json.JSONDecodeError:
+            options[name] = text
+    return options
+
+
+def parameters_from_words(words: Sequence[str], *, detector: str, one_image: bool) -> RetrieverParameters:
+    """Give the retriever's parameters from words as typed on a command line.
+
+    Args:
+        words: NAME=VALUE each.
+        detector: name of the one that is used.
+        one_image: whether there is just one image, in which a person must be taken at first sight.
+
+    Raises:
+        ParameterError: a name or a value is wrong, or two do not go together.
+    """
+    values: dict[str, Value] = {row.name: row.default for row in _retriever_rows()}
+    if one_image:
+        values["newcomer_images"] = 1
+    for word in words:
+        name, found, text = word.partition("=")
+        if not found or name not in values:
+            raise ParameterError(
+                "unknown_parameter", f"expected NAME=VALUE with a name of {', '.join(values)}; got {word!r}"
+            )
+        values[name] = _value_of(name, text, type(values[name]))
+    return retriever_parameters_from(values, detector)
+
+
+def _value_of(name: str, text: str, kind: type) -> Value:
+    if kind is bool and text.lower() in ("true", "false"):
+        return text.lower() == "true"
+    try:
+        if kind is not bool:
+            value: Value = kind(text)
+            return value
+    except ValueError:
+        pass
+    raise ParameterError("wrong_type", f"{name}: expected a value of type {kind.__name__}, got {text!r}")

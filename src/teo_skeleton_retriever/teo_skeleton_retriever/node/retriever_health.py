@@ -1,0 +1,94 @@
+"""What the node says about itself."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple
+
+from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.node.stream_stats import Percentiles, StreamReport
+
+_SILENCE = 2.0  # [s] without a message, after which a topic counts as silent: many images of any camera
+_SLOW = 0.9  # a tenth fewer results than images: beyond the jitter of a busy machine
+
+
+class Level(IntEnum):
+    """Levels of diagnostic_msgs/DiagnosticStatus."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+
+
+class Problem(NamedTuple):
+    """Why an image could not be processed."""
+
+    code: str
+    sentence: str
+
+    @classmethod
+    def of(cls, error: Exception) -> Problem:
+        """Name an error; one that is none of ours is a fault of the node."""
+        if isinstance(error, RetrieverError):
+            return cls(error.code, error.sentence)
+        return cls("internal", f"fault in the node: {type(error).__name__}: {error}")
+
+
+class Health(NamedTuple):
+    """One line for people, and the values."""
+
+    level: Level
+    message: str
+    values: dict[str, str]
+
+
+def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None) -> Health:
+    """Judge how the node fares.
+
+    Args:
+        report: of the streams.
+        topics: name of the topic of each stream that must come.
+        problem: of an image since the last time, None if there was none.
+    """
+    level, message = Level.OK, f"{report.rates['results']:.1f} images per second"
+    silent = [topic for stream, topic in topics.items() if report.silent[stream] > _SILENCE]
+    if problem is not None:
+        level = Level.ERROR if problem.code == "internal" else Level.WARN
+        message = f"{problem.code}: {problem.sentence}"
+    elif silent:
+        level, message = Level.WARN, f"nothing comes on {', '.join(silent)}"
+    elif report.depth_share == 0.0:
+        level, message = Level.WARN, "no_depth_measured: no pixel of the depth image has a depth"
+    elif report.rates["results"] < _SLOW * report.rates["color"]:
+        level = Level.WARN
+        message = (
+            f"{report.rates['results']:.1f} of {report.rates['color']:.1f} images per second: "
+            "too slow, or depth does not match"
+        )
+    return Health(level, message, _values(report))
+
+
+def _values(report: StreamReport) -> dict[str, str]:
+    values = {f"{name} [Hz]": f"{rate:.1f}" for name, rate in report.rates.items()}
+    for name, times in {
+        "arrival to result": report.delay,
+        "image stamp to result": report.age,
+        "detector": report.detector,
+        "own time": report.own,
+    }.items():
+        values |= _milliseconds(name, times)
+    values |= {
+        "results": str(report.results),
+        "people": str(report.people),
+        "signer": "" if report.signer is None else str(report.signer),
+        "depth known [%]": f"{100.0 * report.depth_share:.0f}",
+        "dropped": str(sum(report.dropped.values())),
+    }
+    return values | {f"dropped {reason}": str(count) for reason, count in sorted(report.dropped.items())}
+
+
+def _milliseconds(name: str, times: Percentiles) -> dict[str, str]:
+    return {
+        f"{name}, median [ms]": f"{times.median * 1e3:.1f}",
+        f"{name}, p99 [ms]": f"{times.p99 * 1e3:.1f}",
+    }

@@ -1,0 +1,1 @@
+"""Skeletons for others: messages, markers, JSON, bags, pictures and films."""

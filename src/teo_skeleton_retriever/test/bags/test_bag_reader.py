@@ -1,0 +1,177 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import bag_take
+import camera_take as take
+import numpy as np
+import pytest
+from rosbags.rosbag2 import StoragePlugin
+
+from teo_skeleton_retriever.bags.bag_images import BagImages
+from teo_skeleton_retriever.bags.bag_reader import Bag
+from teo_skeleton_retriever.bags.topic_choice import choose_topics
+from teo_skeleton_retriever.camera.image_messages import color_of, stamp_of
+from teo_skeleton_retriever.errors import BagError
+
+IMAGES = 10
+SLOP = 10**7
+
+
+def write(folder: Path, kind: str, *, compressed: bool = False) -> Path:
+    stored = list(bag_take.messages(IMAGES, compressed=compressed))
+    match kind:
+        case "ros1":
+            return bag_take.write_ros1(folder / "take.bag", stored)
+        case "ros1 packed":
+            return bag_take.write_ros1(folder / "take.bag", stored, packed=True)
+        case "sqlite":
+            return bag_take.write_ros2(folder / "take", stored, StoragePlugin.SQLITE3)
+    return bag_take.write_ros2(folder / "take", stored)
+
+
+def images_of(path: Path) -> list[int]:
+    bag = Bag(path)
+    return [found.stamp for found in BagImages(bag, choose_topics(bag), slop=SLOP).images()]
+
+
+@pytest.mark.parametrize("kind", ["ros1", "ros1 packed", "sqlite", "mcap"])
+@pytest.mark.parametrize("compressed", [False, True])
+def test_every_kind_of_bag_gives_its_images_depths_and_cameras(tmp_path, kind, compressed):
+    bag = Bag(write(tmp_path, kind, compressed=compressed))
+    found = list(BagImages(bag, choose_topics(bag), slop=SLOP).images())
+    assert [one.stamp for one in found] == [take.START + i * take.PERIOD for i in range(IMAGES)]
+    np.testing.assert_array_equal(found[3].image.color, take.color())
+    np.testing.assert_allclose(found[3].image.depth, take.depth(), atol=1e-6)
+    assert (found[3].image.camera.fx, found[3].frame_id) == (take.FOCAL, take.FRAME_ID)
+    assert bag.problem == ""
+
+
+def test_a_single_file_of_a_bag_is_a_bag(tmp_path):
+    folder = write(tmp_path, "mcap")
+    assert len(images_of(folder / "take.mcap")) == IMAGES
+    (folder / "metadata.yaml").unlink()
+    assert len(images_of(folder)) == IMAGES
+
+
+@pytest.mark.parametrize("kind", ["ros1", "ros1 packed", "sqlite", "mcap"])
+@pytest.mark.parametrize("share", [0.9, 0.6])
+def test_a_bag_that_was_cut_off_gives_what_is_there_and_says_so(tmp_path, kind, share):
+    path = write(tmp_path, kind)
+    file = path if path.is_file() else next(f for f in path.iterdir() if f.suffix in (".db3", ".mcap"))
+    bag = Bag(bag_take.cut(file, share))
+    assert bag.problem.startswith("cut off")
+    found = [stamp_of(one.message) for one in bag.messages([bag_take.COLOR])]
+    assert found == [take.START + i * take.PERIOD for i in range(len(found))]
+    # Of MCAP and packed files, whole chunks of a megabyte, here of two to four images.
+    assert len(found) >= (1 if "packed" in kind else IMAGES * share - 4)
+    np.testing.assert_array_equal(color_of(bag.first(bag_take.COLOR)), take.color())
+
+
+@pytest.mark.parametrize("kind", ["ros1", "mcap", "sqlite"])
+def test_no_cut_anywhere_does_more_than_shorten(tmp_path, kind):
+    path = write(tmp_path, kind)
+    file = path if path.is_file() else next(f for f in path.iterdir() if f.suffix in (".db3", ".mcap"))
+    for share in np.random.default_rng(0).random(12):
+        try:
+            assert len(list(Bag(bag_take.cut(file, share)).messages([bag_take.DEPTH]))) <= IMAGES
+        except BagError as refused:
+            assert refused.code == "unreadable_bag"
+
+
+def test_a_message_that_is_not_of_its_type_is_left_out_and_told(tmp_path):
+    stored = list(bag_take.messages(4))
+    topic, _, time, _ = stored[1]
+    stored.insert(2, (topic, bag_take.IMAGE, time + 1, take.camera_info(0)))
+    bag = Bag(bag_take.write_ros2(tmp_path / "take", stored))
+    assert len(list(bag.messages([bag_take.COLOR]))) == 4
+    assert bag_take.COLOR in bag.problem
+
+
+@pytest.mark.parametrize("content", [b"", b"#ROSBAG V1.2\n", b"#ROSBAG V2.0\n", b"\x00" * 5000])
+@pytest.mark.parametrize("suffix", [".bag", ".mcap", ".db3"])
+def test_what_is_no_bag_is_refused(tmp_path, content, suffix):
+    path = tmp_path / f"take{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(BagError) as refused:
+        Bag(path)
+    assert refused.value.code == "unreadable_bag"
+
+
+def test_a_missing_bag_and_another_file_are_refused(tmp_path):
+    with pytest.raises(BagError, match="missing_bag"):
+        Bag(tmp_path / "none")
+    (tmp_path / "take.txt").write_text("hello")
+    with pytest.raises(BagError, match="no_bag"):
+        Bag(tmp_path / "take.txt")
+    with pytest.raises(BagError, match="unreadable_bag"):
+        Bag(tmp_path)  # a folder without a bag
+
+
+def renamed(stored: list[bag_take.Stored], names: dict[str, str]) -> list[bag_take.Stored]:
+    return [(names.get(topic, topic), kind, time, message) for topic, kind, time, message in stored]
+
+
+def test_topics_of_other_names_are_found_by_what_they_hold(tmp_path):
+    names = {bag_take.COLOR: "/rgb/image", bag_take.DEPTH: "/d", bag_take.INFO: "/k"}
+    bag = Bag(bag_take.write_ros2(tmp_path / "take", renamed(list(bag_take.messages(2)), names)))
+    assert choose_topics(bag) == ("/rgb/image", "/d", "/k")
+
+
+def test_the_usual_names_and_aligned_depth_come_first_and_infrared_last(tmp_path):
+    more = [
+        (
+            "/camera/infra1/image_rect_raw",
+            bag_take.IMAGE,
+            1,
+            take.image_message(take.color()[:, :, 0].copy(), "mono8", 1),
+        ),
+        ("/camera/depth/image_rect_raw", bag_take.IMAGE, 1, take.depth_message(1)),
+        ("/camera/depth/camera_info", bag_take.CAMERA_INFO, 1, take.camera_info(1)),
+    ]
+    usual = list(bag_take.messages(2))
+    bag = Bag(bag_take.write_ros2(tmp_path / "usual", more + usual))
+    assert choose_topics(bag) == (bag_take.COLOR, bag_take.DEPTH, bag_take.INFO)
+    names = {
+        bag_take.COLOR: "/left/color/image",
+        bag_take.DEPTH: "/left/depth_registered/image",
+        bag_take.INFO: "/left/color/camera_info",
+    }
+    bag = Bag(bag_take.write_ros2(tmp_path / "other", more + renamed(usual, names)))
+    assert choose_topics(bag) == (
+        "/left/color/image",
+        "/left/depth_registered/image",
+        "/left/color/camera_info",
+    )
+
+
+def test_topics_that_are_missing_or_not_clear_are_told(tmp_path):
+    stored = list(bag_take.messages(2))
+    twice = renamed(stored, {bag_take.COLOR: "/a"}) + renamed(stored[1:2], {bag_take.COLOR: "/b"})
+    bag = Bag(bag_take.write_ros2(tmp_path / "twice", twice))
+    with pytest.raises(BagError) as refused:
+        choose_topics(bag)
+    assert (refused.value.code, "/a, /b" in refused.value.sentence) == ("ambiguous_color", True)
+    assert choose_topics(bag, color="b").color == "/b"
+    with pytest.raises(BagError, match="unknown_topic"):
+        choose_topics(bag, color="/c")
+    bag = Bag(bag_take.write_ros2(tmp_path / "none", [one for one in stored if one[0] != bag_take.DEPTH]))
+    with pytest.raises(BagError, match="no_depth"):
+        choose_topics(bag)
+
+
+def test_images_before_the_first_camera_info_are_used(tmp_path):
+    stored = list(bag_take.messages(5))
+    late = [one for one in stored if one[0] != bag_take.INFO] + [stored[-3]]
+    assert len(images_of(bag_take.write_ros2(tmp_path / "take", late))) == 5
+
+
+def test_images_that_cannot_be_used_are_counted_with_a_reason(tmp_path):
+    stored = list(bag_take.messages(5))
+    stored[4] = (*stored[4][:3], take.color_message(stored[4][2], encoding="odd"))
+    del stored[8]
+    bag = Bag(bag_take.write_ros2(tmp_path / "take", stored))
+    reader = BagImages(bag, choose_topics(bag), slop=SLOP)
+    assert len(list(reader.images())) == 3
+    assert reader.dropped == {"wrong_encoding": 1, "no_depth": 1}
+    assert "odd" in reader.reasons["wrong_encoding"]

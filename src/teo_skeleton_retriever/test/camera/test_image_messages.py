@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import camera_take as take
+import numpy as np
+import pytest
+from sensor_msgs.msg import CameraInfo, RegionOfInterest
+
+from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, shows_depth, stamp_of
+from teo_skeleton_retriever.errors import CameraError
+
+
+def test_messages_become_the_arrays_they_were_made_from():
+    np.testing.assert_array_equal(color_of(take.color_message(0)), take.color())
+    np.testing.assert_array_equal(color_of(take.compressed_color(0)), take.color())
+    np.testing.assert_allclose(depth_of(take.depth_message(0)), take.depth(), atol=1e-6)
+    np.testing.assert_allclose(depth_of(take.compressed_depth(0)), take.depth(), atol=1e-6)
+    metres = take.image_message(take.depth(), "32FC1", 0)
+    np.testing.assert_array_equal(depth_of(metres), take.depth())
+    swapped = take.image_message((take.depth() * 1000).astype(">u2"), "16UC1", 0, is_bigendian=1)
+    np.testing.assert_allclose(depth_of(swapped), take.depth(), atol=1e-6)
+
+
+def test_a_stamp_is_in_nanoseconds():
+    assert stamp_of(take.color_message(1_700_000_000_123_456_789)) == 1_700_000_000_123_456_789
+
+
+def test_colour_and_depth_are_told_apart():
+    assert shows_depth(take.depth_message(0))
+    assert shows_depth(take.compressed_depth(0))
+    assert shows_depth(take.color_message(0)) is False
+    assert shows_depth(take.compressed_color(0)) is False
+    assert shows_depth(take.color_message(0, encoding="bayer_grbg8")) is None
+
+
+def test_the_camera_is_read():
+    camera = camera_of(take.camera_info(0))
+    assert (camera.width, camera.height, camera.fx, camera.cy) == (320, 240, 300.0, 119.5)
+    assert camera.distortion_model == ""  # coefficients of zero
+
+
+def test_distortion_is_kept_and_goes_where_the_images_are_rectified():
+    info = take.camera_info(0, d=[0.1, -0.2, 0.001, 0.002, 0.05])
+    info.p = [250.0, 0.0, 150.0, 0.0, 0.0, 251.0, 110.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    np.testing.assert_allclose(camera_of(info).distortion[:5], [0.1, -0.2, 0.001, 0.002, 0.05])
+    rectified = camera_of(info, rectified=True)
+    assert (rectified.fx, rectified.fy, rectified.cx, rectified.cy) == (250.0, 251.0, 150.0, 110.0)
+    assert not rectified.distortion.any()
+
+
+def test_a_model_that_is_not_known_does_not_matter_without_coefficients():
+    assert camera_of(take.camera_info(0, distortion_model="none")).fx == 300.0
+    with pytest.raises(CameraError):
+        camera_of(take.camera_info(0, distortion_model="fisheye", d=[0.1, 0.0, 0.0, 0.0]))
+
+
+def test_a_region_and_binning_move_and_scale_the_image():
+    info = take.camera_info(0, binning_x=2, binning_y=2)
+    info.roi = RegionOfInterest(x_offset=20, y_offset=40, width=160, height=120)
+    camera = camera_of(info)
+    assert (camera.width, camera.height) == (80, 60)
+    point = np.array([[0.1, -0.2, 2.0]])
+    whole = camera_of(take.camera_info(0)).project(point)
+    np.testing.assert_allclose(camera.project(point), (whole - [20, 40]) / 2)
+
+
+def test_an_uncalibrated_camera_is_refused():
+    with pytest.raises(CameraError) as refused:
+        camera_of(CameraInfo(width=320, height=240))
+    assert refused.value.code == "no_focal_length"

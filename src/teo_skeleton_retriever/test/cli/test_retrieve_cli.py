@@ -1,0 +1,168 @@
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import av
+import bag_take
+import camera_take as take
+import cv2
+import numpy as np
+import pytest
+from mcap_ros2.reader import read_ros2_messages
+from rosbags.highlevel import AnyReader
+from typer.testing import CliRunner
+
+from teo_skeleton_retriever.cli.retrieve_cli import _app
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+
+IMAGES = 10
+WRIST = BODY_25.index["RWrist"]
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    return bag_take.write_ros2(tmp_path / "take", list(bag_take.messages(IMAGES)))
+
+
+@pytest.fixture
+def seen(tmp_path: Path) -> list[str]:
+    """Options that replay keypoints instead of looking for them."""
+    folder = bag_take.write_keypoints(tmp_path / "keypoints", IMAGES)
+    return ["--detector", "replay", "--detector-option", f"folder={folder}"]
+
+
+def run(*words: object) -> tuple[int, str, str]:
+    result = CliRunner().invoke(_app, [str(word) for word in words])
+    return result.exit_code, result.stdout, result.stderr
+
+
+def test_a_bag_becomes_a_bag_of_skeletons_that_others_can_read(bag, seen, tmp_path):
+    out = tmp_path / "out.mcap"
+    code, stdout, _ = run(bag, "--out", out, *seen)
+    assert code == 0
+    assert "images" in stdout
+    messages = [one.ros_msg for one in read_ros2_messages(out)]
+    stamps = [m.header.stamp.sec * 10**9 + m.header.stamp.nanosec for m in messages]
+    assert stamps == [take.START + i * take.PERIOD for i in range(IMAGES)]
+    (person,) = messages[-1].skeletons
+    assert person.is_signer
+    assert person.body[WRIST].name == "RWrist"
+    assert 0.0 <= person.body[WRIST].position.z - take.DISTANCE < 0.1
+    assert math.isnan(person.body[BODY_25.index["RAnkle"]].position.x)
+    with AnyReader([out]) as reader:  # checks the hash of the type as well
+        assert [(c.topic, c.msgtype) for c in reader.connections] == [
+            ("/skeletons", "teo_sign_msgs/msg/SkeletonArray")
+        ]
+
+
+def test_the_film_shows_every_image_at_its_time(bag, seen, tmp_path):
+    film = tmp_path / "out.mp4"
+    assert run(bag, "--video", film, *seen)[0] == 0
+    with av.open(str(film)) as container:
+        frames = list(container.decode(video=0))
+    assert len(frames) == IMAGES
+    np.testing.assert_allclose([frame.time for frame in frames], np.arange(IMAGES) / take.RATE, atol=2e-3)
+    shown = frames[-1].to_ndarray(format="rgb24").astype(int)
+    assert np.abs(shown - take.color()).max() > 100  # the skeleton
+
+
+def test_json_is_a_line_for_each_image_and_nothing_else_on_the_output(bag, seen):
+    code, stdout, _ = run(bag, "--json", *seen)
+    lines = [json.loads(line) for line in stdout.splitlines()]
+    assert (code, len(lines)) == (0, IMAGES)
+    wrist = lines[-1]["skeletons"][0]["body"]["RWrist"]
+    assert wrist["status"] in ("measured", "optimised")
+    np.testing.assert_allclose(wrist["pixel"], [130, 155], atol=1e-3)
+
+
+def test_one_image_is_enough(seen, tmp_path):
+    cv2.imwrite(str(tmp_path / "a.png"), take.color()[:, :, ::-1])
+    cv2.imwrite(str(tmp_path / "b.png"), (take.depth() * 1000).astype(np.uint16))
+    camera = {
+        "width": take.WIDTH,
+        "height": take.HEIGHT,
+        "k": [300, 0, 159.5, 0, 300, 119.5, 0, 0, 1],
+        "d": [],
+    }
+    (tmp_path / "c.json").write_text(json.dumps(camera))
+    files = [
+        "--color",
+        tmp_path / "a.png",
+        "--depth",
+        tmp_path / "b.png",
+        "--camera-info",
+        tmp_path / "c.json",
+    ]
+    code, stdout, _ = run(*files, "--json", *seen)
+    (person,) = json.loads(stdout)["skeletons"]
+    assert code == 0
+    x, y, z = person["body"]["RWrist"]["position"]
+    assert 0.0 <= z - take.DISTANCE < 0.1
+    np.testing.assert_allclose([x / z, y / z], [(130 - 159.5) / 300, (155 - 119.5) / 300], atol=0.03)
+    assert "RWrist" in run(*files, *seen)[1]
+    (tmp_path / "c.json").write_text("{}")
+    code, _, stderr = run(*files, *seen)
+    assert (code, "bad_camera_info" in stderr) == (1, True)
+
+
+def test_the_originals_processing_gives_the_skin(bag, seen):
+    _, stdout, _ = run(bag, "--json", "--compat", "skeleton_retriever", *seen)
+    wrist = json.loads(stdout.splitlines()[-1])["skeletons"][0]["body"]["RWrist"]
+    assert wrist["position"][2] == pytest.approx(take.DISTANCE, abs=1e-6)
+
+
+def test_a_bag_that_was_cut_off_gives_what_is_there_and_fails(bag, seen, tmp_path):
+    out = tmp_path / "out.mcap"
+    code, _, stderr = run(bag_take.cut(bag / "take.mcap", 0.7), "--out", out, *seen)
+    assert (code, "cut off" in stderr) == (1, True)
+    assert 3 <= len(list(read_ros2_messages(out))) < IMAGES
+
+
+def test_parameters_of_the_retriever_can_be_set(bag, seen):
+    _, stdout, _ = run(bag, "--json", "-p", "newcomer_images=5", *seen)
+    people = [len(json.loads(line)["skeletons"]) for line in stdout.splitlines()]
+    assert people == [0] * 4 + [1] * (IMAGES - 4)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        [],
+        ["BAG", "--color", "a.png"],
+        ["--color", "a.png", "--depth", "b.png"],
+        ["BAG", "--compat", "other"],
+        ["BAG", "-p", "nonsense"],
+        ["BAG", "-p", "unknown=1"],
+        ["BAG", "-p", "max_depth=far"],
+        ["BAG", "-p", "max_depth=-1"],
+        ["BAG", "--detector-option", "folder"],
+        ["--color", "a", "--depth", "b", "--camera-info", "c", "--out", "x.mcap"],
+    ],
+)
+def test_wrong_options_are_refused(bag, words):
+    code, _, _ = run(*(bag if word == "BAG" else word for word in words))
+    assert code == 2
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("missing_bag", ["none.mcap"]),
+        ("unknown_detector", ["BAG", "--detector", "guess"]),
+        ("unknown_topic", ["BAG", "--color-topic", "/none"]),
+        ("bad_name", ["BAG", "--out", "x.bag"]),
+        ("missing_folder", ["BAG", "--video", "none/x.mp4"]),
+        ("unreadable_file", ["--color", "a", "--depth", "b", "--camera-info", "c"]),
+    ],
+)
+def test_what_cannot_be_read_or_written_is_told_with_its_reason(bag, seen, code, words):
+    options = [] if "--detector" in words else seen
+    status, _, stderr = run(*(bag if word == "BAG" else word for word in words), *options)
+    assert (status, code in stderr) == (1, True)
+
+
+def test_nothing_half_written_is_left_behind(bag, seen, tmp_path):
+    run(bag, "--out", tmp_path / "x.mcap", "--video", tmp_path / "none" / "x.mp4", *seen)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["keypoints", "take"]

@@ -1,0 +1,225 @@
+"""The original's processing on drawn scenes, where what must come out is known."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.compat.original_detection import detect, is_valid
+from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
+from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
+from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
+from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.coco_18 import COCO_18
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+CAMERA = CameraModel.from_field_of_view(width=320, height=240, horizontal=math.radians(55))
+PARAMETERS = OriginalParameters(depth_filter=None)
+INDEX = SKELETON_STD.index
+# Someone upright at 2 m [m], in the camera's frame.
+BODY = {
+    "Nose": (0.0, -0.5), "Neck": (0.0, -0.3), "MidHip": (0.0, 0.2),
+    "LShoulder": (0.2, -0.3), "LElbow": (0.3, -0.05), "LWrist": (0.35, 0.15),
+    "RShoulder": (-0.2, -0.3), "RElbow": (-0.3, -0.05), "RWrist": (-0.35, 0.15),
+    "LHip": (0.1, 0.2), "RHip": (-0.1, 0.2), "LKnee": (0.1, 0.55), "RKnee": (-0.1, 0.55),
+    "LSmallToe": (0.15, 0.7), "RBigToe": (-0.15, 0.7), "RSmallToe": (-0.2, 0.7),
+}  # fmt: skip
+
+
+def person(shift: float = 0.0, without: tuple[str, ...] = (), confidence: float = 0.9) -> Person2D:
+    """The person, moved sideways [m], as OpenPose sees them."""
+    body = np.zeros((25, 3))
+    for name, (x, y) in BODY.items():
+        if name not in without:
+            body[BODY_25.index[name]] = [*CAMERA.project(np.array([[x + shift, y, 2.0]]))[0], confidence]
+    return Person2D(body=body)
+
+
+def flat(depth: float = 2.0) -> np.ndarray:
+    return np.full((240, 320), depth, np.float32)
+
+
+def seen(someone: Person2D, depth: np.ndarray | None = None) -> OriginalSkeleton:
+    return detect(someone, flat() if depth is None else depth, CAMERA, PARAMETERS)
+
+
+def updated(skeleton: OriginalSkeleton) -> set[str]:
+    return {tag for tag in INDEX if skeleton.updated[INDEX[tag]]}
+
+
+def test_keypoints_are_put_in_space_under_the_originals_names() -> None:
+    skeleton = seen(person())
+    assert updated(skeleton) == set(INDEX) - {"ankleLeft", "ankleRight"}
+    # Pixels are cut to whole ones: up to one pixel is lost, 7 mm here.
+    np.testing.assert_allclose(skeleton.points[INDEX["handLeft"]], [0.35, 0.15, 2.0], atol=0.008)
+    assert (skeleton.pixels[INDEX["handLeft"]] % 1.0 == 0.0).all()
+
+
+def test_a_small_toe_stands_in_for_a_big_toe_only_where_it_is_missing() -> None:
+    skeleton = seen(person())
+    assert skeleton.points[INDEX["footLeft"], 0] == pytest.approx(0.15, abs=0.008)
+    assert skeleton.points[INDEX["footRight"], 0] == pytest.approx(-0.15, abs=0.008)
+
+
+def test_centres_that_are_not_seen_are_put_between_two_without_a_pixel() -> None:
+    skeleton = seen(person(without=("Neck",)))
+    assert skeleton.points[INDEX["shoulderCenter"]] == pytest.approx([0.0, -0.3, 2.0], abs=0.008)
+    assert np.isnan(skeleton.pixels[INDEX["shoulderCenter"]]).all()
+    assert np.isinf(skeleton.pivots()[0]).all()
+
+
+@pytest.mark.parametrize("value", [0.0, math.nan])
+def test_without_depth_or_confidence_nothing_is_seen(value: float) -> None:
+    assert updated(seen(person(), np.full((240, 320), value, np.float32))) == set()
+    assert updated(seen(person(confidence=0.29))) == set()
+    assert updated(seen(Person2D())) == set()
+
+
+def test_with_coco_the_hip_centre_is_put_between_the_hips_in_space() -> None:
+    body = person().body
+    coco = Person2D(body=np.array([body[BODY_25.index[name]] for name in COCO_18.keypoints]))
+    skeleton = seen(coco)
+    hips = skeleton.points[[INDEX["hipLeft"], INDEX["hipRight"]]]
+    np.testing.assert_array_equal(skeleton.points[INDEX["hipCenter"]], hips.mean(axis=0))
+    assert np.isnan(skeleton.pixels[INDEX["hipCenter"]]).all()
+    assert is_valid(skeleton, PARAMETERS)
+
+
+def test_keypoints_outside_the_image_are_not_seen() -> None:
+    assert "handLeft" not in updated(seen(person(shift=0.8)))
+
+
+def test_a_body_in_a_layout_that_is_not_known_is_refused() -> None:
+    with pytest.raises(KeypointError) as caught:
+        seen(Person2D(body=np.ones((15, 3))))
+    assert caught.value.code == "wrong_layout"
+
+
+def test_the_longest_path_goes_from_wrist_to_foot() -> None:
+    skeleton = seen(person(without=("RBigToe", "RSmallToe", "LSmallToe")))
+    names = ["handLeft", "elbowLeft", "shoulderLeft", "shoulderCenter", "hipCenter", "hipRight", "kneeRight"]
+    points = skeleton.points[[INDEX[name] for name in names]]
+    assert skeleton.max_path() == pytest.approx(
+        np.linalg.norm(np.diff(points, axis=0), axis=1).sum(), abs=0.02
+    )
+
+
+@pytest.mark.parametrize(
+    ("without", "valid"),
+    [
+        ((), True),
+        (("Neck",), True),
+        (("Neck", "MidHip"), False),  # the midpoints that stand in are no pivots
+        (tuple(name for name in BODY if name not in ("Neck", "Nose", "MidHip", "LHip")), False),  # 4 of 17
+    ],
+)
+def test_who_is_a_person_is_decided_as_in_the_original(without: tuple[str, ...], valid: bool) -> None:
+    assert is_valid(seen(person(without=without)), PARAMETERS) is valid
+
+
+def test_someone_tiny_is_no_person() -> None:
+    assert not is_valid(seen(person(), flat(0.3)), PARAMETERS)
+
+
+def retriever(**changes: Any) -> OriginalRetriever:
+    parameters = OriginalParameters(**{"depth_filter": None, **changes})
+    return OriginalRetriever(CAMERA, parameters, FastLimbSolver())
+
+
+def test_a_keypoint_is_held_for_some_images_then_stale() -> None:
+    original = retriever(keys_acceptable_misses=2)
+    original.step(0.0, [person()], flat())
+    states = [
+        original.step(0.1 * i, [person(without=("LWrist",))], flat())[0].updated[INDEX["handLeft"]]
+        for i in range(1, 5)
+    ]
+    assert states == [True, True, False, False]
+
+
+def test_points_are_frozen_for_three_images_then_the_median_of_four() -> None:
+    original = retriever()
+    depths = [2.0, 2.1, 2.2, 2.3, 2.4]
+    heads = [
+        original.step(0.1 * i, [person()], flat(depth))[0].points[INDEX["head"], 2]
+        for i, depth in enumerate(depths)
+    ]
+    np.testing.assert_allclose(heads, [2.0, 2.0, 2.0, 2.15, 2.25], atol=1e-6)
+
+
+def test_people_keep_their_ids_while_they_move_slowly() -> None:
+    original = retriever()
+    for i in range(5):
+        tracked = original.step(0.1 * i, [person(0.5 - 0.02 * i), person(-0.5 + 0.02 * i)], flat())
+        assert set(tracked) == {0, 1}
+    assert tracked[0].pixels[INDEX["head"], 0] > tracked[1].pixels[INDEX["head"], 0]
+
+
+def test_the_order_of_detections_does_not_matter_for_people_apart() -> None:
+    original = retriever()
+    original.step(0.0, [person(0.5), person(-0.5)], flat())
+    tracked = original.step(0.1, [person(-0.5), person(0.5)], flat())
+    assert tracked[0].pixels[INDEX["head"], 0] > tracked[1].pixels[INDEX["head"], 0]
+
+
+def test_a_jump_beyond_the_threshold_is_someone_else() -> None:
+    original = retriever()
+    original.step(0.0, [person(-0.5)], flat())
+    assert set(original.step(0.1, [person(0.5)], flat())) == {0, 1}
+
+
+def test_someone_not_seen_is_forgotten_after_their_time_to_live() -> None:
+    original = retriever()
+    original.step(0.0, [person()], flat())
+    assert set(original.step(0.9, [], flat())) == {0}
+    assert set(original.step(1.0, [], flat())) == set()
+    assert set(original.step(1.1, [person()], flat())) == {1}
+
+
+def test_the_depth_filter_saves_keypoints_beside_the_body() -> None:
+    depth = flat(3.9)
+    columns = CAMERA.project(np.array([[-0.15, 0, 2.0], [0.15, 0, 2.0]]))[:, 0].astype(int)
+    depth[:, columns[0] : columns[1]] = 2.0
+    original = OriginalRetriever(CAMERA, OriginalParameters(), FastLimbSolver())
+    tracked = original.step(0.0, [person()], depth)[0]
+    assert tracked.points[INDEX["hipLeft"], 2] == pytest.approx(2.0)
+
+
+def test_a_limb_far_too_long_loses_its_end() -> None:
+    original = retriever(filter_limblength_order=4, filter_keypoint_order=0)
+    for i in range(6):
+        original.step(0.1 * i, [person()], flat())
+    depth = flat()
+    column, row = CAMERA.project(np.array([[0.35, 0.15, 2.0]]))[0].astype(int)
+    depth[row - 2 : row + 3, column - 2 : column + 3] = 3.5
+    tracked = original.step(0.6, [person()], depth)[0]
+    assert not tracked.updated[INDEX["handLeft"]]
+    assert tracked.updated[INDEX["handRight"]]
+
+
+def test_an_elbow_behind_a_hand_is_moved_back_once_lengths_are_known() -> None:
+    original = retriever(filter_limblength_order=4, filter_keypoint_order=0)
+    for i in range(6):
+        original.step(0.1 * i, [person()], flat())
+    depth = flat()
+    column, row = CAMERA.project(np.array([[0.3, -0.05, 2.0]]))[0].astype(int)
+    depth[row - 2 : row + 3, column - 2 : column + 3] = 1.9
+    tracked = original.step(0.6, [person()], depth)[0]
+    assert tracked.points[INDEX["elbowLeft"], 2] == pytest.approx(2.0, abs=0.03)
+
+
+def test_what_is_returned_does_not_change_later() -> None:
+    original = retriever(filter_keypoint_order=0)
+    first = original.step(0.0, [person()], flat(2.0))[0]
+    original.step(0.1, [person()], flat(2.5))
+    assert first.points[INDEX["head"], 2] == 2.0
+
+
+def test_nobody_is_nobody() -> None:
+    assert retriever().step(0.0, [], flat()) == {}

@@ -1,0 +1,61 @@
+from __future__ import annotations
+
+import camera_take as take
+import numpy as np
+import pytest
+
+from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
+from teo_skeleton_retriever.detectors.detection_frame import Frame
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
+from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
+
+WRIST = BODY_25.index["RWrist"]
+
+
+def frame(time: float, *people: Person2D, scale: int = 1) -> Frame:
+    return Frame(stamp=time, people=people, depth=take.depth(scale), camera=take.camera(scale))
+
+
+def test_a_keypoint_is_one_pixel_of_the_skin_seen_by_a_centred_camera():
+    (person,) = CompatRetriever(RetrieverParameters()).process(frame(0.0, take.person()))
+    expected = [(130 - 159.5) / 300 * 1.5, (155 - 119.5) / 300 * 1.5, 1.5]
+    np.testing.assert_allclose(person.body.points[WRIST], expected, atol=1e-6)
+    assert person.body.status[WRIST] == KeypointStatus.MEASURED
+    assert np.isnan(person.body.confidence[WRIST])
+    assert not person.left_hand.status.any()
+    assert person.is_signer
+    assert person.body_frame is not None
+    np.testing.assert_allclose(person.body_frame.rotation[:, 0], [0, 0, -1], atol=1e-6)  # faces the camera
+
+
+def test_a_keypoint_that_the_original_does_not_know_is_lost():
+    (person,) = CompatRetriever(RetrieverParameters()).process(frame(0.0, take.person()))
+    for name in ("REye", "LEar", "RHeel", "RAnkle"):
+        assert person.body.status[BODY_25.index[name]] == KeypointStatus.LOST
+
+
+def test_a_person_is_remembered_for_a_second_and_the_signer_kept():
+    retriever = CompatRetriever(RetrieverParameters())
+    (first,) = retriever.process(frame(0.0, take.person()))
+    (unseen,) = retriever.process(frame(0.9))
+    assert unseen.track_id == first.track_id
+    assert retriever.process(frame(2.0)) == ()
+
+
+def test_the_signer_can_be_locked():
+    retriever = CompatRetriever(RetrieverParameters())
+    people = (take.person(-28), take.person(28))
+    two = retriever.process(frame(0.0, *people))
+    other = next(person.track_id for person in two if not person.is_signer)
+    retriever.lock_signer(other)
+    assert [p.track_id for p in retriever.process(frame(0.1, *people)) if p.is_signer] == [other]
+    retriever.lock_signer(None)
+
+
+def test_another_camera_begins_anew():
+    retriever = CompatRetriever(RetrieverParameters())
+    retriever.process(frame(0.0, take.person()))
+    (person,) = retriever.process(frame(0.1, take.person(scale=2.0), scale=2))
+    assert person.body.points[WRIST, 2] == pytest.approx(1.5)

@@ -1,0 +1,140 @@
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
+from teo_skeleton_retriever.errors import DepthError
+
+FOCAL = 600.0
+
+
+def wall(distance: float = 3.5) -> np.ndarray:
+    return np.full((120, 160), distance, np.float32)
+
+
+def with_arm(depth: np.ndarray, distance: float = 2.0) -> np.ndarray:
+    """An arm 20 px wide, in columns 70 to 89."""
+    depth[:, 70:90] = distance
+    return depth
+
+
+def sample(
+    depth: np.ndarray, x: float, y: float, *, expected: float | None = None, **settings: Any
+) -> tuple[float, float, float]:
+    """Depth, sigma and support at one pixel."""
+    surfaces = DepthLookup(**settings).surfaces(depth, np.array([[x, y]]), focal=FOCAL)
+    found = surfaces.nearest() if expected is None else surfaces.closest(np.array([expected]))
+    return float(found.depth[0]), float(found.sigma[0]), float(found.support[0])
+
+
+def look(depth: np.ndarray, x: float, y: float, **more: Any) -> float:
+    return sample(depth, x, y, **more)[0]
+
+
+def test_on_a_surface_it_gives_its_depth() -> None:
+    depth, sigma, support = sample(with_arm(wall()), 80, 60)
+    assert depth == pytest.approx(2.0)
+    assert support == 1.0
+    assert sigma == pytest.approx(0.008)  # 2 mm at 1 m, four times that at 2 m
+
+
+def test_in_a_hole_it_looks_around() -> None:
+    depth = with_arm(wall())
+    depth[55:66, 75:86] = math.nan
+    assert look(depth, 80, 60) == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("outside", [1, 3, 5])
+def test_just_beside_an_arm_it_gives_the_arm_not_the_wall(outside: int) -> None:
+    assert look(with_arm(wall()), 89 + outside, 60) == pytest.approx(2.0)
+
+
+def test_far_from_the_arm_it_gives_the_wall() -> None:
+    assert look(with_arm(wall()), 140, 60) == pytest.approx(3.5)
+
+
+def test_a_hand_before_the_elbow_is_nearer_unless_the_elbow_is_expected() -> None:
+    depth = with_arm(wall())
+    depth[50:70, 70:78] = 1.7
+    assert look(depth, 78, 60) == pytest.approx(1.7)
+    assert look(depth, 78, 60, expected=2.02) == pytest.approx(2.0)
+
+
+def test_flying_pixels_between_arm_and_wall_are_not_believed() -> None:
+    depth = with_arm(wall())
+    depth[:, 90] = np.linspace(2.2, 3.3, 120, dtype=np.float32)
+    depth[60, 88] = 1.2
+    assert look(depth, 89, 60) == pytest.approx(2.0)
+
+
+def test_a_slope_is_read_at_the_keypoint() -> None:
+    depth = np.tile(2.0 + 0.002 * np.arange(160, dtype=np.float32), (120, 1))
+    assert look(depth, 80, 60) == pytest.approx(2.16, abs=0.003)
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=25, deadline=None)
+def test_two_thirds_of_the_depth_may_be_missing(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    depth = with_arm(wall()) + random.normal(0, 0.005, (120, 160)).astype(np.float32)
+    depth[random.random(depth.shape) < 0.66] = math.nan
+    assert look(depth, 80, 60) == pytest.approx(2.0, abs=0.01)
+
+
+@given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6), st.one_of(st.none(), st.floats()))
+@settings(max_examples=60, deadline=None)
+def test_no_pixel_and_no_expectation_breaks_it(x: float, y: float, expected: float | None) -> None:
+    depth = with_arm(wall())
+    found = look(depth, x, y, expected=expected)
+    inside = -0.5 <= x < 159.5 and -0.5 <= y < 119.5
+    assert math.isnan(found) != inside
+    assert not inside or any(abs(found - distance) < 1e-6 for distance in (2.0, 3.5))
+
+
+@pytest.mark.parametrize("pixel", [(math.nan, 60.0), (-1.0, 60.0), (200.0, 60.0)])
+def test_outside_the_image_nothing_is_known(pixel: tuple[float, float]) -> None:
+    assert math.isnan(look(wall(), *pixel))
+
+
+def test_without_any_depth_nothing_is_known() -> None:
+    assert math.isnan(look(wall(math.nan), 80, 60))
+
+
+def test_an_uncertain_surface_says_so() -> None:
+    random = np.random.default_rng(1)
+    rough = (2.0 + random.normal(0, 0.03, (120, 160))).astype(np.float32)
+    sigmas = [sample(rough, x, 60, gap=0.5)[1] for x in range(20, 140)]
+    assert np.mean(sigmas) == pytest.approx(0.03, rel=0.15)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"nearest": 2.0, "farthest": 1.0},
+        {"radius": 0.0},
+        {"gap": math.nan},
+        {"min_support": 1.0},
+        {"min_radius_px": 99.0},
+    ],
+)
+def test_values_that_make_no_lookup_are_refused(changes: dict[str, float]) -> None:
+    with pytest.raises(DepthError):
+        DepthLookup(**changes)
+
+
+def test_many_keypoints_are_as_each_by_itself() -> None:
+    random = np.random.default_rng(3)
+    depth = with_arm(wall()) + random.normal(0, 0.005, (120, 160)).astype(np.float32)
+    pixels = random.uniform(-5, 160, (40, 2))
+    together = DepthLookup().surfaces(depth, pixels, focal=FOCAL).nearest().depth
+    np.testing.assert_array_equal(together, [look(depth, x, y) for x, y in pixels])
+
+
+def test_no_keypoints_are_no_surfaces() -> None:
+    assert DepthLookup().surfaces(wall(), np.zeros((0, 2)), focal=FOCAL).depth.shape == (0, 3)

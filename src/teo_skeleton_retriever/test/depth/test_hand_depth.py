@@ -1,0 +1,122 @@
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from capsule_person import imagined_shape, pose
+from scipy.spatial.transform import Rotation
+
+from teo_skeleton_retriever.depth.depth_lookup import Surfaces
+from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
+from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
+
+HAND = pose((-0.4, -0.2, -0.1), (0.25, 0.05, -0.2), curl=0.3).right_hand
+BENT = pose((-0.25, 0.05, -0.35), (0.25, 0.05, -0.2), curl=0.9).right_hand
+
+
+def view(hand: np.ndarray, *, noise: float = 0.0, seed: int = 0, **changes: Any) -> HandView:
+    depth = hand[:, 2] - HAND_DEPTHS + np.random.default_rng(seed).normal(0.0, 1.0, 21) * noise
+    nothing = np.full((21, 2), math.nan)
+    seen = HandView(
+        rays=hand[:, :2] / hand[:, 2:],
+        surfaces=Surfaces(
+            np.column_stack([depth, nothing]),
+            np.column_stack([np.full(21, 0.004), nothing]),
+            np.column_stack([np.ones(21), np.zeros((21, 2))]),
+        ),
+        world=imagined_shape(hand),
+        expected=math.nan,
+        wrist=math.nan,
+    )
+    return seen._replace(**changes)
+
+
+def fit(seen: HandView) -> HandFit:
+    (found,) = fit_hands([seen], 1.0)
+    assert found is not None
+    return found
+
+
+def error(found: HandFit, hand: np.ndarray) -> float:
+    return float(np.linalg.norm(found.points - hand, axis=1).mean())
+
+
+@pytest.mark.parametrize("hand", [HAND, BENT])
+def test_a_hand_that_is_seen_whole_is_where_it_is(hand: np.ndarray) -> None:
+    assert error(fit(view(hand)), hand) < 0.004
+
+
+def test_a_hand_across_the_view_is_sure_of_its_depth() -> None:
+    assert fit(view(HAND)).certain
+
+
+@pytest.mark.parametrize("hand", [HAND, BENT])
+def test_the_shape_evens_out_noise(hand: np.ndarray) -> None:
+    assert np.mean([error(fit(view(hand, noise=0.01, seed=i)), hand) for i in range(10)]) < 0.0075
+
+
+@pytest.mark.parametrize("hand", [HAND, BENT])
+@pytest.mark.parametrize("tilt", [(0.9, 0.0, 0.0), (-0.9, 0.0, 0.0), (0.0, 0.9, 0.0), (0.0, -0.9, 0.0)])
+def test_a_shape_imagined_leaning_the_wrong_way_does_not_outweigh_what_is_measured(
+    hand: np.ndarray, tilt: tuple[float, float, float]
+) -> None:
+    leaning = imagined_shape(hand) @ Rotation.from_rotvec(tilt).as_matrix()
+    assert error(fit(view(hand, world=leaning)), hand) < 0.006
+
+
+def test_fingers_without_depth_follow_from_the_shape() -> None:
+    seen = view(HAND)
+    seen.surfaces.depth[9:, 0] = math.nan
+    seen.surfaces.support[9:, 0] = 0.0
+    found = fit(seen)
+    assert error(found, HAND) < 0.012
+    assert not found.measured[9:].any()
+    assert (found.sigma[9:] > found.sigma[:9].max()).all()
+
+
+def test_fingers_whose_pixels_fall_on_the_wall_are_not_put_there() -> None:
+    seen = view(HAND)
+    seen.surfaces.depth[[8, 12, 16], 0] = 2.5
+    assert error(fit(seen), HAND) < 0.008
+
+
+def test_of_two_surfaces_the_hands_own_is_chosen_by_where_it_is_thought_to_be() -> None:
+    seen = view(HAND, expected=float(HAND[:, 2].mean()))
+    seen.surfaces.depth[:, 1] = seen.surfaces.depth[:, 0]
+    seen.surfaces.depth[:, 0] -= 0.2  # the other hand, before this one
+    seen.surfaces.support[:, :2] = 0.5
+    seen.surfaces.sigma[:, 1] = 0.004
+    assert error(fit(seen), HAND) < 0.01
+
+
+def test_without_depth_the_hand_is_where_its_arm_ends() -> None:
+    seen = view(HAND, wrist=float(HAND[0, 2]))
+    seen.surfaces.depth[:] = math.nan
+    found = fit(seen)
+    assert error(found, HAND) < 0.02
+    assert not found.certain
+
+
+def test_without_depth_and_without_an_arm_nothing_is_known() -> None:
+    seen = view(HAND)
+    seen.surfaces.depth[:] = math.nan
+    assert fit_hands([seen], 1.0) == [None]
+
+
+def test_a_hand_of_which_few_keypoints_are_seen_is_not_fitted() -> None:
+    seen = view(HAND)
+    seen.rays[:15] = math.nan
+    assert fit_hands([seen], 1.0) == [None]
+
+
+def test_hands_fitted_together_are_as_each_by_itself() -> None:
+    seen = [view(HAND, noise=0.01), view(BENT, noise=0.01)]
+    for together, hand in zip(fit_hands(seen, 1.0), seen, strict=True):
+        assert together is not None
+        np.testing.assert_allclose(together.points, fit(hand).points, atol=1e-9)
+
+
+def test_no_hands_are_no_fits() -> None:
+    assert fit_hands([], 1.0) == []

@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import numpy as np
+from capsule_person import CAMERA
+
+from teo_skeleton_retriever.depth.viewing_rays import detected
+from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+
+
+def test_keypoints_that_are_unsure_absent_or_outside_the_image_are_not_seen() -> None:
+    keypoints = np.array([[10.0, 10.0, 0.9], [10.0, 10.0, 0.2], [0.0, 0.0, 0.0], [-5.0, 10.0, 0.9]])
+    seen = detected(keypoints, CAMERA, 0.3)
+    assert seen.seen.tolist() == [True, False, False, False]
+    assert np.isnan(seen.rays[1:]).all()
+    assert seen.confidence.tolist() == [0.9, 0.0, 0.0, 0.0]
+
+
+def test_absent_keypoints_are_not_seen_whatever_is_asked() -> None:
+    assert not detected(np.zeros((3, 3)), CAMERA, 0.0).seen.any()
+
+
+def test_logits_for_confidences_stay_within_0_and_1() -> None:
+    assert detected(np.array([[10.0, 10.0, 8.3]]), CAMERA, 0.3).confidence.tolist() == [1.0]
+
+
+def test_keypoints_that_are_not_believed_are_as_not_seen() -> None:
+    seen = detected(np.tile([10.0, 10.0, 0.9], (2, 1)), CAMERA, 0.3).only(np.array([True, False]))
+    assert seen.seen.tolist() == [True, False]
+    assert np.isnan(seen.pixels[1]).all()
+
+
+def test_bodies_of_every_layout_have_the_same_arms() -> None:
+    arms = np.arange(24.0).reshape(8, 3) + 1.0
+    for size in (25, 18, 15):
+        body = np.zeros((size, 3))
+        body[:8] = arms
+        np.testing.assert_array_equal(as_body_25(body)[1:8], arms[1:])
+    assert not as_body_25(np.zeros((0, 3))).any()
+
+
+def test_the_top_of_the_head_is_no_nose() -> None:
+    body = np.full((15, 3), 5.0)
+    assert not as_body_25(body)[BODY_25.index["Nose"]].any()
+
+
+def test_a_body_of_another_layout_is_refused() -> None:
+    try:
+        as_body_25(np.zeros((17, 3)))
+    except KeypointError as error:
+        assert error.code == "wrong_layout"
+    else:
+        raise AssertionError("expected a KeypointError")

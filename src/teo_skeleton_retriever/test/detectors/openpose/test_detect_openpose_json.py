@@ -1,0 +1,250 @@
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointScale
+from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
+from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
+from teo_skeleton_retriever.detectors.openpose.openpose_writer import format_frame, frame_path, write_frame
+from teo_skeleton_retriever.detectors.replay_detector import ReplayDetector
+from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+WIDTH, HEIGHT = 640, 480
+IMAGE = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+
+
+def frame(mark: int, people: int = 1) -> OpenPoseFrame:
+    """People whose nose is at x = mark, so that one sees which file was read."""
+    body = np.zeros((25, 3))
+    body[0] = mark, 7.0, 0.5
+    return OpenPoseFrame((Person2D(body=body),) * people)
+
+
+def write(folder: Path, number: int, *, name: str = "{:012d}", people: int = 1) -> None:
+    write_frame(frame_path(folder, name.format(number)), frame(number, people))
+
+
+def mark_of(people: tuple[Person2D, ...]) -> int | None:
+    return int(people[0].body[0, 0]) if people else None
+
+
+def code_of(call: Callable[..., Any], *arguments: Any, **options: Any) -> str:
+    with pytest.raises(DetectorError) as caught:
+        call(*arguments, **options)
+    assert caught.value.sentence
+    return caught.value.code
+
+
+def test_each_image_gets_the_next_file_in_the_order_of_numbers(tmp_path: Path) -> None:
+    for number in (9, 10, 11):
+        write(tmp_path, number, name="video_{}")
+    detector = OpenPoseJsonDetector(folder=tmp_path)
+    assert [mark_of(detector.detect(IMAGE, 0.1 * i)) for i in range(3)] == [9, 10, 11]
+
+
+def test_a_frame_left_out_has_no_people_and_shifts_nothing(tmp_path: Path) -> None:
+    for number in (0, 1, 3):
+        write(tmp_path, number)
+    detector = OpenPoseJsonDetector(folder=tmp_path)
+    assert [mark_of(detector.detect(IMAGE, 0.1 * i)) for i in range(4)] == [0, 1, None, 3]
+    assert detector.missing == 1
+
+
+def test_a_file_that_comes_later_is_waited_for(tmp_path: Path) -> None:
+    detector = OpenPoseJsonDetector(folder=tmp_path, wait=10.0)
+    for number in (0, 1):
+        writer = threading.Timer(0.15, write, (tmp_path, number))
+        writer.start()
+        assert mark_of(detector.detect(IMAGE, 0.1 * number)) == number
+        writer.join()
+
+
+def test_a_half_written_file_is_waited_for(tmp_path: Path) -> None:
+    text = format_frame(frame(5))
+    path = frame_path(tmp_path, "0")
+    path.write_text(text[: len(text) // 2])
+    detector = OpenPoseJsonDetector(folder=tmp_path, wait=10.0)
+    writer = threading.Timer(0.15, path.write_text, (text,))
+    writer.start()
+    assert mark_of(detector.detect(IMAGE, 0.0)) == 5
+    writer.join()
+
+
+@pytest.mark.parametrize("text", ["", '{"version":1.3,"peo'])
+def test_a_file_that_stays_half_fails_its_own_image_only(tmp_path: Path, text: str) -> None:
+    frame_path(tmp_path, "0").write_text(text)
+    write(tmp_path, 1, name="{}")
+    detector = OpenPoseJsonDetector(folder=tmp_path, wait=0.02)
+    assert code_of(detector.detect, IMAGE, 0.0) == "late"
+    assert mark_of(detector.detect(IMAGE, 0.1)) == 1
+
+
+def test_a_file_that_does_not_come_fails_its_own_image_only(tmp_path: Path) -> None:
+    write(tmp_path, 0)
+    detector = OpenPoseJsonDetector(folder=tmp_path, wait=0.02)
+    detector.detect(IMAGE, 0.0)
+    assert code_of(detector.detect, IMAGE, 0.1) == "late"
+    write(tmp_path, 1)
+    write(tmp_path, 2)
+    assert mark_of(detector.detect(IMAGE, 0.2)) == 2
+
+
+def test_what_is_not_openposes_is_told_at_once(tmp_path: Path) -> None:
+    frame_path(tmp_path, "0").write_text('{"version":1.3}')
+    detector = OpenPoseJsonDetector(folder=tmp_path, wait=60.0)
+    began = time.monotonic()
+    assert code_of(detector.detect, IMAGE, 0.0) == "bad_file"
+    assert time.monotonic() - began < 30.0
+
+
+def test_newest_skips_what_was_there_before_and_what_is_half_written(tmp_path: Path) -> None:
+    write(tmp_path, 0)
+    detector = OpenPoseJsonDetector(folder=tmp_path, pairing="newest", wait=0.02)
+    assert code_of(detector.detect, IMAGE, 0.0) == "late"
+    for number in (1, 2):
+        write(tmp_path, number)
+    frame_path(tmp_path, f"{3:012d}").write_text("{")
+    assert mark_of(detector.detect(IMAGE, 0.1)) == 2
+    write(tmp_path, 3)
+    assert mark_of(detector.detect(IMAGE, 0.2)) == 3
+    assert code_of(detector.detect, IMAGE, 0.3) == "late"
+
+
+@pytest.mark.parametrize("headline", ["", "frame,stamp\n"])
+def test_stamps_pair_images_in_any_order(tmp_path: Path, headline: str) -> None:
+    for number in range(3):
+        write(tmp_path, number)
+    table = tmp_path / "stamps.csv"
+    table.write_text(headline + "0,100.0\n2,100.066\n1,100.033\n")
+    detector = OpenPoseJsonDetector(folder=tmp_path, stamps=table)
+    assert [mark_of(detector.detect(IMAGE, stamp)) for stamp in (100.066, 100.03, 100.001)] == [2, 1, 0]
+    assert detector.detect(IMAGE, 101.0) == ()
+    assert detector.detect(IMAGE, 99.0) == ()
+    assert detector.missing == 2
+
+
+@pytest.mark.parametrize("stamps", [{}, {"a": 1.0}, {0: float("nan")}, {-1: 0.0}])
+def test_a_table_that_is_none_is_refused(tmp_path: Path, stamps: dict[Any, float]) -> None:
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, stamps=stamps) in ("bad_stamps", "no_stamps")
+
+
+@pytest.mark.parametrize("content", [b"1,2,3\n", b"0,soon\n", b"\xff\xfe", b""])
+def test_a_table_file_that_is_none_is_refused(tmp_path: Path, content: bytes) -> None:
+    table = tmp_path / "stamps.csv"
+    table.write_bytes(content)
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, stamps=table) in ("bad_stamps", "no_stamps")
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, stamps=tmp_path / "none.csv") == "bad_stamps"
+
+
+def test_all_people_are_given(tmp_path: Path) -> None:
+    write(tmp_path, 0, people=10)
+    assert len(OpenPoseJsonDetector(folder=tmp_path).detect(IMAGE, 0.0)) == 10
+
+
+@pytest.mark.parametrize(
+    ("version", "key", "keypoints"),
+    [
+        (0.1, "body_parts", 18),
+        (1.0, "pose_keypoints", 18),
+        (1.1, "pose_keypoints", 15),
+        (1.2, "pose_keypoints_2d", 25),
+        (1.3, "pose_keypoints_2d", 25),
+    ],
+)
+def test_bodies_of_every_version_and_model_come_as_body_25(
+    tmp_path: Path, version: float, key: str, keypoints: int
+) -> None:
+    numbers = ",".join(f"{i},{i},0.5" for i in range(keypoints))
+    frame_path(tmp_path, "0").write_text(f'{{"version":{version},"people":[{{"{key}":[{numbers}]}}]}}')
+    body = OpenPoseJsonDetector(folder=tmp_path).detect(IMAGE, 0.0)[0].body
+    assert body.shape == (25, 3)
+    assert body[BODY_25.index["LWrist"]].tolist() == [7.0, 7.0, 0.5]  # the same place in all three models
+
+
+def test_folder_and_options_that_do_not_go_together_are_refused(tmp_path: Path) -> None:
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path / "none") == "no_folder"
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, pairing="stamp") == "bad_option"
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, pairing="order", stamps={0: 0.0}) == "bad_option"
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, wait=-1.0) == "bad_option"
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, keypoint_scale=5) == "bad_scale"
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, keypoint_scale=1) == "bad_resolution"
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path, resolution=(656, 368)) == "bad_resolution"
+
+
+def test_files_of_two_recordings_or_without_number_are_refused(tmp_path: Path) -> None:
+    write(tmp_path, 0, name="a_{}")
+    write(tmp_path, 0, name="b_{}")
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path) == "two_series"
+    (tmp_path / "two").mkdir()
+    write(tmp_path / "two", 0, name="image")
+    assert code_of(OpenPoseJsonDetector, folder=tmp_path / "two") == "no_number"
+
+
+# What OpenPose writes for one point of a 640 x 480 image, by hand from its documentation: corners are the
+# first and the last pixel; the image is fitted into a resolution with one factor for both axes.
+@pytest.mark.parametrize(
+    ("scale", "resolution", "written", "pixel"),
+    [
+        (0, None, (639.0, 479.0), (639.0, 479.0)),
+        (3, None, (1.0, 1.0), (639.0, 479.0)),
+        (3, None, (0.5, 0.25), (319.5, 119.75)),
+        (4, None, (-1.0, -1.0), (0.0, 0.0)),
+        (4, None, (1.0, 0.0), (639.0, 239.5)),
+        (1, (656, 368), (489.0, 367.0), (638.2316, 479.0)),
+        (2, (320, 240), (319.0, 239.0), (639.3347, 479.0)),
+    ],
+)
+def test_every_keypoint_scale_comes_back_to_pixels(
+    scale: int,
+    resolution: tuple[int, int] | None,
+    written: tuple[float, float],
+    pixel: tuple[float, float],
+) -> None:
+    body = np.zeros((25, 3))
+    body[3] = *written, 0.9
+    given_back = KeypointScale(scale, resolution).to_pixels(Person2D(body=body), WIDTH, HEIGHT).body
+    np.testing.assert_allclose(given_back[3], [*pixel, 0.9], atol=2e-3)
+
+
+@given(st.sampled_from([0, 3, 4]))
+def test_an_unseen_keypoint_is_zero_in_every_scale(scale: int) -> None:
+    unseen = -1.0 if scale == 4 else 0.0
+    hand = np.column_stack([np.full((21, 2), unseen), np.zeros(21)])
+    person = KeypointScale(scale, None).to_pixels(Person2D(left_hand=hand), WIDTH, HEIGHT)
+    assert not person.left_hand.any()
+
+
+def test_replay_gives_the_people_of_the_nearest_time() -> None:
+    frames = [(10.0 + i / 30.0, frame(i, people=i).people) for i in range(3)]
+    detector = ReplayDetector(frames=list(reversed(frames)))
+    assert [len(detector.detect(IMAGE, 10.0 + i / 30.0 + 0.01)) for i in (2, 0, 1)] == [2, 0, 1]
+    assert detector.detect(IMAGE, 11.0) == ()
+
+
+def test_replay_of_nothing_gives_nobody() -> None:
+    assert ReplayDetector(frames=[]).detect(IMAGE, 0.0) == ()
+
+
+def test_replay_of_a_folder_gives_its_files(tmp_path: Path) -> None:
+    for number in (0, 1):
+        write(tmp_path, number)
+    assert [mark_of(ReplayDetector(folder=tmp_path).detect(IMAGE, 0.0))] == [0]
+    timed = ReplayDetector(folder=tmp_path, stamps={0: 5.0, 1: 6.0})
+    assert mark_of(timed.detect(IMAGE, 6.0)) == 1
+
+
+def test_replay_needs_either_frames_or_a_folder(tmp_path: Path) -> None:
+    assert code_of(ReplayDetector) == "bad_option"
+    assert code_of(ReplayDetector, frames=[], folder=tmp_path) == "bad_option"
+    assert code_of(ReplayDetector, frames=[], stamps={0: 0.0}) == "bad_option"

@@ -1,0 +1,186 @@
+"""The whole way from an image through an ONNX file to people, with networks small enough to know by heart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import onnx
+import pytest
+from drawn_maps import STRIDE, draw, person
+from onnx import TensorProto, helper, numpy_helper
+
+from teo_skeleton_retriever.detectors.paf.openpose_onnx_detector import OpenPoseOnnxDetector
+from teo_skeleton_retriever.detectors.paf.paf_model import BODY_25_MODEL, COCO_18_MODEL, PafModel
+from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+
+NET = (320, 240)
+
+
+def save_network(path: Path, weights: np.ndarray, constants: list[np.ndarray], size: Any = NET) -> Path:
+    """One image in, for each constant an output: the constant plus weights times the mean of 8 x 8 pixels.
+
+    Args:
+        weights: of blue, green, red; shape (channels, 3); applied to the first output.
+        constants: shape (channels, rows, columns), or (channels, 1, 1) for any size.
+    """
+    nodes = [helper.make_node("AveragePool", ["image"], ["mean"], kernel_shape=[8, 8], strides=[8, 8])]
+    initializers, outputs = [], []
+    for i, constant in enumerate(constants):
+        kernel = weights if i == 0 else np.zeros((len(constant), 3))
+        initializers += [
+            numpy_helper.from_array(kernel.astype(np.float32)[:, :, None, None], f"weights{i}"),
+            numpy_helper.from_array(constant.astype(np.float32)[None], f"constant{i}"),
+        ]
+        nodes += [
+            helper.make_node("Conv", ["mean", f"weights{i}"], [f"product{i}"]),
+            helper.make_node("Add", [f"product{i}", f"constant{i}"], [f"output{i}"]),
+        ]
+        shape = [1, len(constant), None, None]
+        outputs.append(helper.make_tensor_value_info(f"output{i}", TensorProto.FLOAT, shape))
+    width, height = size
+    image = helper.make_tensor_value_info("image", TensorProto.FLOAT, [1, 3, height, width])
+    graph = helper.make_graph(nodes, "network", [image], outputs, initializers)
+    model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 13)], ir_version=8)
+    onnx.checker.check_model(model)
+    onnx.save(model, str(path))
+    return path
+
+
+def given_maps(
+    path: Path, people: list[np.ndarray], model: PafModel = BODY_25_MODEL, split: bool = False
+) -> Path:
+    """A network that gives the maps of these people, whatever it is shown."""
+    maps, fields = draw(people, NET, model)
+    with_background = np.concatenate([maps, 1.0 - maps.max(axis=0, keepdims=True)])
+    constants = [with_background, fields] if split else [np.concatenate([with_background, fields])]
+    return save_network(path, np.zeros((len(constants[0]), 3)), constants)
+
+
+def code_of(call: Callable[..., Any], *arguments: Any, **options: Any) -> str:
+    with pytest.raises(DetectorError) as caught:
+        call(*arguments, **options)
+    assert caught.value.sentence
+    return caught.value.code
+
+
+@pytest.mark.parametrize("split", [False, True], ids=["one output", "two outputs"])
+def test_people_are_given_in_pixels_of_the_image(tmp_path: Path, split: bool) -> None:
+    drawn = [person(90, 60, 170), person(220, 55, 180)]
+    detector = OpenPoseOnnxDetector(
+        model=given_maps(tmp_path / "a.onnx", drawn, split=split), net_resolution=NET
+    )
+    found = sorted(detector.detect(np.zeros((480, 640, 3), np.uint8), 0.0), key=lambda p: p.body[0, 0])
+    assert len(found) == 2
+    for someone, parts in zip(found, drawn, strict=True):
+        # Twice as large an image: pixel p of the network covers pixels 2 p and 2 p + 1.
+        np.testing.assert_allclose(someone.body[:, :2], 2.0 * parts + 0.5, atol=2.5)
+        assert (someone.body[:, 2] > 0.5).all()
+
+
+def test_an_image_of_another_shape_is_fitted_not_stretched(tmp_path: Path) -> None:
+    model = given_maps(tmp_path / "a.onnx", [person(90, 50, 110)])
+    detector = OpenPoseOnnxDetector(model=model, net_resolution=NET)
+    (someone,) = detector.detect(np.zeros((90, 320, 3), np.uint8), 0.0)
+    np.testing.assert_allclose(someone.body[:, :2], person(90, 50, 110), atol=2.0)
+
+
+def test_coco_bodies_come_as_body_25(tmp_path: Path) -> None:
+    drawn = person(150, 60, 170, COCO_18_MODEL)
+    model = given_maps(tmp_path / "a.onnx", [drawn], COCO_18_MODEL)
+    (someone,) = OpenPoseOnnxDetector(model=model, net_resolution=NET).detect(
+        np.zeros((240, 320, 3), np.uint8), 0.0
+    )
+    for name, place in COCO_18_MODEL.layout.index.items():
+        np.testing.assert_allclose(someone.body[BODY_25.index[name], :2], drawn[place], atol=1.5)
+    assert someone.body[BODY_25.index["MidHip"], 2] > 0.0
+    assert not someone.body[BODY_25.index["LHeel"]].any()
+
+
+@pytest.mark.parametrize("scale", [0.5, 1.0, 2.7])
+def test_the_network_sees_the_image_as_openposes_do(tmp_path: Path, scale: float) -> None:
+    """Neck is where it is red, right shoulder where green, right elbow where blue; fields lead to the left.
+
+    A grey of 128 must be 0 to it, full colour 127 / 256.
+    """
+    weights, constant = np.zeros((78, 3)), np.zeros((78, 1, 1))
+    for part, colour in (("Neck", 2), ("RShoulder", 1), ("RElbow", 0)):
+        weights[BODY_25.index[part], colour] = 2.0
+    for limb in ([1, 2], [2, 3]):
+        constant[26 + BODY_25_MODEL.fields[BODY_25_MODEL.limbs.tolist().index(limb), 0]] = -1.0
+    width, height = round(320 * scale), round(240 * scale)
+    image = np.full((height, width, 3), 128, np.uint8)
+    places = {"Neck": (240, 120), "RShoulder": (160, 120), "RElbow": (80, 120)}
+    for channel, (x, y) in enumerate(places.values()):  # red, green, blue
+        own = image[..., channel].copy()
+        cv2.circle(own, (round(x * scale), round(y * scale)), round(12 * scale), 255, -1)
+        image[..., channel] = own
+    free = save_network(tmp_path / "a.onnx", weights, [constant], size=("width", "height"))
+    (someone,) = OpenPoseOnnxDetector(model=free, net_resolution=(-1, 240)).detect(image, 0.0)
+    for part, place in places.items():
+        np.testing.assert_allclose(
+            someone.body[BODY_25.index[part], :2], np.multiply(place, scale), atol=5 * scale
+        )
+        assert someone.body[BODY_25.index[part], 2] > 0.8
+    assert (someone.body[:, 2] > 0).sum() == 3
+
+
+def test_an_empty_scene_has_nobody(tmp_path: Path) -> None:
+    model = given_maps(tmp_path / "a.onnx", [])
+    assert (
+        OpenPoseOnnxDetector(model=model, net_resolution=NET).detect(np.zeros((48, 64, 3), np.uint8), 0.0)
+        == ()
+    )
+
+
+def test_a_missing_or_broken_file_is_told(tmp_path: Path) -> None:
+    assert code_of(OpenPoseOnnxDetector, model=tmp_path / "none.onnx") == "no_model"
+    assert code_of(OpenPoseOnnxDetector, model=tmp_path) == "no_model"
+    for content in (b"", b"not a network", b"\x08\x07\x12"):
+        (tmp_path / "broken.onnx").write_bytes(content)
+        assert code_of(OpenPoseOnnxDetector, model=tmp_path / "broken.onnx") in ("bad_model", "wrong_model")
+
+
+def test_a_network_of_another_kind_is_told_with_what_is_expected(tmp_path: Path) -> None:
+    rows, columns = NET[1] // STRIDE, NET[0] // STRIDE
+    model = save_network(tmp_path / "a.onnx", np.zeros((17, 3)), [np.zeros((17, rows, columns))])
+    with pytest.raises(DetectorError, match="26 maps and 52 field channels") as caught:
+        OpenPoseOnnxDetector(model=model, net_resolution=NET)
+    assert caught.value.code == "wrong_model"
+
+
+def test_maps_that_are_not_of_the_images_shape_are_told(tmp_path: Path) -> None:
+    model = given_maps(tmp_path / "a.onnx", [])
+    # OpenCV adds maps of 40 x 30 to those of a wider image without a word.
+    assert code_of(OpenPoseOnnxDetector, model=model, net_resolution=(640, 240)) == "wrong_model"
+
+
+def test_a_network_of_one_size_says_so_when_asked_for_another(tmp_path: Path) -> None:
+    path = given_maps(tmp_path / "a.onnx", [])
+    model = onnx.load(str(path))
+    shape = [1, 78, NET[1] // STRIDE, NET[0] // STRIDE]
+    model.graph.initializer.append(numpy_helper.from_array(np.array(shape), "shape"))
+    model.graph.node[-1].input[0] = "reshaped"  # what the constant is added to
+    model.graph.node.insert(2, helper.make_node("Reshape", ["product0", "shape"], ["reshaped"]))
+    onnx.save(model, str(path))
+    OpenPoseOnnxDetector(model=path, net_resolution=NET)
+    assert code_of(OpenPoseOnnxDetector, model=path, net_resolution=(160, 160)) == "wrong_model"
+
+
+@pytest.mark.parametrize("resolution", [(-1, -1), (320, 100), (0, 160), (320,), (320.0, 240), (-16, 160)])
+def test_a_resolution_that_is_none_is_refused(tmp_path: Path, resolution: Any) -> None:
+    assert code_of(OpenPoseOnnxDetector, model=tmp_path, net_resolution=resolution) == "bad_resolution"
+
+
+def test_images_and_closing_are_as_with_every_detector(tmp_path: Path) -> None:
+    detector = OpenPoseOnnxDetector(model=given_maps(tmp_path / "a.onnx", []), net_resolution=NET)
+    assert code_of(detector.detect, np.zeros((48, 64), np.uint8), 0.0) == "bad_image"
+    assert code_of(detector.detect, np.zeros((1, 4000, 3), np.uint8), 0.0) == "bad_image"
+    assert detector.detect(np.zeros((1, 8, 3), np.uint8), 0.0) == ()
+    detector.close()
+    detector.close()
+    assert code_of(detector.detect, np.zeros((48, 64, 3), np.uint8), 0.0) == "closed"

@@ -1,0 +1,139 @@
+"""Who the node publishes, and how."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import camera_take as take
+import numpy as np
+import pytest
+from node_bench import IMAGES, NodeBench
+from sensor_msgs.msg import Image
+from teo_sign_msgs.msg import Keypoint3D, Skeleton3D
+from teo_sign_msgs.srv import LockSigner
+from visualization_msgs.msg import MarkerArray
+
+from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+
+def test_a_person_is_published_in_the_cameras_frame_with_the_stamp_of_the_image(start):
+    bench = start(take.person())
+    bench.send_until(bench.followed)
+    message = bench.arrays[-1]
+    assert message.header.frame_id == take.FRAME_ID
+    nanoseconds = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec - take.START
+    assert nanoseconds % take.PERIOD == 0
+    (skeleton,) = message.skeletons
+    assert skeleton.is_signer
+    assert [keypoint.name for keypoint in skeleton.body] == list(BODY_25.keypoints)
+    wrist = skeleton.body[BODY_25.index["RWrist"]]
+    assert wrist.status != Keypoint3D.STATUS_LOST
+    # Where the pixel and the depth put it; the joint lies behind the skin, by less than a decimetre.
+    x, y = (130 - take.camera().cx) / take.FOCAL, (155 - take.camera().cy) / take.FOCAL
+    assert 0.0 <= wrist.position.z - take.DISTANCE < 0.1
+    np.testing.assert_allclose([wrist.position.x, wrist.position.y], [x * 1.5, y * 1.5], atol=0.03)
+    np.testing.assert_allclose(wrist.pixel, [130, 155], atol=1e-3)
+    assert wrist.confidence == pytest.approx(0.9)
+    assert 0.0 < wrist.sigma[2] < 0.2
+    ankle = skeleton.body[BODY_25.index["RAnkle"]]
+    assert ankle.status == Keypoint3D.STATUS_LOST
+    assert math.isnan(ankle.position.x)
+    assert skeleton.left_hand == []
+
+
+def test_an_empty_scene_gives_an_empty_array_for_each_image(start):
+    bench = start()
+    bench.send_until(lambda: len(bench.arrays) > 3)
+    assert all(not message.skeletons for message in bench.arrays)
+    bench.until(lambda: bench.said("people") == "0" and int(bench.said("results")) > 3)
+
+
+def test_ten_people_are_ten_skeletons_with_one_signer(start):
+    bench = start(*(take.person(shift) for shift in range(-110, 140, 25)))
+    flat = np.full((take.HEIGHT, take.WIDTH), 2000, dtype=np.uint16)
+    bench.send_until(
+        lambda: bench.arrays and len(bench.arrays[-1].skeletons) == 10,
+        depth=lambda s: take.image_message(flat, "16UC1", s),
+    )
+    people = bench.arrays[-1].skeletons
+    assert [person.id for person in people] == sorted({person.id for person in people})
+    assert sum(person.is_signer for person in people) == 1
+
+
+def test_half_a_person_is_followed_as_far_as_it_is_seen(start):
+    body = take.person().body.copy()
+    body[8:15] = 0.0  # what is below the table
+    bench = start(Person2D(body=body))
+    bench.send_until(bench.followed)
+    (person,) = bench.arrays[-1].skeletons
+    assert person.body[BODY_25.index["MidHip"]].status == Keypoint3D.STATUS_LOST
+    assert person.body_frame_origin == Skeleton3D.BODY_FRAME_SHOULDERS
+
+
+def test_who_leaves_and_returns_is_the_same_person(context):
+    stamps = [(take.START + i * take.PERIOD) * 1e-9 for i in range(IMAGES)]
+    gone = range(20, 60)  # for 1.3 s
+    frames = [(s, () if i in gone else (take.person(),)) for i, s in enumerate(stamps)]
+    bench = NodeBench(context, make_detector("replay", frames=frames))
+    try:
+        bench.send_until(bench.followed)
+        before = bench.arrays[-1].skeletons[0].id
+        bench.send_until(lambda: not bench.arrays[-1].skeletons)
+        assert bench.recovers()
+        assert bench.arrays[-1].skeletons[0].id == before
+    finally:
+        bench.close()
+
+
+def test_compressed_colour_and_depth_are_followed(start):
+    bench = start(take.person(), color_transport="compressed", depth_transport="compressedDepth")
+    bench.send_until(bench.followed, color=take.compressed_color, depth=take.compressed_depth)
+
+
+def test_what_is_published_compressed_alone_is_found_by_itself(start):
+    bench = start(take.person(), publishes_compressed=True)
+    bench.send_until(bench.followed, color=take.compressed_color, depth=take.compressed_depth)
+
+
+def test_the_signer_can_be_locked_to_a_person_and_let_go(start):
+    bench = start(take.person(-25), take.person(30))
+    bench.until(bench.lock.service_is_ready)
+    bench.send_until(lambda: bench.arrays and len(bench.arrays[-1].skeletons) == 2)
+    other = next(s.id for s in bench.arrays[-1].skeletons if not s.is_signer)
+
+    def ask(wanted: int) -> Any:
+        answer = bench.lock.call_async(LockSigner.Request(id=wanted))
+        bench.until(answer.done)
+        return answer.result()
+
+    assert ask(other).success
+    bench.send_until(lambda: [s.id for s in bench.arrays[-1].skeletons if s.is_signer] == [other])
+    refused = ask(77)
+    assert (refused.success, refused.code) == (False, "unknown_id")
+    assert ask(LockSigner.Request.NOBODY).success
+
+
+def test_markers_and_the_overlay_are_made_for_those_who_listen(start):
+    bench = start(take.person())
+    bench.send_until(bench.followed)
+    markers: list[MarkerArray] = []
+    pictures: list[Image] = []
+    bench.client.create_subscription(MarkerArray, "skeleton_markers", markers.append, 10)
+    bench.client.create_subscription(Image, "overlay/image", pictures.append, 10)
+    bench.send_until(lambda: markers and pictures)
+    picture = pictures[-1]
+    assert (picture.width, picture.height, picture.encoding) == (take.WIDTH, take.HEIGHT, "rgb8")
+    assert len(picture.data) == take.WIDTH * take.HEIGHT * 3
+    assert np.frombuffer(picture.data, np.uint8).tobytes() != take.color().tobytes()
+    assert {marker.header.frame_id for marker in markers[-1].markers} == {take.FRAME_ID}
+
+
+def test_the_originals_processing_can_be_asked_for(start):
+    bench = start(take.person(), compat="skeleton_retriever")
+    bench.send_until(bench.followed)
+    wrist = bench.arrays[-1].skeletons[0].body[BODY_25.index["RWrist"]]
+    assert wrist.position.z == pytest.approx(take.DISTANCE, abs=1e-6)  # the skin, as the original has it
+    assert math.isnan(wrist.sigma[0])

@@ -1,0 +1,183 @@
+"""What the node cannot use or has no time for is told, and good images are followed again."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+
+import camera_take as take
+import numpy as np
+import pytest
+from node_bench import NodeBench
+from sensor_msgs.msg import Image
+
+from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+
+def test_images_wait_for_camera_info_and_are_followed_once_it_comes(start):
+    bench = start(take.person())
+    bench.send_until(lambda: bench.summary.startswith("no_camera_info"), info=None)
+    assert bench.diagnostics[-1].status[0].level == b"\x01"
+    assert "/camera/color/camera_info" in bench.summary
+    assert not bench.arrays
+    assert bench.recovers()
+    bench.send_until(lambda: bench.diagnostics[-1].status[0].level == b"\x00")
+
+
+@pytest.mark.parametrize(
+    ("code", "images"),
+    [
+        ("camera_info_size", {"info": lambda s: take.camera_info(s, scale=2)}),
+        ("no_focal_length", {"info": lambda s: take.camera_info(s, k=[0.0] * 9)}),
+        ("depth_size", {"depth": lambda s: take.depth_message(s, scale=2)}),
+        ("wrong_encoding", {"color": lambda s: take.color_message(s, encoding="bayer_rggb16")}),
+        ("wrong_encoding", {"depth": lambda s: take.depth_message(s, encoding="rgb8")}),
+        ("wrong_length", {"color": lambda s: take.color_message(s, data=take.color_message(s).data[:1000])}),
+        ("wrong_length", {"depth": lambda s: take.depth_message(s, data=take.depth_message(s).data[:-1])}),
+        ("bad_size", {"color": lambda s: take.color_message(s, width=0, height=0)}),
+    ],
+)
+def test_what_cannot_be_used_is_told_and_good_images_are_followed_again(start, code, images):
+    bench = start(take.person())
+    bench.send_until(lambda: bench.summary.startswith(code), **images)
+    assert int(bench.said(f"dropped {code}")) >= 1
+    assert bench.diagnostics[-1].status[0].level == b"\x01"
+    assert bench.recovers()
+
+
+def test_depth_without_a_single_value_is_told_and_recovered_from(start):
+    bench = start(take.person())
+    nothing = np.zeros((take.HEIGHT, take.WIDTH), dtype=np.uint16)
+    nan = np.full((take.HEIGHT, take.WIDTH), np.nan, dtype=np.float32)
+    for pixels, encoding in ((nothing, "16UC1"), (nan, "32FC1")):
+        bench.send_until(
+            lambda: bench.summary.startswith("no_depth_measured"),
+            depth=lambda s, p=pixels, e=encoding: take.image_message(p, e, s),
+        )
+        assert bench.arrays
+        assert bench.recovers()
+
+
+def test_the_resolution_may_change_in_mid_stream(context):
+    class Scaling:
+        """Sees the person at the size of the image, as a real detector does."""
+
+        name = "scaling"
+        images_at_once = 1
+
+        def detect(self, image: np.ndarray, stamp: float) -> tuple[Person2D, ...]:
+            del stamp
+            return (take.person(scale=image.shape[1] / take.WIDTH),)
+
+        def close(self) -> None:
+            pass
+
+    bench = NodeBench(context, Scaling())
+    try:
+        bench.send_until(bench.followed)
+        before = bench.arrays[-1].skeletons[0]
+        bench.arrays.clear()
+        large = {
+            "color": lambda s: take.color_message(s, scale=2),
+            "depth": lambda s: take.depth_message(s, scale=2),
+            "info": lambda s: take.camera_info(s, scale=2),
+        }
+        bench.send_until(bench.followed, **large)
+        after = bench.arrays[-1].skeletons[0]
+        assert after.id == before.id
+        assert after.body[4].position.x == pytest.approx(before.body[4].position.x, abs=0.02)
+    finally:
+        bench.close()
+
+
+def test_colour_without_depth_of_its_time_is_counted(start):
+    bench = start(take.person())
+
+    def late(stamp: int) -> Image:
+        return take.depth_message(stamp + take.PERIOD * 100)
+
+    bench.send_until(lambda: int(bench.said("dropped no_depth")) > 3, depth=late)
+    assert not bench.arrays
+
+
+def test_silence_is_told(start):
+    bench = start()
+    bench.until(lambda: bench.summary.startswith("nothing comes on /camera/color/image_raw"))
+    assert bench.diagnostics[-1].status[0].level == b"\x01"
+
+
+def test_what_it_has_no_time_for_is_dropped_for_the_newest_and_counted(context):
+    class Slow:
+        name = "slow"
+        images_at_once = 1
+
+        def __init__(self) -> None:
+            self.seen: list[float] = []
+            self.goes_on = threading.Event()
+
+        def detect(self, image: np.ndarray, stamp: float) -> tuple[Person2D, ...]:
+            del image
+            self.seen.append(stamp)
+            assert self.goes_on.wait(timeout=20.0)
+            return ()
+
+        def close(self) -> None:
+            pass
+
+    detector = Slow()
+    bench = NodeBench(context, detector)
+    try:
+        sent = []
+
+        def send() -> None:
+            if len(sent) < 10:
+                sent.append(0)
+                bench.send()
+
+        # One is at the detector, the newest waits, the others had to go.
+        bench.until(lambda: bench.said("dropped busy") == "8", doing=send)
+        assert len(detector.seen) == 1
+        detector.goes_on.set()
+        last = (take.START + 9 * take.PERIOD) * 1e-9
+        bench.until(lambda: detector.seen[-1] == pytest.approx(last, abs=1e-6))
+        assert len(detector.seen) == 2
+    finally:
+        detector.goes_on.set()
+        bench.close()
+
+
+def test_a_detector_that_fails_is_told_and_tried_again(context):
+    class Failing:
+        name = "failing"
+        images_at_once = 1
+        errors = iter(
+            [DetectorError("bad_day", "expected a good day")] * 3 + [ZeroDivisionError("on purpose")] * 3
+        )
+
+        def detect(self, image: np.ndarray, stamp: float) -> tuple[Person2D, ...]:
+            del image, stamp
+            error = next(self.errors, None)
+            if error is not None:
+                raise error
+            return (take.person(),)
+
+        def close(self) -> None:
+            pass
+
+    bench = NodeBench(context, Failing())
+    try:
+        bench.send_until(bench.followed)
+        bench.until(lambda: bench.said("dropped bad_day") == "3" and bench.said("dropped internal") == "3")
+    finally:
+        bench.close()
+
+
+def test_a_bag_that_begins_again_is_followed_again(start):
+    bench = start(take.person())
+    bench.send_until(bench.followed)
+    bench.send_until(lambda: next(bench.numbers) > 60)
+    bench.numbers = itertools.count()
+    bench.arrays.clear()
+    bench.send_until(bench.followed)
+    assert bench.arrays[-1].header.stamp.sec * 10**9 < take.START + 60 * take.PERIOD

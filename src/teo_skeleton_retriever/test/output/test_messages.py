@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+from std_msgs.msg import Header
+from teo_sign_msgs.msg import Skeleton3D
+
+from teo_skeleton_retriever.layouts.body_frame import BodyFrame
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, Skeleton
+from teo_skeleton_retriever.output.messages import PARTS, skeleton_array, skeletons_of
+
+
+def keypoints(n: int, seed: int) -> Keypoints3D:
+    random = np.random.default_rng(seed)
+    status = random.integers(0, 4, n)
+    lost = status == 0
+    points, sigma, pixels = random.normal(size=(n, 3)), random.random((n, 3)), random.random((n, 2)) * 640
+    points[lost], sigma[lost], pixels[lost] = np.nan, np.nan, np.nan
+    confidence = np.where(lost, 0.0, random.random(n))
+    return Keypoints3D(points=points, confidence=confidence, status=status, sigma=sigma, pixels=pixels)
+
+
+def skeleton(seed: int = 0, frame: BodyFrame | None = None) -> Skeleton:
+    parts = {part: keypoints(len(layout), seed + i) for i, (part, layout) in enumerate(PARTS.items())}
+    return Skeleton(track_id=seed, is_signer=seed == 0, body_frame=frame, **parts)
+
+
+@settings(deadline=None, max_examples=30)
+@given(
+    st.lists(st.floats(-1, 1), min_size=4, max_size=4).filter(lambda q: np.linalg.norm(q) > 0.1),
+    st.booleans(),
+)
+def test_skeletons_come_back_from_their_message(quaternion, hips):
+    rotation = Rotation.from_quat(quaternion).as_matrix()
+    before = skeleton(2, BodyFrame(np.array([0.1, -0.2, 1.5]), rotation, "hips" if hips else "shoulders"))
+    message = skeleton_array([before], Header(frame_id="camera"))
+    turn = message.skeletons[0].body_frame.orientation
+    np.testing.assert_allclose(
+        Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix(), rotation, atol=1e-12
+    )
+    (after,) = skeletons_of(message)
+    assert (after.track_id, after.is_signer) == (2, False)
+    for part in PARTS:
+        for field in ("points", "confidence", "status", "sigma", "pixels"):
+            old, new = getattr(getattr(before, part), field), getattr(getattr(after, part), field)
+            np.testing.assert_allclose(new, old, rtol=1e-6)
+    assert after.body_frame is not None
+    np.testing.assert_allclose(after.body_frame.rotation, rotation, atol=1e-12)
+    assert after.body_frame.anchor == before.body_frame.anchor
+
+
+def test_half_turns_have_a_quaternion_too():
+    for axis in np.eye(3):
+        rotation = Rotation.from_rotvec(np.pi * axis).as_matrix()
+        message = skeleton_array([skeleton(0, BodyFrame(np.zeros(3), rotation, "hips"))], Header())
+        turn = message.skeletons[0].body_frame.orientation
+        np.testing.assert_allclose(np.abs([turn.x, turn.y, turn.z, turn.w]), [*axis, 0.0], atol=1e-9)
+
+
+def test_every_keypoint_has_its_name_and_a_lost_part_is_left_out():
+    person = skeleton()
+    message = skeleton_array([person], Header()).skeletons[0]
+    assert [k.name for k in message.right_hand] == list(PARTS["right_hand"].keypoints)
+    assert all(len(k.name) <= 32 for part in PARTS for k in getattr(message, part))
+    lost = Skeleton(
+        track_id=1,
+        is_signer=False,
+        body_frame=None,
+        **{part: Keypoints3D.lost(len(layout)) for part, layout in PARTS.items()},
+    )
+    message = skeleton_array([lost], Header()).skeletons[0]
+    assert not any(len(getattr(message, part)) for part in PARTS)
+    assert message.body_frame_origin == Skeleton3D.BODY_FRAME_UNKNOWN
+    assert np.isnan(message.body_frame.position.x)
+    assert skeletons_of(skeleton_array([lost], Header()))[0].body_frame is None
+
+
+def test_nobody_is_an_empty_array_with_a_header():
+    message = skeleton_array([], Header(frame_id="camera"))
+    assert (list(message.skeletons), message.header.frame_id) == ([], "camera")
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_the_message_bounds_are_those_of_the_layouts(part):
+    assert len(getattr(skeleton_array([skeleton()], Header()).skeletons[0], part)) == len(PARTS[part])

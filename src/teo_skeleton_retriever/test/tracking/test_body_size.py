@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from capsule_person import FOREARM, SHOULDERS, UPPER_ARM, pose
+
+from teo_skeleton_retriever.tracking.body_size import BodySize, widened
+
+
+def seen(size: float, images: int = 60, *, noise: float = 0.008) -> BodySize:
+    random = np.random.default_rng(2)
+    body = pose((-0.5, 0.2, -0.1), (0.5, 0.2, -0.1), size=size).body
+    estimate = BodySize()
+    for _ in range(images):
+        estimate.step(body + random.normal(0.0, noise, body.shape))
+    return estimate
+
+
+@pytest.mark.parametrize("size", [0.75, 1.0, 1.15])
+def test_lengths_are_those_of_the_person(size: float) -> None:
+    estimate = seen(size)
+    assert estimate.length("upper arm")[0] == pytest.approx(size * UPPER_ARM, abs=0.01)
+    assert estimate.length("forearm")[0] == pytest.approx(size * FOREARM, abs=0.01)
+    assert estimate.scale == pytest.approx(size * SHOULDERS / 0.36, rel=0.05)
+
+
+def test_before_anything_is_seen_a_person_is_average_and_that_is_uncertain() -> None:
+    assert BodySize().scale == 1.0
+    assert BodySize().length("forearm")[1] > 3 * seen(1.0).length("forearm")[1]
+
+
+def test_a_forearm_that_was_never_seen_grows_with_the_shoulders() -> None:
+    body = pose((-0.5, 0.2, -0.1), (0.5, 0.2, -0.1), size=1.2).body
+    body[[4, 7]] = math.nan
+    estimate = BodySize()
+    for _ in range(60):
+        estimate.step(body)
+    assert estimate.length("forearm")[0] > 1.05 * BodySize().length("forearm")[0]
+
+
+def test_a_leg_twice_as_long_is_beyond_belief() -> None:
+    estimate = seen(1.0)
+    assert estimate.too_long("thigh", 0.9)
+    assert not estimate.too_long("thigh", 0.45)
+
+
+def test_shoulders_that_are_seen_as_an_average_persons_are_put_right() -> None:
+    for true in (0.30, 0.36, 0.44):
+        seen_width = 0.36 * (true / 0.36) ** (1.0 / 1.4)
+        estimate = BodySize(averaging=True)
+        for _ in range(60):
+            body = np.full((25, 3), math.nan)
+            width = seen_width * estimate.widening
+            body[[2, 5]] = (-width / 2.0, -0.3, 1.5), (width / 2.0, -0.3, 1.5)
+            estimate.step(body)
+        assert estimate.scale * 0.36 == pytest.approx(true, rel=0.02)
+        assert estimate.widening * seen_width == pytest.approx(true, rel=0.02)
+
+
+def test_hands_differ_less_than_shoulders() -> None:
+    small, large = seen(0.75), seen(1.15)
+    assert 1.0 < large.hand_scale / small.hand_scale < large.scale / small.scale
+
+
+def test_points_are_moved_apart_about_their_middle() -> None:
+    pair = np.array([[0.0, 1.0], [4.0, 3.0]])
+    np.testing.assert_allclose(widened(pair, 1.5), [[-1.0, 0.5], [5.0, 3.5]])

@@ -1,0 +1,155 @@
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from teo_skeleton_retriever.errors import TrackingError
+from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
+
+RATE = 30.0  # [1/s]
+NOWHERE = np.full(3, math.nan)
+AT_ONCE = TrackerSettings(newcomer_images=1)
+
+
+def walk(*ways: list[np.ndarray | None], tracker: PersonTracker | None = None) -> list[list[int | None]]:
+    """Ids of people who go these ways, seen in an order that changes; None where hidden."""
+    tracker = tracker or PersonTracker()
+    random = np.random.default_rng(5)
+    ids: list[list[int | None]] = []
+    for i, places in enumerate(zip(*ways, strict=True)):
+        visible = [k for k, place in enumerate(places) if place is not None]
+        random.shuffle(visible)
+        noisy = [np.asarray(places[k]) + random.normal(0.0, 0.02, 3) for k in visible]
+        found = dict(zip(visible, tracker.step(i / RATE, noisy), strict=True))
+        ids.append([found.get(k) for k in range(len(places))])
+    return ids
+
+
+def line(start: tuple[float, ...], end: tuple[float, ...], images: int = 90) -> list[np.ndarray | None]:
+    return list(np.linspace(start, end, images))
+
+
+def kept(ids: list[list[int | None]]) -> bool:
+    """Everybody has one id from first to last, and it is nobody else's."""
+    columns = [
+        {person_id for person_id in column if person_id is not None} for column in zip(*ids, strict=True)
+    ]
+    return all(len(column) == 1 for column in columns) and len(set().union(*columns)) == len(columns)
+
+
+def test_someone_gets_an_id_in_their_third_image() -> None:
+    assert walk(line((0, 0, 2), (0, 0, 2), 5)) == [[None], [None], [0], [0], [0]]
+
+
+def test_a_flicker_becomes_nobody() -> None:
+    tracker = PersonTracker()
+    assert tracker.step(0.0, [np.array([0.0, 0.0, 2.0])]) == [None]
+    for i in range(1, 90):
+        tracker.step(i / RATE, [])
+    assert tracker.people == {}
+
+
+def test_two_who_cross_at_different_depths_keep_their_ids() -> None:
+    assert kept(walk(line((-1, 0, 2.0), (1, 0, 2.0)), line((1, 0, 2.6), (-1, 0, 2.6))))
+
+
+def test_two_who_cross_close_by_keep_their_ids_by_how_they_move() -> None:
+    assert kept(walk(line((-1, 0, 2.0), (1, 0, 2.0)), line((1, 0, 2.25), (-1, 0, 2.25))))
+
+
+def test_someone_hidden_by_who_crosses_keeps_their_id() -> None:
+    standing = line((0, 0, 2.6), (0, 0, 2.6))
+    standing[35:60] = [None] * 25
+    assert kept(walk(line((-1, 0, 1.8), (1, 0, 1.8)), standing))
+
+
+def test_someone_who_walks_on_while_hidden_keeps_their_id() -> None:
+    walking = line((-1, 0, 2.6), (1, 0, 2.6))
+    walking[40:55] = [None] * 15
+    assert kept(walk(walking, line((0, 0, 1.5), (0, 0, 1.5))))
+
+
+def test_who_returns_within_the_memory_is_who_they_were_and_later_is_new() -> None:
+    for gap, same in ((2.5, True), (3.5, False)):
+        tracker = PersonTracker(AT_ONCE)
+        place = np.array([0.3, 0.0, 2.0])
+        first = tracker.step(0.0, [place])
+        assert (tracker.step(gap, [place]) == first) is same
+
+
+def test_someone_far_away_is_not_who_left() -> None:
+    tracker = PersonTracker(AT_ONCE)
+    assert tracker.step(0.0, [np.array([-1.0, 0.0, 2.0])]) == [0]
+    assert tracker.step(1.0, [np.array([1.0, 0.0, 2.0])]) == [1]
+
+
+def test_ten_people_in_two_rows_keep_their_ids() -> None:
+    ways = [line((x, 0, z), (x + 0.3, 0, z)) for x in (-1.2, -0.6, 0.0, 0.6, 1.2) for z in (2.0, 3.0)]
+    assert kept(walk(*ways))
+
+
+def test_as_many_as_possible_are_recognised() -> None:
+    """The nearest pair is not taken first if that leaves somebody unrecognised."""
+    tracker = PersonTracker(AT_ONCE)
+    tracker.step(0.0, [np.array([0.0, 0.0, 2.0]), np.array([0.3, 0.0, 2.0])])
+    assert tracker.step(0.001, [np.array([0.25, 0.0, 2.0]), np.array([0.6, 0.0, 2.0])]) == [0, 1]
+
+
+def test_detections_without_a_place_are_nobody() -> None:
+    tracker = PersonTracker(AT_ONCE)
+    assert tracker.step(0.0, [NOWHERE, np.array([0.0, 0.0, 2.0])]) == [None, 0]
+    assert tracker.step(0.1, []) == []
+
+
+def test_time_that_runs_backwards_forgets_people_but_no_id_is_given_twice() -> None:
+    tracker = PersonTracker(AT_ONCE)
+    assert tracker.step(10.0, [np.array([0.0, 0.0, 2.0])]) == [0]
+    assert tracker.step(1.0, [np.array([0.0, 0.0, 2.0])]) == [1]
+
+
+@given(st.lists(st.lists(st.tuples(*[st.floats(-3, 3)] * 3), max_size=4), max_size=12))
+@settings(max_examples=60, deadline=None)
+def test_no_image_gives_an_id_twice_and_new_ids_only_grow(images: list[list[tuple[float, ...]]]) -> None:
+    tracker = PersonTracker(AT_ONCE)
+    highest = [-1]
+    for i, places in enumerate(images):
+        ids = tracker.step(i / RATE, [np.array(place) for place in places])
+        given_ids = [person_id for person_id in ids if person_id is not None]
+        assert len(ids) == len(places)
+        assert len(set(given_ids)) == len(given_ids)
+        highest.append(max([highest[-1], *given_ids]))
+    assert all(after - before <= 4 for before, after in pairwise(highest))
+
+
+def test_two_people_are_not_in_the_same_place() -> None:
+    """Somebody seen twice, or somebody of whom only who hides them is measured."""
+    places = [np.array([0.0, 0.0, 2.0]), np.array([0.1, 0.0, 2.1]), np.array([0.4, 0.0, 2.0])]
+    assert PersonTracker(AT_ONCE).step(0.0, places) == [0, None, 1]
+
+
+def test_of_several_places_where_a_person_may_be_that_where_they_are_expected_is_theirs() -> None:
+    tracker = PersonTracker(AT_ONCE)
+    tracker.step(0.0, [np.array([0.0, 0.0, 1.5]), np.array([0.3, 0.0, 2.5])])
+    torn = np.array([[0.2, 0.0, 1.6], [0.3, 0.0, 2.5]])
+    assert tracker.step(1 / RATE, [torn, np.array([0.0, 0.0, 1.5])]) == [1, 0]
+    assert tracker.people[1].position[2] == pytest.approx(2.5)
+
+
+@pytest.mark.parametrize("time", [math.nan, math.inf])
+def test_a_time_that_is_none_is_refused(time: float) -> None:
+    with pytest.raises(TrackingError) as caught:
+        PersonTracker().step(time, [])
+    assert caught.value.code == "bad_time"
+
+
+@pytest.mark.parametrize(
+    "changes", [{"gate": 0.0}, {"memory": math.nan}, {"max_gate": 0.1}, {"newcomer_images": 0}]
+)
+def test_settings_that_follow_nobody_are_refused(changes: dict[str, float]) -> None:
+    with pytest.raises(TrackingError):
+        TrackerSettings(**changes)

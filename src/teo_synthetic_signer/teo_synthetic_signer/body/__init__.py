@@ -1,0 +1,1 @@
+"""People: mesh, rig, shapes, clothes, the places that hands go to, and from a pose to the skin."""

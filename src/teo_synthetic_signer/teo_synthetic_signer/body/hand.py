@@ -1,0 +1,119 @@
+"""One hand of a body: its own axes, and from a hand shape to the places of its bones."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_synthetic_signer.body.hand_shapes import FINGERS, HAND_SHAPES, HandShape
+from teo_synthetic_signer.body.rig import Rig
+from teo_synthetic_signer.body.rotations import about, cross, frame, perpendicular, turn, unit
+
+_CONVERGENCE = dict(zip(FINGERS, np.radians([-2.0, 3.0, 9.0, 16.0]), strict=True))
+"""By how much flexed fingers turn towards the thumb [rad]: they all point to the scaphoid bone."""
+_ARCH = dict(zip(FINGERS, (0.0, 0.0, 0.06, 0.14), strict=True))
+"""By how much the ring and the little finger's metacarpals follow their knuckle: the palm hollows."""
+
+
+class Hand:
+    """One hand of a rig.
+
+    Attributes:
+        axes: see `Rig.hand_axes`.
+        wrist: its centre at rest [m].
+    """
+
+    def __init__(self, rig: Rig, side: str) -> None:
+        """Find the axes of a side's hand, "R" or "L", at rest."""
+        self._rig = rig
+        self.side = side
+        self.wrist = rig.head(f"wrist.{side}")
+        self.axes = rig.hand_axes(side)
+
+    @cached_property
+    def _thumb_bend(self) -> FloatArray:
+        """Towards where the thumb bends at rest, in the axes of the body."""
+        joints = [self._rig.head(f"finger1-{i}.{self.side}") for i in (1, 2, 3)]
+        joints.append(self._rig.tail(f"finger1-3.{self.side}"))
+        steps = [unit(b - a) for a, b in pairwise(joints)]
+        return perpendicular(steps[2] - steps[0], unit(joints[3] - joints[1]))
+
+    @cached_property
+    def joints_straight(self) -> FloatArray:
+        """The hand's 21 keypoints with all fingers straight and the wrist at rest [m]. Shape (21, 3)."""
+        return self.joints(HAND_SHAPES["open"])
+
+    def to_body(self, direction: FloatArray) -> FloatArray:
+        """Bring a direction in the hand's axes to those of the body at rest."""
+        turned: FloatArray = self.axes @ np.asarray(direction, dtype=np.float64)
+        return turned
+
+    def bones(self, shape: HandShape) -> dict[str, FloatArray]:
+        """Work out by how much each finger's bones move while the wrist stays at rest.
+
+        Returns:
+            Transform of each bone. Shape (4, 4) each.
+        """
+        placed = self._thumb(shape)
+        for number, finger in enumerate(FINGERS):
+            placed |= self._finger(number, finger, shape)
+        return placed
+
+    def joints(self, shape: HandShape) -> FloatArray:
+        """Give the hand's 21 keypoints with the wrist at rest [m]. Shape (21, 3)."""
+        placed = self.bones(shape)
+        points = [self.wrist]
+        for finger in range(1, 6):
+            names = [f"finger{finger}-{i}.{self.side}" for i in (1, 2, 3)]
+            points += [(placed[name] @ [*self._rig.head(name), 1.0])[:3] for name in names]
+            points.append((placed[names[-1]] @ [*self._rig.tail(names[-1]), 1.0])[:3])
+        return np.array(points)
+
+    def _finger(self, number: int, finger: str, shape: HandShape) -> dict[str, FloatArray]:
+        names = [f"finger{number + 2}-{i}.{self.side}" for i in (1, 2, 3)]
+        spread = float(shape.spread[number])
+        lean = _CONVERGENCE[finger]
+        straight = self.to_body(np.array([math.cos(spread), 0.0, math.sin(spread)]))
+        inwards = perpendicular(self.to_body(np.array([0.0, math.cos(lean), math.sin(lean)])), straight)
+        # The joints of a finger bend in one plane; at rest it is the one that holds the palm's direction.
+        angles = np.cumsum(shape.flexion[number])
+        towards = [math.cos(a) * straight + math.sin(a) * inwards for a in angles]
+        bends = [math.cos(a) * inwards - math.sin(a) * straight for a in angles]
+        metacarpal = f"metacarpal{number + 1}.{self.side}"
+        # The mean of both directions of folding is enough: the arch is a few degrees.
+        hollow = turn(cross(straight, inwards), _ARCH[finger] * float(shape.flexion[number, 0]))
+        base = about(self._rig.head(metacarpal), hollow)
+        placed = {metacarpal: base}
+        joint = (base @ [*self._rig.head(names[0]), 1.0])[:3]
+        return placed | self._chain(names, joint, towards, bends, self.axes[:, 1])
+
+    def _thumb(self, shape: HandShape) -> dict[str, FloatArray]:
+        names = [f"finger1-{i}.{self.side}" for i in (1, 2, 3)]
+        straight = unit(self.to_body(shape.thumb[0]))
+        inwards = perpendicular(self.to_body(shape.thumb[1]), straight)
+        angles = np.concatenate([[0.0], np.cumsum(shape.thumb_flexion)])
+        towards = [math.cos(a) * straight + math.sin(a) * inwards for a in angles]
+        bends = [math.cos(a) * inwards - math.sin(a) * straight for a in angles]
+        return self._chain(names, self._rig.head(names[0]), towards, bends, self._thumb_bend)
+
+    def _chain(
+        self,
+        names: list[str],
+        start: FloatArray,
+        towards: list[FloatArray],
+        bends: list[FloatArray],
+        bend_at_rest: FloatArray,
+    ) -> dict[str, FloatArray]:
+        """Lay bones end to end, each in its direction, its inner side facing where it bends."""
+        placed = {}
+        for i, name in enumerate(names):
+            head = self._rig.head(name)
+            end = self._rig.head(names[i + 1]) if i + 1 < len(names) else self._rig.tail(name)
+            rotation = frame(towards[i], bends[i]) @ frame(end - head, bend_at_rest).T
+            placed[name] = about(head, rotation, start)
+            start = start + towards[i] * float(np.linalg.norm(end - head))
+        return placed

@@ -1,0 +1,163 @@
+"""A body at rest: its mesh, the joints it bends at, and how its skin follows its bones."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_synthetic_signer.body.body_data import load_body_data
+from teo_synthetic_signer.body.phenotype import Phenotype, shape_vertices
+from teo_synthetic_signer.body.rotations import perpendicular, unit
+
+SIDES = ("R", "L")
+
+# Lengths of the proximal and the middle phalanx of the fingers [mm].
+# Source: Buryanov and Kotiuk, Proportions of hand segments, Int. J. Morphol. 28(3), 2010.
+_PHALANGES = {2: (39.78, 22.38), 3: (44.63, 26.33), 4: (41.37, 25.65), 5: (32.74, 18.11)}
+_SHOULDER_REACH = 0.015  # how near, from above, skin counts as above the joint [m]
+_SHOULDER_RAISE = 0.25  # of the joint, of the way to the skin above it
+_TRAPEZIUM = np.array([0.024, 0.006, 0.022])
+"""Where the thumb's first joint is, from the wrist: along the hand, out of the palm, to the thumb's side, for
+a hand of 0.18 m from wrist to fingertip [m]. By the size of the bones of the wrist; no single source."""
+_TIP_BELOW_SKIN = 0.006
+"""From the end of a finger to the keypoint of its tip, the middle of the fingertip [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """One person's body at rest, standing at the origin, the floor at z = 0.
+
+    Attributes:
+        vertices: Shape (n, 3).
+        heads: of each bone, the centre of the joint about which it turns [m]. Shape (bones, 3).
+        tails: of each bone, its end; of the last bone of a finger the middle of the fingertip [m].
+        weights: how much each vertex follows each bone. Shape (n, bones), sparse.
+    """
+
+    vertices: FloatArray
+    heads: FloatArray
+    tails: FloatArray
+    weights: csr_array
+
+    @classmethod
+    def of(cls, phenotype: Phenotype) -> Rig:
+        """Build the body of such a person."""
+        data = load_body_data()
+        vertices = shape_vertices(phenotype)
+        feet = vertices[np.unique(data.groups["body"])][:, 2].min()
+        root = data.bones.index("root")
+        middle = vertices[data.head_vertices[root]].mean(axis=0)
+        vertices = vertices - [middle[0], 0.0, feet]
+        heads = np.array([vertices[chosen].mean(axis=0) for chosen in data.head_vertices])
+        tails = np.array([vertices[chosen].mean(axis=0) for chosen in data.tail_vertices])
+        rig = cls(vertices, heads, tails, csr_array(data.weights))
+        for side in SIDES:
+            rig._place_shoulder(side)
+            rig._place_knuckles(side)
+        return rig
+
+    @staticmethod
+    def bone(name: str) -> int:
+        """Give the index of a bone."""
+        return load_body_data().bones.index(name)
+
+    def head(self, name: str) -> FloatArray:
+        """Give the joint about which a bone turns [m]."""
+        joint: FloatArray = self.heads[self.bone(name)]
+        return joint
+
+    def tail(self, name: str) -> FloatArray:
+        """Give the end of a bone [m]."""
+        end: FloatArray = self.tails[self.bone(name)]
+        return end
+
+    def _place_shoulder(self, side: str) -> None:
+        """Raise the shoulder joint to where anatomy has it.
+
+        MakeHuman's is 6 cm below the skin. The head of the humerus is a tenth of the upper arm below the tip
+        of the acromion (De Leva, J. Biomechanics 29, 1996), which is 3 cm, and that is a centimetre or more
+        below the skin.
+        """
+        bone = self.bone(f"upperarm01.{side}")
+        near = np.hypot(*(self.vertices - self.heads[bone])[:, :2].T) < _SHOULDER_REACH
+        on_body = np.isin(np.arange(len(self.vertices)), np.unique(load_body_data().groups["body"]))
+        top = float(self.vertices[near & on_body][:, 2].max())
+        self.heads[bone, 2] += _SHOULDER_RAISE * (top - self.heads[bone, 2])
+
+    def _place_knuckles(self, side: str) -> None:
+        """Move the joints at the base of each finger to where anatomy has them, and tips into the finger.
+
+        MakeHuman's rig bends the fingers at the web, 7 to 16 mm beyond the knuckle, and the thumb in the
+        middle of its metacarpal. The finger's other joints, which are at the creases, give the scale.
+        """
+        self._place_trapezium(side)
+        for finger in range(1, 6):
+            base, second, last = (self.bone(f"finger{finger}-{i}.{side}") for i in (1, 2, 3))
+            if finger in _PHALANGES:
+                proximal, middle = _PHALANGES[finger]
+                length = proximal / middle * np.linalg.norm(self.heads[last] - self.heads[second])
+                # Back along the metacarpal, from where the rig has the knuckle.
+                away = self.heads[base] - self.heads[second]
+                hand = self.head(f"metacarpal{finger - 1}.{side}") - self.heads[base]
+                away = away + hand / np.linalg.norm(hand) * max(0.0, length - np.linalg.norm(away))
+                self.heads[base] = self.heads[second] + away / np.linalg.norm(away) * length
+                self.tails[self.bone(f"metacarpal{finger - 1}.{side}")] = self.heads[base]
+            end = self.tails[last] - self.heads[last]
+            self.tails[last] -= end / np.linalg.norm(end) * _TIP_BELOW_SKIN
+
+    def _place_trapezium(self, side: str) -> None:
+        wrist = self.head(f"wrist.{side}")
+        middle = self.tail(f"finger3-3.{side}")
+        along, palm, across = self.hand_axes(side).T
+        scale = float(np.linalg.norm(middle - wrist)) / 0.18
+        shift = along * _TRAPEZIUM[0] + palm * _TRAPEZIUM[1] + across * _TRAPEZIUM[2]
+        self.heads[self.bone(f"finger1-1.{side}")] = wrist + scale * shift
+
+    def hand_axes(self, side: str) -> FloatArray:
+        """Give a hand's own axes: columns along the fingers, out of the palm, towards the thumb's side.
+
+        They are the same directions of either hand, so those of a left hand are left-handed.
+        """
+        along = unit(self.head(f"finger3-1.{side}") - self.head(f"wrist.{side}"))
+        across = perpendicular(self.head(f"finger2-1.{side}") - self.head(f"finger5-1.{side}"), along)
+        palm = np.cross(across, along) if side == "R" else np.cross(along, across)
+        return np.column_stack([along, palm, across])
+
+    def transforms(
+        self, turned: Mapping[str, FloatArray], placed: Mapping[str, FloatArray], root: FloatArray
+    ) -> FloatArray:
+        """Work out where each bone goes.
+
+        Args:
+            turned: rotations of bones about their heads, relative to their parents, in the axes of the
+                body at rest. Shape (3, 3) each.
+            placed: bones whose transform from rest is given, whatever their parents do. Shape (4, 4) each.
+            root: transform of the whole body. Shape (4, 4).
+
+        Returns:
+            From places at rest to places now. Shape (bones, 4, 4).
+        """
+        data = load_body_data()
+        result = np.empty((len(data.bones), 4, 4))
+        for i, (name, parent) in enumerate(zip(data.bones, data.parents, strict=True)):
+            if name in placed:
+                result[i] = placed[name]
+                continue
+            above = root if parent < 0 else result[parent]
+            if name in turned:
+                local = np.eye(4)
+                local[:3, :3] = turned[name]
+                local[:3, 3] = self.heads[i] - turned[name] @ self.heads[i]
+                above = above @ local
+            result[i] = above
+        return result
+
+    def skin(self, vertices: FloatArray, transforms: FloatArray) -> FloatArray:
+        """Bring vertices from rest to a pose, by linear blend skinning. Shape (n, 3)."""
+        blended = (self.weights @ transforms[:, :3].reshape(-1, 12)).reshape(-1, 3, 4)
+        moved: FloatArray = np.einsum("nij,nj->ni", blended[:, :, :3], vertices) + blended[:, :, 3]
+        return moved

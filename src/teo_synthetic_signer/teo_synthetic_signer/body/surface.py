@@ -1,0 +1,69 @@
+"""Triangles with what is needed to paint them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_synthetic_signer.body.body_data import IntArray
+
+
+class Material(IntEnum):
+    """How a triangle is painted."""
+
+    PLAIN = 0
+    """in the colours of its corners"""
+    EYE = 1
+    """white, with iris and pupil where it looks"""
+    CLOTH = 2
+    """likewise with a fine weave, and in other colours below the waist and above the collar"""
+    HAIR = 3
+    """like PLAIN, with strands"""
+    WOOD = 4
+    """like PLAIN, with grain"""
+    TILES = 5
+    """like PLAIN, with joints every 0.3 m"""
+    PLASTER = 6
+    """like PLAIN, with soft stains"""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A set of triangles.
+
+    Attributes:
+        triangles: indices of vertices. Shape (t, 3).
+        colors: of each vertex, 0 to 1. Shape (n, 3).
+        patterns: where each vertex is in its material's pattern [m]. Shape (n, 3).
+        below: colours of cloth where its pattern's z is below 0: trousers. Shape (n, 3).
+        above: colours of cloth where its pattern's z is above 1: bare skin. Shape (n, 3).
+        materials: of each triangle, `Material`. Shape (t,).
+        bones: index of the bone that moves each triangle most, -1 for furniture. Shape (t,).
+    """
+
+    triangles: IntArray
+    colors: FloatArray
+    patterns: FloatArray
+    below: FloatArray
+    above: FloatArray
+    materials: NDArray[np.int8]
+    bones: NDArray[np.int16]
+
+
+def vertex_normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    """Give the direction in which the surface faces at each vertex. Shape (n, 3)."""
+    a, b, c = (vertices[triangles[:, i]] for i in range(3))
+    facing = np.cross(b - a, c - a)
+    normals = np.zeros_like(vertices)
+    for axis in range(3):
+        for corner in range(3):
+            normals[:, axis] += np.bincount(
+                triangles[:, corner], weights=facing[:, axis], minlength=len(vertices)
+            )
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    scaled: FloatArray = normals / np.where(length > 0.0, length, 1.0)
+    return scaled

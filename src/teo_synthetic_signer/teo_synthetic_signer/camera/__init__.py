@@ -1,0 +1,1 @@
+"""What a depth camera makes of a scene: ray casting, colours, and the errors of its depth."""

@@ -1,0 +1,114 @@
+"""Colours of what rays hit: patterns of materials and soft light."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_synthetic_signer.body.ray_caster import Hits
+from teo_synthetic_signer.body.rotations import unit
+from teo_synthetic_signer.body.surface import Material, Surface
+
+Floats = NDArray[np.float32]
+
+# Strength of each light, chosen so that white paper that faces the lamp is just not burnt out.
+_LAMP = unit(np.array([0.62, 0.38, 0.68])).astype(np.float32)  # from before, from the left and above
+_LAMP_STRENGTH, _SKY, _GROUND, _FILL = 0.50, 0.34, 0.14, 0.14
+_WIDE = np.float32(0.25)
+"""How far the lamp reaches round edges: it is wide."""
+_IRIS = np.array([0.20, 0.13, 0.08], dtype=np.float32)
+_IRIS_ANGLE, _PUPIL_ANGLE = 0.52, 0.21
+"""Half the angles that the iris and the pupil span, seen from the middle of the eye [rad]."""
+_GAMMA = np.float32(1.0 / 2.2)  # of displays
+
+
+class Painter:
+    """Paints one surface.
+
+    Light comes from a lamp, from the ceiling, a little from the floor and from the camera. Nothing throws a
+    shadow: detectors do not need it, and it would double the rays.
+    """
+
+    def __init__(self, surface: Surface, normals: FloatArray, upright: FloatArray) -> None:
+        """Prepare to paint.
+
+        Args:
+            surface: what is there.
+            normals: of its vertices, in the axes of the camera. Shape (n, 3).
+            upright: rotation from the room's axes to the camera's. Shape (3, 3).
+        """
+        self._surface = surface
+        self._vertices = np.hstack([surface.colors, surface.patterns, normals]).astype(np.float32)
+        self._room = upright.T.astype(np.float32)
+
+    def paint(self, hits: Hits, directions: Floats) -> tuple[Floats, Floats]:
+        """Paint what rays hit; each must hit something.
+
+        Returns:
+            Colours, 0 to 1, as a display shows them, shape (n, 3); and the cosine between each ray and the
+            surface it hits, shape (n,).
+        """
+        corners = self._surface.triangles[hits.triangle]
+        mixed: Floats = np.zeros((len(corners), 9), dtype=np.float32)
+        for i in range(3):
+            mixed += self._vertices[corners[:, i]] * hits.shares[:, i, None]
+        albedo, place, normal = mixed[:, :3], mixed[:, 3:6], mixed[:, 6:]
+        normal /= np.sqrt(np.einsum("ij,ij->i", normal, normal))[:, None] + np.float32(1e-9)
+        length = np.sqrt(np.einsum("ij,ij->i", directions, directions))
+        facing = -np.einsum("ij,ij->i", normal, directions) / length
+        normal[facing < 0.0] *= -1.0
+        facing = np.abs(facing)
+        materials = self._surface.materials[hits.triangle]
+        cloth = materials == Material.CLOTH
+        below, above = cloth & (place[:, 2] < 0.0), cloth & (place[:, 2] > 1.0)
+        albedo[below] = self._surface.below[corners[below, 0]]
+        albedo[above] = self._surface.above[corners[above, 0]]
+        materials = np.where(above, np.int8(Material.PLAIN), materials)
+        albedo = _patterned(albedo, place, materials)
+        color = albedo * self._light(normal, facing)[:, None]
+        return np.clip(color, 0.0, 1.0) ** _GAMMA, facing
+
+    def _light(self, normal: Floats, facing: Floats) -> Floats:
+        lamp = np.clip((normal @ (_LAMP @ self._room) + _WIDE) / (1 + _WIDE), 0.0, 1.0)
+        up = normal @ self._room[2]
+        light: Floats = (
+            np.float32(_LAMP_STRENGTH) * lamp
+            + np.float32(_GROUND)
+            + np.float32((_SKY - _GROUND) / 2.0) * (1 + up)
+            + np.float32(_FILL) * facing
+        )
+        return light
+
+
+def _patterned(albedo: Floats, place: Floats, materials: NDArray[np.int8]) -> Floats:
+    for kind in np.unique(materials):
+        if kind == Material.PLAIN:
+            continue
+        here = np.flatnonzero(materials == kind)
+        x, y, z = place[here].T
+        if kind == Material.EYE:
+            angle = np.arctan2(np.hypot(y, z), x)[:, None]
+            looking = np.where(angle < _IRIS_ANGLE, _IRIS, albedo[here])
+            albedo[here] = np.where(angle < _PUPIL_ANGLE, np.float32(0.02), looking)
+        else:
+            albedo[here] *= _shade(Material(kind), x, y, z)[:, None]
+    return albedo
+
+
+def _shade(kind: Material, x: Floats, y: Floats, z: Floats) -> Floats:
+    """Give how much lighter or darker a material is at places of its pattern."""
+    match kind:
+        case Material.CLOTH:
+            shade = 1 + 0.05 * np.sin(900 * y) * np.sin(400 * z) + 0.04 * np.sin(37 * y + 10 * z)
+        case Material.HAIR:
+            shade = 1 + 0.35 * np.sin(700 * y + 60 * x) * np.sin(31 * z + 90 * y)
+        case Material.WOOD:
+            shade = 1 + 0.12 * np.sin(160 * z + 9 * np.sin(7 * y) + 11 * x)
+        case Material.TILES:
+            joint = (np.abs((x / 0.3) % 1 - 0.5) > 0.485) | (np.abs((y / 0.3) % 1 - 0.5) > 0.485)
+            shade = np.where(joint, np.float32(0.6), 1 + 0.05 * np.sin(17 * x) * np.sin(13 * y))
+        case _:
+            shade = 1 + 0.03 * np.sin(5 * y + 3 * np.sin(4 * z)) + 0.015 * np.sin(43 * y + 61 * z)
+    result: Floats = shade.astype(np.float32)
+    return result

@@ -1,0 +1,1 @@
+"""`synthesize` and `sensor_study`."""

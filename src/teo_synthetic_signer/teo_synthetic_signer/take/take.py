@@ -1,0 +1,199 @@
+"""A take: one person, in one room, plays one script before one sensor."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_skeleton_retriever.arrays import DepthArray, FloatArray
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_synthetic_signer.body.pose import BodyPose
+from teo_synthetic_signer.body.ray_caster import RayCaster
+from teo_synthetic_signer.body.signer import Signer
+from teo_synthetic_signer.camera.depth_model import DepthModel
+from teo_synthetic_signer.camera.renderer import Rendered, Renderer
+from teo_synthetic_signer.camera.sensors import sensor as sensor_named
+from teo_synthetic_signer.camera.visibility import visible
+from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.script.motion import Motion
+from teo_synthetic_signer.script.script_file import script_of
+from teo_synthetic_signer.take.furniture import furnish
+from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame
+
+DISTANCES = (0.2, 6.0)
+"""Between camera and person [m]: nearer the camera is inside the person, farther behind the room."""
+_CHEST = 0.755
+"""Height that a camera looks at unless told otherwise, of the person's: the middle of where one signs."""
+_COLOR_NOISE = 0.008
+"""Standard deviation of the colour image's noise, of its range. Assumption: a sensor in room light."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TakeOptions:
+    """What is rendered.
+
+    Attributes:
+        script: one of `SCRIPTS`, or the path of a script's file, which ends in .yaml.
+        body: one of `BODIES`.
+        scene: one of `SCENES`.
+        sensor: one of `SENSORS`.
+        distance: from the camera to the person, along the floor [m].
+        camera_height: above the floor [m].
+        camera_pitch: of the camera downwards [rad]; None looks at the chest.
+        width: of the images [px].
+        height: likewise.
+        rate: frames per second [Hz].
+        seed: of everything random; the same gives the same frames.
+        perfect_depth: the sensor measures exactly, everywhere.
+    """
+
+    script: str = "signing"
+    body: str = "woman_average"
+    scene: str = "office"
+    sensor: str = "d435"
+    distance: float = 1.5
+    camera_height: float = 1.3
+    camera_pitch: float | None = None
+    width: int = 640
+    height: int = 480
+    rate: float = 30.0
+    seed: int = 0
+    perfect_depth: bool = False
+
+    def __post_init__(self) -> None:
+        if not DISTANCES[0] <= self.distance <= DISTANCES[1]:
+            raise SyntheticError(
+                "bad_distance", f"expected {DISTANCES[0]} to {DISTANCES[1]} m, got {self.distance}"
+            )
+        if not 0.0 < self.rate <= 120.0:
+            raise SyntheticError("bad_rate", f"expected a rate above 0, to 120 Hz, got {self.rate}")
+        if not 0.1 <= self.camera_height <= 2.7:
+            raise SyntheticError(
+                "bad_camera_height", f"expected 0.1 to 2.7 m, in the room, got {self.camera_height}"
+            )
+        if self.camera_pitch is not None and not abs(self.camera_pitch) < math.pi / 2.0:
+            raise SyntheticError("bad_camera_pitch", f"expected less than pi/2 rad, got {self.camera_pitch}")
+
+
+class Take:
+    """A take that frames can be asked of, in any order."""
+
+    def __init__(self, options: TakeOptions) -> None:
+        """Prepare body, room and camera.
+
+        Raises:
+            SyntheticError: a name that does not exist, or a number out of its range.
+        """
+        self._options = options
+        self.sensor = sensor_named(options.sensor)
+        self.camera: CameraModel = self.sensor.camera(options.width, options.height)
+        vertices, self._room = furnish(options.scene)
+        keys, self.about = script_of(options.script)
+        self._signer = Signer(options.body)
+        self.motion = Motion(self._signer.poser, keys)
+        self._rotation, self._position = self._camera_pose()
+        self._surface = self._signer.dress.surface
+        self._walls = self._seen(vertices)
+
+    def __len__(self) -> int:
+        """Tell how many frames the take has."""
+        return int(self.motion.duration * self._options.rate) + 1
+
+    @cached_property
+    def _renderer(self) -> Renderer:
+        return Renderer(self.camera, self._rotation, self._surface, self._room, self._walls)
+
+    @cached_property
+    def _obstacles(self) -> RayCaster:
+        return RayCaster(self._walls[self._room.triangles])
+
+    def truth(self, index: int) -> TruthFrame:
+        """Tell what is true in a frame, without the image: in a third of the time."""
+        stamp = index / self._options.rate
+        pose = self.motion.pose(stamp)
+        transforms = self._signer.poser.transforms(pose)
+        person = RayCaster(self._seen(self._signer.vertices(pose, transforms))[self._surface.triangles])
+        return TruthFrame(stamp=stamp, camera=self.camera, truth=self._truth(pose, transforms, person))
+
+    def frame(self, index: int) -> SyntheticFrame:
+        """Render one frame, the first is 0."""
+        options = self._options
+        stamp = index / options.rate
+        pose = self.motion.pose(stamp)
+        transforms = self._signer.poser.transforms(pose)
+        rendered = self._renderer.render(self._seen(self._signer.vertices(pose, transforms)))
+        random = np.random.default_rng([options.seed, index])
+        return SyntheticFrame(
+            stamp=stamp,
+            color=self._color(rendered, random),
+            depth=self._depth(rendered, random),
+            camera=self.camera,
+            truth=self._truth(pose, transforms, rendered.person),
+        )
+
+    def _color(self, rendered: Rendered, random: np.random.Generator) -> NDArray[np.uint8]:
+        color = rendered.color
+        if self.sensor.mono:
+            color = np.repeat(color.mean(axis=2, keepdims=True), 3, axis=2)
+        noise = random.standard_normal(color.shape, dtype=np.float32)
+        steps = np.rint((color + _COLOR_NOISE * noise) * 255.0)
+        image: NDArray[np.uint8] = np.clip(steps, 0, 255).astype(np.uint8)
+        return image
+
+    def _depth(self, rendered: Rendered, random: np.random.Generator) -> DepthArray:
+        if self._options.perfect_depth:
+            return np.where(np.isfinite(rendered.distance), rendered.distance, np.float32(np.nan))
+        return DepthModel(self.sensor, self.camera, random).measure(rendered.distance, rendered.facing)
+
+    def _truth(self, pose: BodyPose, transforms: FloatArray, person: RayCaster) -> Truth:
+        body, left, right, face = (self._seen(part) for part in self._signer.keypoints(pose, transforms))
+        seen = visible(person, self._obstacles, self._surface.bones, self.camera, (body, left, right, face))
+        return Truth(
+            body=body,
+            left_hand=left,
+            right_hand=right,
+            face=face,
+            body_visible=seen[0],
+            left_hand_visible=seen[1],
+            right_hand_visible=seen[2],
+            face_visible=seen[3],
+        )
+
+    def _camera_pose(self) -> tuple[FloatArray, FloatArray]:
+        """Give the rotation from the room's axes to the camera's, and where the camera is."""
+        options = self._options
+        pitch = options.camera_pitch
+        if pitch is None:
+            pitch = math.atan2(options.camera_height - _CHEST * self._signer.height, options.distance)
+        ahead = np.array([-math.cos(pitch), 0.0, -math.sin(pitch)])
+        right = np.array([0.0, 1.0, 0.0])
+        down = np.cross(ahead, right)
+        return np.stack([right, down, ahead]), np.array([options.distance, 0.0, options.camera_height])
+
+    def _seen(self, points: FloatArray) -> FloatArray:
+        seen: FloatArray = (points - self._position) @ self._rotation.T
+        return seen
+
+
+def render_take(*, frames: range | None = None, **options: Any) -> Iterator[SyntheticFrame]:
+    """Render a take, frame by frame.
+
+    Args:
+        frames: which, all if None.
+        options: as of `TakeOptions`.
+
+    Yields:
+        The frames, in order.
+
+    Raises:
+        SyntheticError: a name that does not exist, or a number out of its range.
+    """
+    take = Take(TakeOptions(**options))
+    for index in range(len(take)) if frames is None else frames:
+        yield take.frame(index)

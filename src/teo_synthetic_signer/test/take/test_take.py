@@ -1,0 +1,205 @@
+"""Rendered frames: truth that agrees with the picture, visibility, determinism."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+
+from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_synthetic_signer import SyntheticFrame, Take, TakeOptions, render_take
+from teo_synthetic_signer.body.ray_caster import RayCaster
+from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.take.furniture import furnish
+
+SMALL = {"width": 320, "height": 240}
+WALL = 1.5  # [m] behind the person, in the studio
+SKIN = {  # least and greatest depth of a joint's centre behind what the camera sees of the person [m]
+    "Shoulder": (0.02, 0.13),
+    "Elbow": (0.015, 0.09),
+    "Wrist": (0.005, 0.055),
+    "Hip": (0.04, 0.2),
+    "Eye": (-0.01, 0.012),
+}
+
+
+def perfect(**options: Any) -> Take:
+    return Take(TakeOptions(scene="studio", perfect_depth=True, **{**SMALL, **options}))
+
+
+@pytest.fixture(scope="module")
+def take() -> Take:
+    return perfect(script="signing")
+
+
+@pytest.fixture(scope="module")
+def frames(take: Take) -> list[SyntheticFrame]:
+    return [take.frame(i) for i in range(5, len(take), 40)]
+
+
+def behind(frame: SyntheticFrame, points: np.ndarray) -> np.ndarray:
+    """How far points are behind the surface in the depth image [m]; NaN outside it."""
+    pixels = np.rint(frame.camera.project(points)).astype(int)
+    result = np.full(len(points), np.nan)
+    height, width = frame.depth.shape
+    for i, (x, y) in enumerate(pixels):
+        if 0 <= x < width and 0 <= y < height:
+            result[i] = points[i, 2] - frame.depth[y, x]
+    return result
+
+
+def parts(frame: SyntheticFrame) -> list[tuple[np.ndarray, np.ndarray]]:
+    truth = frame.truth
+    return [
+        (truth.body, truth.body_visible),
+        (truth.left_hand, truth.left_hand_visible),
+        (truth.right_hand, truth.right_hand_visible),
+        (truth.face, truth.face_visible),
+    ]
+
+
+def test_a_frame_has_the_size_and_types_of_its_contract(frames: list[SyntheticFrame]) -> None:
+    frame = frames[0]
+    assert frame.color.shape == (240, 320, 3)
+    assert frame.color.dtype == np.uint8
+    assert frame.depth.shape == (240, 320)
+    assert frame.depth.dtype == np.float32
+    assert [len(points) for points, _ in parts(frame)] == [25, 21, 21, 70]
+    assert [len(seen) for _, seen in parts(frame)] == [25, 21, 21, 70]
+    assert all(np.isfinite(points).all() for points, _ in parts(frame))
+
+
+def test_visible_keypoints_lie_on_the_person_in_the_picture(frames: list[SyntheticFrame]) -> None:
+    total = inside = 0
+    for frame, (points, seen) in itertools.chain.from_iterable(((f, p) for p in parts(f)) for f in frames):
+        depth = behind(frame, points[seen])
+        total += seen.sum()
+        inside += (depth > -0.6).sum()  # not on the wall, which is 1.5 m behind
+    assert total > 60 * len(frames)
+    assert inside > 0.98 * total  # a fingertip may be within a pixel of the outline
+
+
+@pytest.mark.parametrize("name", SKIN)
+def test_joints_lie_behind_the_skin_by_as_much_as_in_people(frames: list[SyntheticFrame], name: str) -> None:
+    rows = [BODY_25.index[side + name] for side in "RL"]
+    measured = [
+        value
+        for frame in frames
+        for row, value in zip(rows, behind(frame, frame.truth.body[rows]), strict=True)
+        if frame.truth.body_visible[row]
+    ]
+    assert len(measured) > len(frames) / 2
+    low, high = SKIN[name]
+    assert np.median(measured) > low
+    assert np.median(measured) < high
+
+
+def test_visible_finger_joints_lie_a_few_millimetres_below_the_skin(frames: list[SyntheticFrame]) -> None:
+    depths = np.concatenate([behind(f, points)[seen] for f in frames for points, seen in parts(f)[1:3]])
+    assert len(depths) > 50
+    assert 0.004 < np.median(depths[np.abs(depths) < 0.1]) < 0.02
+
+
+def test_pupils_are_dark_and_the_whites_beside_them_are_not() -> None:
+    frame = perfect(
+        width=1280, height=960, distance=0.8, camera_height=1.6, camera_pitch=0.0, script="still"
+    ).frame(20)
+    for pupil, corner in ((68, 36), (69, 45)):
+        places = frame.truth.face[[pupil, corner]]
+        white = places.mean(axis=0)
+        x, y = np.rint(frame.camera.project(np.array([places[0], white]))).astype(int).T
+        assert frame.color[y[0], x[0]].mean() + 40 < frame.color[y[1], x[1]].mean()
+
+
+def test_what_a_hand_covers_is_hidden_and_seen_again_after() -> None:
+    take = perfect(script="face", body="man_average")
+    nose = BODY_25.index["Nose"]
+    seen = [take.frame(i).truth.body_visible[nose] for i in range(0, len(take), 6)]
+    assert seen[0] and seen[-1]
+    assert not all(seen)
+
+
+def test_a_hand_behind_the_other_arm_is_hidden() -> None:
+    take = perfect(script="crossing", body="man_average")
+    covered = 0.0
+    for i in range(0, len(take), 6):
+        truth = take.frame(i).truth
+        covered = max(covered, 1.0 - truth.right_hand_visible.mean())
+    assert covered > 0.6
+
+
+def test_keypoints_outside_the_picture_are_known_but_not_visible(frames: list[SyntheticFrame]) -> None:
+    frame = frames[0]
+    ankles = [BODY_25.index["RAnkle"], BODY_25.index["LAnkle"]]
+    assert not frame.truth.body_visible[ankles].any()
+    assert (frame.camera.project(frame.truth.body[ankles])[:, 1] > 240).all()
+
+
+def test_the_same_options_give_the_same_frame_in_any_order() -> None:
+    options = TakeOptions(scene="office", sensor="d435", seed=3, **SMALL)
+    first, again = Take(options), Take(options)
+    again.frame(7)
+    a, b = first.frame(20), again.frame(20)
+    np.testing.assert_array_equal(a.color, b.color)
+    np.testing.assert_array_equal(a.depth, b.depth)
+    np.testing.assert_array_equal(a.truth.body, b.truth.body)
+
+
+def test_another_seed_gives_other_noise_and_the_same_truth() -> None:
+    a, b = (next(iter(render_take(scene="studio", seed=seed, frames=range(1), **SMALL))) for seed in (0, 1))
+    assert (a.depth != b.depth).mean() > 0.3
+    np.testing.assert_array_equal(a.truth.face, b.truth.face)
+
+
+def test_the_person_drawn_over_the_room_is_what_one_cast_of_both_gives(take: Take) -> None:
+    frame = take.frame(60)
+    signer, pose = take._signer, take.motion.pose(frame.stamp)
+    person = take._seen(signer.vertices(pose, signer.poser.transforms(pose)))
+    walls, room = furnish("studio")
+    corners = np.concatenate([person[signer.dress.surface.triangles], take._seen(walls)[room.triangles]])
+    rows, columns = np.indices(frame.depth.shape)
+    pixels = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.float64)
+    hits = RayCaster(corners).cast(frame.camera.rays(pixels).astype(np.float32))
+    expected = np.where(np.isfinite(hits.distance), hits.distance, np.nan).reshape(frame.depth.shape)
+    np.testing.assert_allclose(frame.depth, expected, rtol=1e-5)
+
+
+def test_a_camera_that_is_higher_looks_down_on_the_same_truth() -> None:
+    low, high = (perfect(script="still", camera_height=h).frame(0) for h in (1.0, 1.9))
+    for frame in (low, high):
+        chest = frame.camera.project(frame.truth.body[[BODY_25.index["Neck"]]])[0]
+        assert 80 < chest[1] < 200
+    a, b = (
+        np.linalg.norm(f.truth.body[BODY_25.index["RWrist"]] - f.truth.body[BODY_25.index["LWrist"]])
+        for f in (low, high)
+    )
+    assert a == pytest.approx(b)
+
+
+def test_frames_can_be_chosen() -> None:
+    frames = list(render_take(frames=range(4, 10, 5), rate=10.0, scene="studio", **SMALL))
+    assert [frame.stamp for frame in frames] == [0.4, 0.9]
+
+
+@pytest.mark.parametrize(
+    ("options", "code"),
+    [
+        ({"distance": 0.0}, "bad_distance"),
+        ({"distance": float("nan")}, "bad_distance"),
+        ({"rate": 0.0}, "bad_rate"),
+        ({"rate": float("inf")}, "bad_rate"),
+        ({"camera_height": -1.0}, "bad_camera_height"),
+        ({"camera_pitch": 2.0}, "bad_camera_pitch"),
+        ({"width": 0}, "bad_size"),
+        ({"height": 100_000}, "bad_size"),
+        ({"sensor": "d999"}, "unknown_sensor"),
+        ({"scene": "moon"}, "unknown_scene"),
+        ({"script": "dance"}, "unknown_script"),
+        ({"body": "nobody"}, "unknown_body"),
+    ],
+)
+def test_a_bad_option_is_refused_with_its_reason(options: dict[str, Any], code: str) -> None:
+    with pytest.raises(SyntheticError, match=code):
+        next(iter(render_take(**options)))

@@ -1,0 +1,65 @@
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_synthetic_signer.camera.sensors import SENSORS
+from teo_synthetic_signer.cli.sensor_study import DISTANCES, Study, _app, seen_share, table, write_csv
+
+WIDE = CameraModel.from_field_of_view(width=640, height=640, horizontal=math.radians(110))
+D435 = SENSORS["d435"]
+
+
+def share(distance: float, camera: CameraModel = WIDE, farthest: float = 10.0) -> float:
+    """Of a person 1.7 m tall who faces a camera at the height of the chest."""
+    chest = np.array([0.0, 0.0, distance])
+    return seen_share(
+        camera,
+        replace(D435, farthest=farthest),
+        nose=chest + np.array([0.0, -0.2, -0.1]),
+        hips=chest + np.array([0.0, 0.5, 0.0]),
+        shoulders=(chest + np.array([-0.18, 0.0, 0.0]), chest + np.array([0.18, 0.0, 0.0])),
+    )
+
+
+def test_a_wide_camera_far_enough_sees_all_of_the_signing_space() -> None:
+    assert share(2.0) == 1.0
+
+
+def test_the_nearer_the_camera_the_less_it_sees() -> None:
+    narrow = CameraModel.from_field_of_view(width=640, height=400, horizontal=math.radians(60))
+    shares = [share(distance, narrow) for distance in DISTANCES]
+    assert shares == sorted(shares)
+    assert shares[0] < 0.3 < 0.95 < shares[-1]
+
+
+def test_what_is_out_of_range_is_not_seen() -> None:
+    assert share(2.5, farthest=1.5) == 0.0
+
+
+def test_the_table_names_devices_and_leaves_out_what_was_not_found() -> None:
+    lines = table([Study("d435", 0.6, 0.1, math.nan, 0.0, 0.012, 1.0)])
+    cells = [next(iter(column.cells)) for column in lines.columns]
+    assert cells == ["RealSense D435", "0.6 m", "10%", "-", "0%", "12 mm", "100%"]
+
+
+def test_the_csv_holds_what_was_measured(tmp_path: Path) -> None:
+    path = tmp_path / "study.csv"
+    write_csv([Study("d435", 1.5, 0.83, 0.026, 1.0, 0.028, 0.97)], path)
+    (row,) = csv.DictReader(path.open())
+    assert row["sensor"] == "d435"
+    assert float(row["tips"]) == pytest.approx(0.028)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_device_that_is_not_known_is_refused() -> None:
+    result = CliRunner().invoke(_app, ["--sensors", "d435,eyes"])
+    assert result.exit_code == 2
+    assert "eyes" in result.output
