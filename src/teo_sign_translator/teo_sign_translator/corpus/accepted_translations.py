@@ -1,8 +1,8 @@
 """Notation for the translations that are accepted for a sentence.
 
 `YO (PASADO) PAN/BOLLO COMPRAR || PAN YO COMPRAR`: glosses in order; `/` between glosses of which any one may
-stand; brackets round what may be left out; `||` between whole translations. What stands in brackets in several
-places of a translation, as in `(YO) PAN (YO) COMPRAR`, is said in one of them at most.
+stand; brackets round what may be left out; `||` between whole translations. What stands in brackets in
+several places of a translation, as in `(YO) PAN (YO) COMPRAR`, is said in one of them at most.
 """
 
 from __future__ import annotations
