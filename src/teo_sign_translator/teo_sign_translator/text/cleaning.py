@@ -123,6 +123,11 @@ def strip_marks(word: str) -> str:
     return "".join(c for c in unicodedata.normalize("NFD", word.lower()) if unicodedata.category(c) != "Mn")
 
 
+def folded(sentence: str) -> str:
+    """What all ways of typing a sentence share: letters and digits, without accents, capitals, spaces."""
+    return "".join(letter for letter in strip_marks(sentence) if letter.isalnum())
+
+
 def is_drawn_out(word: str) -> bool:
     """Whether a letter stands three times in a row, as in `"holaaaa"`: no Spanish word is written so."""
     return _DRAWN_OUT.search(word) is not None
