@@ -12,8 +12,9 @@ from teo_sign_translator.errors import TranslationError
 COLUMNS = ("spanish", "glosses", "alignment", "rule", "split")
 
 #: `test_words`: known templates with words that train never has; `test_templates`: known words in templates
-#: that train never has; `test_both`: neither was seen.
-SPLITS = ("train", "dev", "test_words", "test_templates", "test_both")
+#: that train never has; `test_both`: neither was seen; `test_constructions`: known words in constructions
+#: that no sentence of train has, if the corpus was made without them.
+SPLITS = ("train", "dev", "test_words", "test_templates", "test_both", "test_constructions")
 
 
 @dataclass(frozen=True, slots=True)
