@@ -16,9 +16,10 @@ from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SPARE
-from teo_sign_translator.pointer.training.batches import WordNumbers, batches
-from teo_sign_translator.pointer.training.devices import best_device, one_thread
-from teo_sign_translator.pointer.training.examples import (
+from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
+from teo_sign_translator.training.batches import WordNumbers, batches
+from teo_sign_translator.training.devices import best_device, one_thread
+from teo_sign_translator.training.examples import (
     VARIANTS,
     AlignedSentence,
     ExampleReader,
@@ -26,9 +27,8 @@ from teo_sign_translator.pointer.training.examples import (
     Reader,
     WordTable,
 )
-from teo_sign_translator.pointer.training.network import Network, TensorBatch
-from teo_sign_translator.pointer.training.typing_noise import Typing, copies, typed_sayably, unsayable
-from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
+from teo_sign_translator.training.network import Network, TensorBatch
+from teo_sign_translator.training.typing_noise import Typing, copies, typed_sayably, unsayable
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
 MIN_FORM, MIN_LEMMA = 10, 3
