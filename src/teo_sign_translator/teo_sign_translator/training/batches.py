@@ -48,7 +48,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class WordNumbers:
-    """The rows of a `WordTable` in the lists of a `Vocabulary`.
+    """For each word of a `WordTable` its places in the lists of a `Vocabulary`.
 
     Attributes:
         forms: Shape (rows,).

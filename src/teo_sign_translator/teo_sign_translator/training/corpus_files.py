@@ -50,7 +50,7 @@ def corpus_hash(corpus: Path) -> str:
 
 
 def sample(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
-    """So many pairs, chosen at random but always the same; all of them if there are no more."""
+    """Pairs chosen at random, the same for the same seed; all of them if there are no more than `count`."""
     if count is None or count >= len(pairs):
         return pairs
     return random.Random(seed).sample(pairs, count)

@@ -53,7 +53,7 @@ class TrainingData:
 
 @dataclass(frozen=True, slots=True)
 class TrainedModel:
-    """What a training left behind.
+    """A model after its training, with its scores.
 
     Attributes:
         model: As loaded from its files.

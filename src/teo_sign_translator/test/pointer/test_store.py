@@ -92,8 +92,8 @@ def _not_a_number(directory: Path) -> None:
         _card(network={"hidden": 16}),
         _card(network={"width": 16}),
         _card(network=None),
-        _card(vocabulary={}),
-        _card(vocabulary=[]),
+        _card(lexis={}),
+        _card(lexis=[]),
     ],
 )
 def test_a_damaged_model_is_refused(tmp_path: Path, damage: Callable[[Path], None]) -> None:
