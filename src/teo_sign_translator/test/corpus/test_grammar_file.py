@@ -98,6 +98,12 @@ def test_every_word_of_the_lists_is_in_the_lexicon(generator):
             "held_out:\n  - statement.plain.nowhere\n",
             "statement.plain.nowhere",
         ),
+        (
+            "held_out.yaml",
+            "conditions: condition",
+            "conditions: condition vp.nowhere",
+            "vp.nowhere",
+        ),
         ("everyday.yaml", "families:", "family:", "everyday.yaml"),
     ],
 )

@@ -7,7 +7,7 @@
 * After its last sign every limb goes to rest.
 * An arm that would be in the way of a sign waits until that sign's turn, and is at rest before it begins.
 
-A limb on its way does not hold up the signs meanwhile: it passes their stations freely.
+A limb on its way does not hold up the signs meanwhile: it passes their waypoints freely.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_motion.sentence.composition import ARMS, LIMBS, REST, Composition, IdleSpan
+from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 
 
@@ -28,7 +29,7 @@ def settle_idle_limbs(
     limits: MotionLimits,
     arm_rest: float,
     cleared: Collection[tuple[int, int]] = (),
-) -> NDArray[np.float64]:
+) -> Route:
     """Fix the free joints of a composition.
 
     Args:
@@ -39,7 +40,7 @@ def settle_idle_limbs(
         cleared: Arms that must be out of the way, each with the station at which it must be at rest.
 
     Returns:
-        The targets with idle limbs in place; still NaN where a limb is on its way. Shape (n, 28).
+        The composition with idle limbs in place; positions are still NaN where a limb is on its way.
     """
     targets = composition.targets.copy()
     final = len(targets) - 1
@@ -53,43 +54,21 @@ def settle_idle_limbs(
             targets[span.first + 1 : min(wanted), columns] = before
             targets[min(wanted) : span.last, columns] = REST[columns]
             continue
-        way = float(np.max(fastest_moves(REST[columns] - before, columns, limits)))
+        way = float(np.max(limits.least_times(REST[columns] - before, columns)))
         between = slice(span.first + 1, span.last)
         arrived = between.start + int(np.searchsorted(times[between], times[span.first] + way))
         if span.limb in ARMS and span.last != final and not _worth_it(span, arrived, times, arm_rest):
             targets[between, columns] = before
         else:
             targets[arrived : span.last, columns] = REST[columns]
-    return targets
+    return Route(
+        targets=targets,
+        nominal=composition.nominal,
+        strokes=composition.strokes,
+        spans=composition.spans,
+        start=composition.start,
+    )
 
 
 def _worth_it(span: IdleSpan, arrived: int, times: NDArray[np.float64], arm_rest: float) -> bool:
     return arrived < span.last and bool(times[span.last - 1] - times[arrived] >= arm_rest)
-
-
-def fastest_moves(
-    distances: NDArray[np.float64], columns: list[int], limits: MotionLimits
-) -> NDArray[np.float64]:
-    """Least times in which joints move from rest to rest under limits of velocity, acceleration and jerk.
-
-    Symmetric S-curve: L. Biagiotti, C. Melchiorri, "Trajectory Planning for Automatic Machines and Robots"
-    (2008), 3.4.
-
-    Args:
-        distances: Ways to go, of either sign [rad]. Shape (m,).
-        columns: The joints of `limits` that go them.
-        limits: Limits of the joints.
-
-    Returns:
-        Durations [s]. Shape (m,).
-    """
-    way = np.abs(distances)
-    speed, push, jerk = (values[columns] for values in (limits.velocity, limits.acceleration, limits.jerk))
-    # With a phase of constant velocity; then with one of constant acceleration; then with neither.
-    ramp = np.where(speed * jerk >= push**2, speed / push + push / jerk, 2.0 * np.sqrt(speed / jerk))
-    without_cruise = np.where(
-        way >= 2.0 * push**3 / jerk**2,
-        push / jerk + np.sqrt((push / jerk) ** 2 + 4.0 * way / push),
-        np.cbrt(32.0 * way / jerk),
-    )
-    return np.where(way >= speed * ramp, ramp + way / speed, without_cruise)
