@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.node.text_statistics import Statistics
+from teo_sign_translator.node.diagnostics import Statistics
 
 
 def test_texts_are_counted_and_the_last_refusal_kept() -> None:

@@ -10,26 +10,31 @@ from hypothesis import strategies as st
 from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs, training_pairs
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.batches import WordNumbers, batches
-from teo_sign_translator.pointer.examples import (
+from teo_sign_translator.pointer.training.batches import WordNumbers, batches
+from teo_sign_translator.pointer.training.examples import (
     ExampleReader,
     Examples,
     Reader,
     WordTable,
     spans,
 )
-from teo_sign_translator.pointer.memorised_pairs import ByHeart, by_heart_pairs, key, ways_of_typing
-from teo_sign_translator.pointer.training import make_lexis
-from teo_sign_translator.pointer.typing_noise import Typing, copies, typed, typed_sayably, unsayable
+from teo_sign_translator.pointer.training.fitting import make_vocabulary
+from teo_sign_translator.pointer.training.memorised_pairs import (
+    MemorisedPair,
+    key,
+    memorised_pairs,
+    ways_of_typing,
+)
+from teo_sign_translator.pointer.training.typing_noise import Typing, copies, typed, typed_sayably, unsayable
 from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
 from teo_sign_translator.text.source_words import source_words
 
 PAIRS = (
-    ByHeart("¿Cómo está María?", ("MARÍA", "CÓMO"), ((2,), (0,))),
-    ByHeart("Mañana, él comerá pan.", ("MAÑANA", "ÉL", "PAN", "COMER"), ((0,), (2,), (4,), (3,))),
-    ByHeart("No.", ("NO",), ((0,),)),
-    ByHeart("¡Qué bien!", ("BIEN", "QUÉ"), ((1,), (0,))),
-    ByHeart("Luis, ven.", ("LUIS", "VENIR"), ((0,), (2,))),
+    MemorisedPair("¿Cómo está María?", ("MARÍA", "CÓMO"), ((2,), (0,))),
+    MemorisedPair("Mañana, él comerá pan.", ("MAÑANA", "ÉL", "PAN", "COMER"), ((0,), (2,), (4,), (3,))),
+    MemorisedPair("No.", ("NO",), ((0,),)),
+    MemorisedPair("¡Qué bien!", ("BIEN", "QUÉ"), ((1,), (0,))),
+    MemorisedPair("Luis, ven.", ("LUIS", "VENIR"), ((0,), (2,))),
 )
 
 
@@ -172,7 +177,7 @@ def test_spans_of_nothing_are_nothing() -> None:
 
 
 def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:
-    pairs = by_heart_pairs(read())
+    pairs = memorised_pairs(read())
     assert {pair.sentence for pair in training_pairs() if "{" not in pair.sentence} <= {
         pair.spanish for pair in pairs
     }
@@ -186,7 +191,7 @@ def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:
 
 
 def test_no_sentence_is_known_by_heart_in_two_ways() -> None:
-    pairs = by_heart_pairs(read())
+    pairs = memorised_pairs(read())
     assert len({key(pair.spanish) for pair in pairs}) == len({(key(p.spanish), p.glosses) for p in pairs})
 
 
@@ -197,9 +202,9 @@ def test_ways_of_typing_go_from_as_written_to_bare_letters() -> None:
 
 def test_hidden_nouns_may_be_words_of_which_nothing_is_known() -> None:
     pairs, table = examples()
-    lexis = make_lexis(pairs, table, 0, copy=True)
-    numbers = WordNumbers.of(table, lexis, pairs)
-    unknown = lexis.tag_index[UNKNOWN_TAG]
+    vocabulary = make_vocabulary(pairs, table, 0, copy=True)
+    numbers = WordNumbers.of(table, vocabulary, pairs)
+    unknown = vocabulary.tag_index[UNKNOWN_TAG]
     tags = [
         tag
         for seed in range(200)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_translator.pointer.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable
-from teo_sign_translator.pointer.typing_noise import copies
-from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, UNKNOWN_TAG, Lexis
+from teo_sign_translator.pointer.training.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable
+from teo_sign_translator.pointer.training.typing_noise import copies
+from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, UNKNOWN_TAG, Vocabulary
 
 #: Places of "unknown" in the lists of forms and lemmas.
 _UNKNOWN_FORM, _UNKNOWN_LEMMA = 0, 1
@@ -48,7 +48,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class WordNumbers:
-    """The rows of a `WordTable` in the lists of a `Lexis`.
+    """The rows of a `WordTable` in the lists of a `Vocabulary`.
 
     Attributes:
         forms: Shape (rows,).
@@ -73,16 +73,16 @@ class WordNumbers:
     unknown_tag: int
 
     @classmethod
-    def of(cls, table: WordTable, lexis: Lexis, examples: Examples) -> WordNumbers:
+    def of(cls, table: WordTable, vocabulary: Vocabulary, examples: Examples) -> WordNumbers:
         """Look the words up.
 
         Args:
             table: The words.
-            lexis: The lists.
+            vocabulary: The lists.
             examples: The training pairs.
         """
-        features = [lexis.features(word) for word in table.words if word is not None]
-        root, blank = lexis.forms.index("<root>"), lexis.forms.index("<blank>")
+        features = [vocabulary.features(word) for word in table.words if word is not None]
+        root, blank = vocabulary.forms.index("<root>"), vocabulary.forms.index("<blank>")
         none = [0] * READINGS
         forms = np.array([root, blank, *(f.form for f in features)], np.int64)
         lemmas = np.array([none, none, *(f.lemmas for f in features)], np.int64)
@@ -92,11 +92,13 @@ class WordNumbers:
             np.array([0, 0, *(f.capital for f in features)], np.int64),
             lemmas,
             np.maximum(np.array([none, none, *(f.tags for f in features)], np.int64), 0),
-            np.array([lexis.gloss_index.get(gloss, -1) for gloss in table.glosses], np.int64),
-            np.bincount(forms, occurrences, len(lexis.forms)).astype(np.int64),
-            np.bincount(lemmas.ravel(), np.repeat(occurrences, READINGS), len(lexis.lemmas)).astype(np.int64),
-            np.array([key.startswith("N:") for key in lexis.tags]),
-            lexis.tag_index[UNKNOWN_TAG],
+            np.array([vocabulary.gloss_index.get(gloss, -1) for gloss in table.glosses], np.int64),
+            np.bincount(forms, occurrences, len(vocabulary.forms)).astype(np.int64),
+            np.bincount(lemmas.ravel(), np.repeat(occurrences, READINGS), len(vocabulary.lemmas)).astype(
+                np.int64
+            ),
+            np.array([key.startswith("N:") for key in vocabulary.tags]),
+            vocabulary.tag_index[UNKNOWN_TAG],
         )
 
 

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.batches import WordNumbers, batches
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SPARE
-from teo_sign_translator.pointer.devices import best_device, one_thread
-from teo_sign_translator.pointer.examples import (
+from teo_sign_translator.pointer.training.batches import WordNumbers, batches
+from teo_sign_translator.pointer.training.devices import best_device, one_thread
+from teo_sign_translator.pointer.training.examples import (
     VARIANTS,
     AlignedSentence,
     ExampleReader,
@@ -26,9 +26,9 @@ from teo_sign_translator.pointer.examples import (
     Reader,
     WordTable,
 )
-from teo_sign_translator.pointer.network import Network, TensorBatch
-from teo_sign_translator.pointer.typing_noise import Typing, copies, typed_sayably, unsayable
-from teo_sign_translator.pointer.vocabulary import Lexis, tag_key
+from teo_sign_translator.pointer.training.network import Network, TensorBatch
+from teo_sign_translator.pointer.training.typing_noise import Typing, copies, typed_sayably, unsayable
+from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
 MIN_FORM, MIN_LEMMA = 10, 3
@@ -65,7 +65,7 @@ class Fit:
     """A trained network.
 
     Attributes:
-        lexis: Its lists.
+        vocabulary: Its lists.
         weights: By name, of the best epoch.
         losses: Of each epoch, on the training pairs while it learned [nat per gloss].
         dev_losses: After each epoch, on the development pairs [nat per gloss].
@@ -77,7 +77,7 @@ class Fit:
         device: On which device.
     """
 
-    lexis: Lexis
+    vocabulary: Vocabulary
     weights: dict[str, NDArray[np.float32]]
     losses: tuple[float, ...]
     dev_losses: tuple[float, ...]
@@ -123,8 +123,8 @@ def fit(
     pairs = reader.examples([*train, *by_heart])
     development = reader.examples(dev)
     table = reader.table()
-    lexis = make_lexis(pairs, table, len(train), copy=network_config.copy)
-    numbers = WordNumbers.of(table, lexis, pairs)
+    vocabulary = make_vocabulary(pairs, table, len(train), copy=network_config.copy)
+    numbers = WordNumbers.of(table, vocabulary, pairs)
     closed = numbers.glosses >= 0
     lost = unsayable(pairs, table, closed, network_config.copy)
     repeats = _repeats(len(train), len(by_heart), config.by_heart)
@@ -137,7 +137,7 @@ def fit(
 
     with _seeded(config.seed), one_thread():
         random = np.random.default_rng(config.seed)
-        network = Network(network_config, lexis, config.dropout).to(device)
+        network = Network(network_config, vocabulary, config.dropout).to(device)
         optimiser = torch.optim.AdamW(network.parameters(), config.learning_rate, weight_decay=0.01)
         steps = max(1, len(learned) // config.batch_size)
         schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, _schedule(steps * config.epochs))
@@ -185,7 +185,7 @@ def fit(
             if epoch - best_epoch >= config.patience:
                 break
     return Fit(
-        lexis,
+        vocabulary,
         best,
         tuple(losses),
         tuple(dev_losses),
@@ -198,7 +198,7 @@ def fit(
     )
 
 
-def make_lexis(pairs: Examples, table: WordTable, by_heart: int, *, copy: bool) -> Lexis:
+def make_vocabulary(pairs: Examples, table: WordTable, by_heart: int, *, copy: bool) -> Vocabulary:
     """The lists of a model, from its training pairs.
 
     Args:
@@ -228,7 +228,7 @@ def make_lexis(pairs: Examples, table: WordTable, by_heart: int, *, copy: bool) 
     known = pairs.glosses[first:][occurrences[first:]]
     said[known] = np.maximum(said[known], MIN_GLOSS)
     least = MIN_GLOSS if copy else 1
-    return Lexis.of(
+    return Vocabulary.of(
         _frequent(forms, MIN_FORM * VARIANTS),
         _frequent(lemmas, MIN_LEMMA * VARIANTS),
         _frequent(tags, 1),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from teo_sign_translator.corpus import SPLITS, Pair, read_pairs
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.memorised_pairs import key
+from teo_sign_translator.pointer.training.memorised_pairs import key
 
 
 def corpus_files(corpus: Path) -> tuple[Path, ...]:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 from torch.nn import functional
 
-from teo_sign_translator.pointer.batches import Batch
 from teo_sign_translator.pointer.config import NetworkConfig
-from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, Lexis, tag_parts
+from teo_sign_translator.pointer.training.batches import Batch
+from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, Vocabulary, tag_parts
 
 _CELLS = {"rnn": nn.RNN, "gru": nn.GRU, "lstm": nn.LSTM}
 #: Log-probability of what cannot be; a finite number, whose gradient is 0 and not NaN.
@@ -60,23 +60,23 @@ class Network(nn.Module):
 
     tag_parts: Tensor
 
-    def __init__(self, config: NetworkConfig, lexis: Lexis, dropout: float = 0.0) -> None:
+    def __init__(self, config: NetworkConfig, vocabulary: Vocabulary, dropout: float = 0.0) -> None:
         """Make the layers.
 
         Args:
             config: Which there are.
-            lexis: Sizes of the embeddings, and which parts each tag has.
+            vocabulary: Sizes of the embeddings, and which parts each tag has.
             dropout: Part of each layer's input that is left out during training.
         """
         super().__init__()
         size, hidden = config.embedding, config.hidden
         self.config = config
         self.dropout = nn.Dropout(dropout)
-        self.form = nn.Embedding(len(lexis.forms), size)
+        self.form = nn.Embedding(len(vocabulary.forms), size)
         self.capital = nn.Embedding(2, size)
-        self.lemma = nn.Embedding(len(lexis.lemmas), size, padding_idx=0)
-        self.tag = nn.Embedding(len(lexis.tags), size, padding_idx=0)
-        self.part = nn.Parameter(torch.randn(len(lexis.parts), size))
+        self.lemma = nn.Embedding(len(vocabulary.lemmas), size, padding_idx=0)
+        self.tag = nn.Embedding(len(vocabulary.tags), size, padding_idx=0)
+        self.part = nn.Parameter(torch.randn(len(vocabulary.parts), size))
         self.rank = nn.Parameter(torch.ones(READINGS, size))
         with torch.no_grad():
             for table in (
@@ -87,16 +87,16 @@ class Network(nn.Module):
                 self.part,
             ):
                 table.mul_(0.3)  # several are added up: their sum is to be of the order of 1
-        places = {part: place for place, part in enumerate(lexis.parts)}
-        parts = torch.zeros(len(lexis.tags), len(lexis.parts))
-        for row, key in enumerate(lexis.tags):
+        places = {part: place for place, part in enumerate(vocabulary.parts)}
+        parts = torch.zeros(len(vocabulary.tags), len(vocabulary.parts))
+        for row, key in enumerate(vocabulary.tags):
             for part in tag_parts(key):
                 parts[row, places[part]] = 1
         self.register_buffer("tag_parts", parts, persistent=False)
 
         self.encoder = _recurrent(config, 2 * size, config.bidirectional, dropout)
         memory = hidden * (1 + config.bidirectional)
-        glosses = len(lexis.glosses)
+        glosses = len(vocabulary.glosses)
         if config.layout == "equal_length":
             self.output = nn.Linear(memory, glosses)
             return

@@ -17,8 +17,8 @@ from teo_sign_translator.corpus.paper_pairs import (
     training_pairs,
 )
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.examples import Reader
 from teo_sign_translator.pointer.sentence_model import SentenceModel
+from teo_sign_translator.pointer.training.examples import Reader
 
 if TYPE_CHECKING:
     from teo_sign_translator.text.source_words import SourceWord
@@ -31,7 +31,7 @@ _NOT_LETTERS = re.compile(r"[¿?¡!.,:;…]+")
 
 
 @dataclass(frozen=True, slots=True)
-class ByHeart:
+class MemorisedPair:
     """A sentence that must be known, an `AlignedSentence`."""
 
     spanish: str
@@ -39,7 +39,7 @@ class ByHeart:
     alignment: tuple[tuple[int, ...], ...]
 
 
-def by_heart_pairs(read: Reader) -> tuple[ByHeart, ...]:
+def memorised_pairs(read: Reader) -> tuple[MemorisedPair, ...]:
     """All of `training_pairs`, their slots filled in several ways, with and without a full stop.
 
     Args:
@@ -69,7 +69,7 @@ def ways_of_typing(sentence: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys([sentence, without_accents(sentence), bare, without_accents(bare).lower()]))
 
 
-def unknown_by_heart(model: SentenceModel, read: Reader) -> tuple[str, ...]:
+def not_memorised(model: SentenceModel, read: Reader) -> tuple[str, ...]:
     """The paper's sentences, in all `ways_of_typing`, that a model does not translate as published.
 
     Returns:
@@ -85,7 +85,7 @@ def unknown_by_heart(model: SentenceModel, read: Reader) -> tuple[str, ...]:
     return tuple(wrong)
 
 
-def _filled(pair: AlignedPair, name: str, number: str, stop: str, read: Reader) -> ByHeart:
+def _filled(pair: AlignedPair, name: str, number: str, stop: str, read: Reader) -> MemorisedPair:
     sentence = pair.sentence.replace(NAME, name).replace(NUMBER, number) + stop
     words = read(sentence)
     glosses: list[str] = []
@@ -98,7 +98,7 @@ def _filled(pair: AlignedPair, name: str, number: str, stop: str, read: Reader) 
         else:
             glosses.append(gloss_name(gloss))
             alignment.append(tuple(sorted(_place(words, source, sentence) for source in sources)))
-    return ByHeart(sentence, tuple(glosses), tuple(alignment))
+    return MemorisedPair(sentence, tuple(glosses), tuple(alignment))
 
 
 def _place(words: Sequence[SourceWord], source: str, sentence: str) -> int:

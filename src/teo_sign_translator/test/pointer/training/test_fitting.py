@@ -10,10 +10,9 @@ import pytest
 from small_language import NOUNS, fit_small, read, sentence_pairs, small_config
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.memorised_pairs import ByHeart
-from teo_sign_translator.pointer.training import fit
-from teo_sign_translator.pointer.zoo import POINTER
+from teo_sign_translator.pointer.config import POINTER, NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.training.fitting import fit
+from teo_sign_translator.pointer.training.memorised_pairs import MemorisedPair
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:
@@ -40,21 +39,21 @@ def test_training_stops_when_the_development_pairs_get_no_better() -> None:
 
 def test_a_gloss_that_is_always_a_copy_has_no_place_in_the_closed_list() -> None:
     trained = fit_small(POINTER, sentence_pairs(50), epochs=1)
-    assert set(trained.lexis.glosses) == {"<end>", "<start>", "YO", "TÚ"}
+    assert set(trained.vocabulary.glosses) == {"<end>", "<start>", "YO", "TÚ"}
     assert set(NOUNS) <= {
-        gloss.lower() for gloss in fit_small("lstm", sentence_pairs(80), epochs=1).lexis.glosses
+        gloss.lower() for gloss in fit_small("lstm", sentence_pairs(80), epochs=1).vocabulary.glosses
     }
 
 
 def test_pairs_that_cannot_be_said_are_counted_and_left_out() -> None:
-    strange = ByHeart("como el pan .", ("YO", "BOCADILLO", "COMER"), ((0,), (2,), (0,)))
+    strange = MemorisedPair("como el pan .", ("YO", "BOCADILLO", "COMER"), ((0,), (2,), (0,)))
     trained = fit_small(POINTER, [*sentence_pairs(50), strange], epochs=1)
     assert (trained.pairs, trained.left_out) == (50, 1)
 
 
 def test_an_alignment_outside_the_sentence_is_refused() -> None:
     with pytest.raises(TranslationError) as error:
-        fit_small(POINTER, [ByHeart("como .", ("YO",), ((5,),))], epochs=1)
+        fit_small(POINTER, [MemorisedPair("como .", ("YO",), ((5,),))], epochs=1)
     assert error.value.code == "invalid_data"
 
 

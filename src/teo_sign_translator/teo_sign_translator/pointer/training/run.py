@@ -15,14 +15,18 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from teo_sign_translator.corpus import Pair
-from teo_sign_translator.pointer import training as fitting
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.corpus_files import corpus_hash, read_splits, sample, without
 from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.examples import Reader
-from teo_sign_translator.pointer.memorised_pairs import ByHeart, by_heart_pairs, unknown_by_heart
-from teo_sign_translator.pointer.metrics import Score, score
 from teo_sign_translator.pointer.store import load_sentence_model, save_sentence_model
+from teo_sign_translator.pointer.training import fitting
+from teo_sign_translator.pointer.training.corpus_files import corpus_hash, read_splits, sample, without
+from teo_sign_translator.pointer.training.examples import Reader
+from teo_sign_translator.pointer.training.memorised_pairs import (
+    MemorisedPair,
+    memorised_pairs,
+    not_memorised,
+)
+from teo_sign_translator.pointer.training.metrics import Score, score
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
 SCORED = 2000
@@ -42,7 +46,7 @@ class TrainingData:
 
     train: list[Pair]
     held_out: dict[str, list[Pair]]
-    by_heart: tuple[ByHeart, ...]
+    by_heart: tuple[MemorisedPair, ...]
     corpus: Path
     sha256: str
 
@@ -77,7 +81,7 @@ def load_training_data(corpus: Path, read: Reader, pairs: int | None, seed: int)
         TranslationError: "invalid_data".
     """
     splits = read_splits(corpus)
-    by_heart = by_heart_pairs(read)
+    by_heart = memorised_pairs(read)
     train = without(splits.pop("train"), (pair.spanish for pair in by_heart))
     return TrainingData(sample(train, pairs, seed), splits, by_heart, corpus, corpus_hash(corpus))
 
@@ -125,7 +129,7 @@ def train_model(
             data.train, dev, data.by_heart, read, network, config, device=device, on_progress=show
         )
     card = {
-        "description": "Reads Spanish words with their readings, says LSE glosses; see neural/zoo.py.",
+        "description": "Reads Spanish words with their readings, says LSE glosses; see pointer/config.py.",
         "command": command,
         "training": dataclasses.asdict(config),
         "data": {
@@ -144,7 +148,12 @@ def train_model(
         "pairs_per_second": round(fit.pairs_per_second),
     }
     save_sentence_model(
-        name, out, config=network, lexis=fit.lexis, weights=fit.weights, card={**card, "result": result}
+        name,
+        out,
+        config=network,
+        vocabulary=fit.vocabulary,
+        weights=fit.weights,
+        card={**card, "result": result},
     )
     model = load_sentence_model(name, out)
     scores = {
@@ -152,14 +161,19 @@ def train_model(
         for split, pairs in data.held_out.items()
         if pairs
     }
-    unknown = unknown_by_heart(model, read)
+    unknown = not_memorised(model, read)
     # Half precision counts: the figures are those of the files.
     result |= {
         "scores": {split: dataclasses.asdict(each) for split, each in scores.items()},
         "paper_sentences_wrong": len(unknown),
     }
     save_sentence_model(
-        name, out, config=network, lexis=fit.lexis, weights=fit.weights, card={**card, "result": result}
+        name,
+        out,
+        config=network,
+        vocabulary=fit.vocabulary,
+        weights=fit.weights,
+        card={**card, "result": result},
     )
     return TrainedModel(model, fit, scores, unknown)
 
