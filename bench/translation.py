@@ -23,13 +23,13 @@ import blind_sentences
 from report import Figure, percentiles, share
 from translation_systems import SENTENCES, System, judged, lines, plain, systems
 
+from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.corpus.annotated_signs import read_annotated
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.pointer.examples import without_accents
 from teo_sign_translator.pointer.metrics import overlap, score
 from teo_sign_translator.resources import data_file
 

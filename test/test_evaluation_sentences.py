@@ -12,8 +12,8 @@ from typing import Any
 import pytest
 import yaml
 
+from teo_common.text_folding import folded
 from teo_sign_translator.corpus.accepted_translations import accepted
-from teo_sign_translator.text.cleaning import folded
 
 ROOT = Path(__file__).parents[1]
 SENTENCES = Path("test") / "data"

@@ -1,33 +1,33 @@
-"""Plans sentences: tokens in, motion out. See `composer`, `station_timing` and `clear_way` for how."""
+"""Plans sentences: tokens in, motion out.
+
+One walk: `Lexicon` finds the signs, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle
+limbs, has the waypoints timed (`SentenceTiming`) and leads the motion around the robot's body, `HeadMotion`
+lays the head's gestures over it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from teo_description.robot import Robot
 from teo_motion.collision.clearance_check import SelfCollision
-from teo_motion.collision.collision_avoidance import ClearWay, TimedRoute
-from teo_motion.collision.detour import Route
+from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.head.overlay import HeadMotion
-from teo_motion.sentence.composition import REST, Composition, compose
+from teo_motion.sentence.composition import REST, compose
 from teo_motion.sentence.head_gestures import head_gestures
-from teo_motion.sentence.plan import Plan, Samples, TokenTiming, sample_at, sample_times
+from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
-from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.sentence.timing import SentenceTiming
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import ROUNDING, State
-from teo_motion.trajectory.waypoint_timing import StationTiming
+from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import DEFAULT_STANDING, Lexicon
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 from teo_signs.tokens import Token
-
-Array = NDArray[np.float64]
 
 # TEO's drives take a set-point with every CAN SYNC, 0.02 s apart: more points would not reach them.
 DEFAULT_PERIOD = 0.02  # [s]
@@ -83,22 +83,21 @@ class Planner:
         self.style = SigningStyle() if style is None else style
         self._bounds = self.limits.for_points(period)
         self._lexicon = Lexicon(signs, least_standing)
-        self._collision_model = None if robot is None else SelfCollision(robot)
-        self._clear_way = ClearWay(
-            self._collision_model,
+        collision_model = None if robot is None else SelfCollision(robot)
+        self._avoidance = CollisionAvoidance(
+            SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
+            collision_model,
             limits=self.limits,
             least_clearance=least_clearance,
             arm_rest=self.style.arm_rest,
         )
         self._head = HeadMotion(
-            self._collision_model,
+            collision_model,
             limits=self.limits,
             bounds=self._bounds,
             least_clearance=least_clearance,
             strength=self.style.head_motion,
         )
-        self._period = period
-        self._max_duration = max_duration
 
     def plan(
         self, tokens: Sequence[Token], start: State | None = None, *, form: SentenceForm = STATEMENT
@@ -116,10 +115,8 @@ class Planner:
         check_form(form)
         signed = self._lexicon.resolve(tokens)
         begin = self._checked(start)
-        composition = compose(
-            signed, start=begin.position, limits=self.limits, style=self.style.for_form(form)
-        )
-        plan = self._route(composition, begin)
+        composition = compose(signed, start=begin, limits=self.limits, style=self.style.for_form(form))
+        plan = self._avoidance.plan(composition)
         return self._head.shown(plan, signed, head_gestures([item.token for item in signed], form))
 
     def plan_to_rest(self, start: State) -> Plan:
@@ -129,8 +126,7 @@ class Planner:
             PlanError: There is no way that keeps the limits and the clearance; the code says why.
         """
         begin = self._checked(start)
-        composition = compose((), start=begin.position, limits=self.limits, style=self.style)
-        return self._route(composition, begin)
+        return self._avoidance.plan(compose((), start=begin, limits=self.limits, style=self.style))
 
     def _checked(self, start: State | None) -> State:
         """The state to plan from, moved onto the limits where it is a little beyond them."""
@@ -164,79 +160,6 @@ class Planner:
             position=position,
             velocity=np.clip(start.velocity, -bounds.velocity, bounds.velocity),
             acceleration=np.clip(start.acceleration, -bounds.acceleration, bounds.acceleration),
-        )
-
-    def _route(self, composition: Composition, start: State) -> Plan:
-        first_look = StationTiming(
-            composition.targets, composition.nominal, composition.strokes, start, self._bounds
-        )
-        return self._clear_way.plan(composition, first_look.times, lambda route: self._solve(route, start))
-
-    def _solve(self, route: Route, start: State) -> TimedRoute:
-        timing = StationTiming(route.targets, route.nominal, route.strokes, start, self._bounds)
-        timing.solve()
-        times = timing.times
-        if times[-1] > self._max_duration:
-            raise PlanError(
-                "too_long",
-                f"expected a sentence of at most {self._max_duration:.0f} s, got one of {times[-1]:.0f} s: "
-                "send it in parts",
-            )
-        motions = timing.motions()
-        self._check(motions)
-        timings = tuple(
-            TokenTiming(
-                token=span.token,
-                start=float(times[span.first]),
-                duration=float(times[span.last] - times[span.first]),
-                stretch=float(times[span.last] - times[span.first]) / span.asked,
-            )
-            for span in route.spans
-        )
-        asked = sum(span.asked for span in route.spans)
-        samples = self._sample(motions, times)
-        plan = Plan(
-            names=self.limits.names,
-            motions=motions,
-            samples=samples,
-            timings=timings,
-            stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
-            nearest=None if self._collision_model is None else self._collision_model.nearest(samples),
-        )
-        return TimedRoute(route, plan, times)
-
-    def _check(self, motions: tuple[JointMotion, ...]) -> None:
-        """Look at the extremes of the motion itself, whatever is known of how it was made."""
-        limits = self.limits
-        for joint, (name, motion) in enumerate(zip(limits.names, motions, strict=True)):
-            reached = motion.extremes()
-            lower, upper = float(limits.lower[joint]), float(limits.upper[joint])
-            if reached.least < lower - ROUNDING or reached.greatest > upper + ROUNDING:
-                raise PlanError(
-                    "outside_limits",
-                    f"expected {name} within {lower:.4f} .. {upper:.4f} rad, got {reached.least:.4f} .. "
-                    f"{reached.greatest:.4f} rad: the joint is too fast at the start to turn back in time",
-                )
-            for what, value, limit in (
-                ("velocity [rad/s]", reached.velocity, limits.velocity[joint]),
-                ("acceleration [rad/s^2]", reached.acceleration, limits.acceleration[joint]),
-                ("jerk [rad/s^3]", reached.jerk, limits.jerk[joint]),
-            ):
-                if value > limit * (1.0 + ROUNDING):
-                    raise PlanError(
-                        "outside_limits", f"{name}: expected at most {limit:.4f} of {what}, got {value:.4f}"
-                    )
-
-    def _sample(self, motions: tuple[JointMotion, ...], times: Array) -> Samples:
-        found = sample_at(motions, sample_times(times, self._period))
-        # No further than the rounding that `_check` allows; controllers want the end at rest to the digit.
-        positions = np.clip(found.positions, self.limits.lower, self.limits.upper)
-        velocities, accelerations = found.velocities.copy(), found.accelerations.copy()
-        positions[-1], velocities[-1], accelerations[-1] = REST, 0.0, 0.0
-        for array in (positions, velocities, accelerations):
-            array.setflags(write=False)
-        return Samples(
-            times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
         )
 
 

@@ -9,6 +9,7 @@ from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
 from teo_motion.sentence.composition import REST, Composition, compose
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import Lexicon
 from teo_signs.sign import Sign
@@ -16,6 +17,7 @@ from teo_signs.tokens import Token, parse_printed
 
 STYLE = SigningStyle()
 LIMITS = MotionLimits.of_robot()
+START = State(position=REST, velocity=np.zeros(28), acceleration=np.zeros(28))
 ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
 RIGHT_ARM_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Right" in name]
 LEFT_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Left" in name]
@@ -23,7 +25,7 @@ LEFT_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Le
 
 def composed(table: Mapping[str, Sign], text: str | list[Token], style: SigningStyle = STYLE) -> Composition:
     tokens = parse_printed(text) if isinstance(text, str) else text
-    return compose(Lexicon(table).resolve(tokens), start=REST, limits=LIMITS, style=style)
+    return compose(Lexicon(table).resolve(tokens), start=START, limits=LIMITS, style=style)
 
 
 def held(composition: Composition, index: int) -> float:

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from teo_motion.collision.idle_limb_policy import fastest_moves
 from teo_motion.head.lean import Leaning
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
 from teo_motion.trajectory.limits import MotionLimits
@@ -17,7 +16,7 @@ FORWARD = math.radians(9.0)
 
 
 def least_time(way: float) -> float:
-    return float(fastest_moves(np.array([way]), [PITCH], LIMITS)[0])
+    return float(LIMITS.least_times(np.array([way]), [PITCH])[0])
 
 
 @pytest.fixture

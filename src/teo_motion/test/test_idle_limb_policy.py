@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
-from teo_motion.collision.idle_limb_policy import fastest_moves
 from teo_motion.planner import Planner
 from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
@@ -78,7 +77,7 @@ def test_no_arm_goes_down_between_the_letters_of_a_word(table: Mapping[str, Sign
     acceleration=st.floats(0.1, 20.0),
     jerk=st.floats(0.5, 500.0),
 )
-def test_fastest_moves_take_the_time_that_ruckig_finds(
+def test_least_times_are_those_that_ruckig_finds(
     way: float, velocity: float, acceleration: float, jerk: float
 ) -> None:
     one = np.ones(1)
@@ -100,4 +99,4 @@ def test_fastest_moves_take_the_time_that_ruckig_finds(
     states = [State(position=p * one, velocity=0 * one, acceleration=0 * one) for p in (0.0, way)]
     move = Mover(1).move(*states, bounds, duration=0.0)
     assert move is not None
-    assert fastest_moves(way * one, [0], limits)[0] == pytest.approx(move.duration, rel=1e-5)
+    assert limits.least_times(way * one, [0])[0] == pytest.approx(move.duration, rel=1e-5)

@@ -6,7 +6,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from teo_motion.collision.idle_limb_policy import fastest_moves
 from teo_motion.head.neck_paths import Room, hold_ways, nod_ways, shake_ways
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
 from teo_motion.trajectory.limits import MotionLimits
@@ -15,7 +14,7 @@ LIMITS = MotionLimits.of_robot()
 
 
 def least_time(way: float) -> float:
-    return float(fastest_moves(np.array([way]), [0], LIMITS)[0])
+    return float(LIMITS.least_times(np.array([way]), [0])[0])
 
 
 def standing(*positions: float) -> JointMotion:

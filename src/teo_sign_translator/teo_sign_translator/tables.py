@@ -1,9 +1,7 @@
-"""Reading and writing the package's small text files."""
+"""Reading the package's small text files."""
 
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -36,18 +34,3 @@ def read_rows(path: Path, columns: int) -> Iterator[tuple[int, list[str]]]:
 def words_of(text: str) -> tuple[str, ...]:
     """The words of a list that is written as one string."""
     return tuple(text.split())
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file so that a reader finds the old content or the new, never a part; makes its folder."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    temporary = Path(name)
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        temporary.chmod(0o644)  # mkstemp makes a file for its owner only
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise

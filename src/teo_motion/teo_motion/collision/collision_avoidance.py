@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import dataclasses
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_motion.collision.clearance_check import SelfCollision
-from teo_motion.collision.detour import Route, detours, with_detour
-from teo_motion.collision.idle_limb_policy import settle_idle_limbs
+from teo_motion.collision.detour import detours, with_detour
 from teo_motion.sentence.composition import ARMS, Composition
+from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
 from teo_motion.sentence.plan import Plan, sample_at
+from teo_motion.sentence.route import Route
+from teo_motion.sentence.timing import SentenceTiming, TimedRoute
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError
 
@@ -24,27 +26,6 @@ _DETOURS_PER_TOKEN = 2
 
 # Looks at a straight way between two postures before its motion is timed.
 _LOOKS = 9
-
-
-class TimedRoute(NamedTuple):
-    """A route and its motion.
-
-    Attributes:
-        route: The stations.
-        plan: The motion through them.
-        times: When each station is passed [s].
-    """
-
-    route: Route
-    plan: Plan
-    times: Array
-
-    @property
-    def nearest_step(self) -> int:
-        """The station before the place where the robot comes closest to itself."""
-        assert self.plan.nearest is not None
-        after = int(np.searchsorted(self.times, self.plan.nearest.time, side="right"))
-        return min(after - 1, len(self.times) - 2)
 
 
 class _InTheWayError(Exception):
@@ -61,11 +42,12 @@ class _InTheWayError(Exception):
         self.token = token
 
 
-class ClearWay:
-    """Finds ways on which a robot does not touch itself."""
+class CollisionAvoidance:
+    """Finds motions in which a robot does not touch itself."""
 
     def __init__(
         self,
+        timing: SentenceTiming,
         collision_model: SelfCollision | None,
         *,
         limits: MotionLimits,
@@ -75,47 +57,47 @@ class ClearWay:
         """Prepare.
 
         Args:
+            timing: Times the waypoints of a route.
             collision_model: Distances between parts of the robot; None looks at none.
             limits: Limits of the joints, which detours keep.
             least_clearance: Distance that parts of the robot keep [m].
-            arm_rest: Least time at rest worth an idle arm's way [s].
+            arm_rest: Least time at rest for which an idle arm goes there and back [s].
         """
+        self._timing = timing
         self._collision_model = collision_model
         self._limits = limits
         self._least_clearance = least_clearance
         self._arm_rest = arm_rest
 
-    def plan(self, composition: Composition, times: Array, solve: Callable[[Route], TimedRoute]) -> Plan:
+    def plan(self, composition: Composition) -> Plan:
         """The motion of a composition, led around the robot's body where it would touch it.
 
-        Args:
-            composition: What is signed.
-            times: When about each of its stations is passed, idle limbs aside [s].
-            solve: Times a route.
-
         Raises:
-            PlanError: "self_collision" if no way is found; what ``solve`` raises.
+            PlanError: "self_collision" if no such motion is found; see also `SentenceTiming.timed`.
         """
+        times = self._timing.estimate(composition)
         cleared: set[tuple[int, int]] = set()
         while True:
-            targets = settle_idle_limbs(
+            route = settle_idle_limbs(
                 composition, times=times, limits=self._limits, arm_rest=self._arm_rest, cleared=cleared
             )
-            route = Route(
-                targets=targets,
-                nominal=composition.nominal,
-                strokes=composition.strokes,
-                spans=composition.spans,
-            )
             try:
-                return self._led_around(solve(route), solve)
+                return self._led_around(self._timed(route))
             except _InTheWayError as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
                     raise collision.error from None
                 cleared |= more
 
-    def _led_around(self, timed: TimedRoute, solve: Callable[[Route], TimedRoute]) -> Plan:
+    def _timed(self, route: Route) -> TimedRoute:
+        """A route with its motion, and the closest that parts come in it."""
+        timed = self._timing.timed(route)
+        if self._collision_model is None:
+            return timed
+        nearest = self._collision_model.nearest(timed.plan.samples)
+        return timed._replace(plan=dataclasses.replace(timed.plan, nearest=nearest))
+
+    def _led_around(self, timed: TimedRoute) -> Plan:
         """The motion of a route, its transitions led around the body.
 
         Raises:
@@ -124,15 +106,15 @@ class ClearWay:
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
                 return timed.plan
-            timed = self._with_worst_avoided(timed, solve)
+            timed = self._with_worst_avoided(timed)
         if self._is_clear(timed.plan):
             return timed.plan
         raise self._in_the_way(timed)
 
-    def _with_worst_avoided(self, timed: TimedRoute, solve: Callable[[Route], TimedRoute]) -> TimedRoute:
+    def _with_worst_avoided(self, timed: TimedRoute) -> TimedRoute:
         """Lead the transition with the worst collision around the body."""
         route, plan, times = timed
-        step = timed.nearest_step
+        step = _nearest_step(timed)
         if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
             begin, end = float(times[step]), float(times[step + 1])
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
@@ -140,16 +122,16 @@ class ClearWay:
                 other = route
                 for posture in reversed(postures):
                     other = with_detour(other, step, posture)
-                found = solve(other)
+                found = self._timed(other)
                 round_here = range(step, step + len(postures) + 1)
-                if self._is_clear(found.plan) or found.nearest_step not in round_here:
+                if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
         raise self._in_the_way(timed)
 
     def _in_the_way(self, timed: TimedRoute) -> _InTheWayError:
         """What touches, and where: in a sign if one of its postures does, else on the way between two."""
         route, plan, times = timed
-        near, step = plan.nearest, timed.nearest_step
+        near, step = plan.nearest, _nearest_step(timed)
         assert near is not None
         guilty = next(
             (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
@@ -197,6 +179,13 @@ class ClearWay:
         assert self._collision_model is not None
         found = self._collision_model.nearest(sample_at(plan.motions, times))
         return found.distance >= self._least_clearance
+
+
+def _nearest_step(timed: TimedRoute) -> int:
+    """The waypoint before the place where the robot comes closest to itself."""
+    assert timed.plan.nearest is not None
+    after = int(np.searchsorted(timed.times, timed.plan.nearest.time, side="right"))
+    return min(after - 1, len(timed.times) - 2)
 
 
 def _idle_arms(composition: Composition, collision: _InTheWayError) -> set[tuple[int, int]]:

@@ -4,49 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS
-from teo_motion.sentence.composition import ARMS, LIMBS, REST, TokenSpan
+from teo_motion.sentence.composition import ARMS, LIMBS, REST
+from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Route:
-    """Stations with every limb in place.
-
-    Attributes:
-        targets: Positions [rad], NaN where a joint is on its way. Shape (n, 28).
-        nominal: Least time from each station to the next [s]. Shape (n - 1,).
-        strokes: Number of the stroke of each step. Shape (n - 1,).
-        spans: Where each token is signed.
-    """
-
-    targets: Array
-    nominal: Array
-    strokes: NDArray[np.intp]
-    spans: tuple[TokenSpan, ...]
-
-    def token_at(self, step: int) -> int | None:
-        """Index of the token that is signed between a station and the next; None on the way between signs."""
-        for index, span in enumerate(self.spans):
-            if span.first <= step < span.last:
-                return index
-        return None
-
-    def name_at(self, station: int) -> str:
-        """What the robot does at a station, for people."""
-        if station == 0:
-            return "the start"
-        for span in self.spans:
-            if span.first <= station <= span.last:
-                return f"the sign {span.token.gloss!r}" if span.token.gloss else "a pause"
-        return "rest" if station == len(self.targets) - 1 else "a posture between two signs"
 
 
 # What lifts the upper arms sideways, brings them forward, opens the elbows; half way, to pass the body.
@@ -146,6 +113,7 @@ def with_detour(route: Route, step: int, posture: Array) -> Route:
             np.concatenate((route.nominal[:step], [half], route.nominal[step + 1 :])), step, half
         ),
         strokes=np.insert(route.strokes, step, route.strokes[step]),
+        start=route.start,
         spans=tuple(
             dataclasses.replace(
                 span, first=span.first + (span.first > step), last=span.last + (span.last > step)

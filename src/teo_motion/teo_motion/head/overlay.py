@@ -20,7 +20,6 @@ import numpy as np
 from teo_description import HEAD, HOME
 from teo_description.clearance import HEAD_LINKS
 from teo_motion.collision.clearance_check import SelfCollision
-from teo_motion.collision.idle_limb_policy import fastest_moves
 from teo_motion.head.lean import Leaning, Times
 from teo_motion.head.neck_paths import Room, nod_ways, shake_ways
 from teo_motion.sentence.head_gestures import Gesture, GestureKind
@@ -173,7 +172,7 @@ class HeadMotion:
         return min(head, others, key=lambda near: near.distance)
 
     def _least_time(self, axis: int, way: float) -> float:
-        return float(fastest_moves(np.array([way]), [self._columns[axis]], self._limits)[0])
+        return float(self._limits.least_times(np.array([way]), [self._columns[axis]])[0])
 
     def _sampled(self, plan: Plan, motions: tuple[JointMotion, ...]) -> Samples:
         found = sample_at(tuple(motions[column] for column in self._columns), plan.times)

@@ -1,9 +1,9 @@
-"""From signs to stations: the postures that a sentence passes through, from rest to rest.
+"""From signs to waypoints: the postures that a sentence passes through, from rest to rest.
 
-Every knot of every sign is a station, and so are the ends of holds and pauses. A station fixes the joints
-that the sign at hand uses and leaves the others free; `idle_rule` decides what the free ones do. Between
-two signs there is no station, except between equal postures: the hands go straight from the last knot of one
-to the first of the next, hand shape and arm together, and need not stop where the motion goes on.
+Every knot of every sign is a waypoint, and so are the ends of holds and pauses. A waypoint fixes the joints
+that the sign at hand uses and leaves the others free; `idle_limb_policy` decides what the free ones do.
+Between two signs there is no waypoint, except between equal postures: the hands go straight from the last
+knot of one to the first of the next, hand shape and arm together, and need not stop where the motion goes on.
 
 Within a sign, a stroke is a run of knots through which it moves without standing still.
 
@@ -31,6 +31,7 @@ from teo_description import (
 )
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
@@ -94,6 +95,7 @@ class Composition:
             other in one stroke are stretched together. Shape (n - 1,).
         spans: Where each token is signed, in order.
         idle: Where limbs are not used.
+        start: State of the joints at the first waypoint.
     """
 
     targets: NDArray[np.float64]
@@ -101,16 +103,17 @@ class Composition:
     strokes: NDArray[np.intp]
     spans: tuple[TokenSpan, ...]
     idle: tuple[IdleSpan, ...]
+    start: State
 
 
 def compose(
-    signed: Sequence[SignedToken], *, start: NDArray[np.float64], limits: MotionLimits, style: SigningStyle
+    signed: Sequence[SignedToken], *, start: State, limits: MotionLimits, style: SigningStyle
 ) -> Composition:
     """Lay a sentence out, from a start to rest.
 
     Args:
-        signed: Signs and pauses, in order; at least one.
-        start: Positions at which the robot is [rad]. Shape (28,).
+        signed: Signs and pauses, in order; none for the way to rest alone.
+        start: State of the 28 joints at the beginning.
         limits: Limits of the joints, which every station keeps.
         style: Times of holds and pauses.
 
@@ -142,11 +145,12 @@ def _same_word(item: SignedToken, following: SignedToken | None) -> bool:
 class _Composer:
     """Adds station after station, and remembers where each limb was last."""
 
-    def __init__(self, start: NDArray[np.float64], limits: MotionLimits, style: SigningStyle) -> None:
+    def __init__(self, start: State, limits: MotionLimits, style: SigningStyle) -> None:
+        self._start = start
         self._limits = limits
         self._style = style
-        self._posture = start.copy()
-        self._rows: list[NDArray[np.float64]] = [start.copy()]
+        self._posture = start.position.copy()
+        self._rows: list[NDArray[np.float64]] = [start.position.copy()]
         self._nominal: list[float] = []
         self._strokes: list[int] = []
         self._spans: list[TokenSpan] = []
@@ -193,6 +197,7 @@ class _Composer:
             strokes=np.array(self._strokes),
             spans=tuple(self._spans),
             idle=tuple(self._idle),
+            start=self._start,
         )
 
     def _fix(

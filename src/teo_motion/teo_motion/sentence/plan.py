@@ -99,7 +99,7 @@ class Plan:
     samples: Samples
     timings: tuple[TokenTiming, ...]
     stretch: float
-    nearest: Nearness | None
+    nearest: Nearness | None = None
     head: tuple[HeadGesture, ...] = ()
 
     @property

@@ -102,3 +102,27 @@ class MotionLimits:
         return Bounds(
             lower=self.lower, upper=self.upper, velocity=velocity, acceleration=acceleration, jerk=self.jerk
         )
+
+    def least_times(self, distances: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
+        """Least times in which joints move from rest to rest.
+
+        Symmetric S-curve: L. Biagiotti, C. Melchiorri, "Trajectory Planning for Automatic Machines and
+        Robots" (2008), 3.4.
+
+        Args:
+            distances: Distances to move, of either sign [rad]. Shape (m,).
+            columns: Indices of the joints that move them, in `names`.
+
+        Returns:
+            Durations [s]. Shape (m,).
+        """
+        way = np.abs(distances)
+        speed, push, jerk = (values[columns] for values in (self.velocity, self.acceleration, self.jerk))
+        # With a phase of constant velocity; then with one of constant acceleration; then with neither.
+        ramp = np.where(speed * jerk >= push**2, speed / push + push / jerk, 2.0 * np.sqrt(speed / jerk))
+        without_cruise = np.where(
+            way >= 2.0 * push**3 / jerk**2,
+            push / jerk + np.sqrt((push / jerk) ** 2 + 4.0 * way / push),
+            np.cbrt(32.0 * way / jerk),
+        )
+        return np.where(way >= speed * ramp, ramp + way / speed, without_cruise)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from typing import Any
 
@@ -18,11 +19,12 @@ from teo_ros2cli.messages.classes import message_class
 from teo_ros2cli.messages.fill import StampSetter, fill_message
 from teo_ros2cli.messages.yaml_text import parse
 
-# A subscription that has just been found may itself find this publisher a little later, and only then gets
-# what was published already: until then its acknowledgement does not come, and the message is lost if the
-# publisher leaves.
-_ACKNOWLEDGEMENT = 1.0
-"""Longest time that reliable subscriptions get to receive the last message [s]."""
+# Longest time that reliable subscriptions get to receive the last message [s]. A subscription that has been
+# found may itself find this publisher later, with the next announcement, every 3 s with the defaults of Fast
+# DDS. Only then it gets what was published already; the message is lost if the publisher leaves before.
+_ACKNOWLEDGEMENT = 5.0
+# Longest wait between two looks for a signal while acknowledgements are awaited [s].
+_ACKNOWLEDGEMENT_STEP = 0.1
 _POLL = 0.02
 """Interval of looking for subscriptions [s]."""
 
@@ -107,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
     except Ros2CliError as error:
         raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
 
-    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.qos import from_options
     from teo_ros2cli.graph.topics import full_topic_name
 
@@ -116,9 +118,12 @@ def run(options: argparse.Namespace) -> int:
         profile = from_options(options)
         publisher = node.create_publisher(type(message), topic, profile)
         wanted = options.wait_matching_subscriptions
-        _wait_for_subscriptions(
-            publisher, (1 if times else 0) if wanted is None else wanted, options.max_wait_time_secs
-        )
+        if wanted is None:
+            wanted = 1 if times else 0
+        _wait_for_subscriptions(publisher, wanted, options.max_wait_time_secs)
+        if wanted:
+            # The first subscription that matched is rarely the only one.
+            settle(node, options.spin_time, publisher=publisher)
         print("publisher: beginning loop")
         _publish(node, publisher, message, stamps, times, options)
         _linger(publisher, profile, options.keep_alive)
@@ -184,7 +189,12 @@ def _linger(publisher: Any, profile: Any, keep_alive: float) -> None:
     from rclpy.qos import ReliabilityPolicy
 
     started = time.monotonic()
-    reliable = profile.reliability != ReliabilityPolicy.BEST_EFFORT
-    if reliable:
-        publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGEMENT))
+    if profile.reliability != ReliabilityPolicy.BEST_EFFORT:
+        while not publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGEMENT_STEP)):
+            if time.monotonic() - started >= _ACKNOWLEDGEMENT:
+                print(
+                    f"Not every subscription acknowledged the last message within {_ACKNOWLEDGEMENT:g} s",
+                    file=sys.stderr,
+                )
+                break
     time.sleep(max(0.0, keep_alive - (time.monotonic() - started)))

@@ -8,8 +8,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from queue import Full, Queue
 from typing import Any, NamedTuple
 
+from teo_common.mcap_salvage import StoredMessage
 from teo_ros2cli.bags.bag import Bag
-from teo_ros2cli.bags.mcap_file import StoredMessage
 from teo_ros2cli.bags.metadata import TopicRecord
 from teo_ros2cli.bags.qos_record import QosRecord, offer_for
 from teo_ros2cli.bags.schedule import Schedule

@@ -15,12 +15,12 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_translator.corpus.paper_pairs import Pair, paper_pairs, paper_predictions
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.input_tokens import published_tokens
 from teo_sign_translator.lstm256.training import Example, Training, TrainingConfig, train
 from teo_sign_translator.lstm256.vocabulary import Vocabulary
-from teo_sign_translator.tables import write_atomically
 
 #: The two step sizes that the paper compares; its predictions are made with the first.
 LEARNING_RATES = (0.0001, 0.001)
@@ -89,6 +89,7 @@ def run(
             )
             for rate in LEARNING_RATES
         ]
+    out.mkdir(parents=True, exist_ok=True)
     for each in runs:
         stem = f"loss_{each.config.learning_rate}"
         write_atomically(out / f"{stem}.csv", _loss_csv(each.training).encode())

@@ -7,9 +7,9 @@ several places of a translation, as in `(YO) PAN (YO) COMPRAR`, is said in one o
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Sequence
 
+from teo_common.text_folding import without_accents
 from teo_sign_translator.errors import TranslationError
 
 #: Letters of words that accents tell apart: TÚ and TU, SÍ and SI.
@@ -58,7 +58,7 @@ def plain_gloss(gloss: str) -> str:
     LSE spells without accents, so longer words are compared without; Ñ stays.
     """
     word = gloss.replace("-", "").replace("_", "").upper()
-    return word if len(word) <= _SHORT else _unaccented(word)
+    return word if len(word) <= _SHORT else without_accents(word)
 
 
 def _place(word: str, pattern: str) -> tuple[frozenset[str], bool]:
@@ -71,9 +71,3 @@ def _place(word: str, pattern: str) -> tuple[frozenset[str], bool]:
             "invalid_data", f"expected a gloss like (A/B) or A/B, got '{word}' in '{pattern}'"
         )
     return frozenset(map(plain_gloss, glosses)), optional
-
-
-def _unaccented(word: str) -> str:
-    decomposed = unicodedata.normalize("NFD", word)
-    kept = (c for c in decomposed if not unicodedata.combining(c) or c == "\N{COMBINING TILDE}")
-    return unicodedata.normalize("NFC", "".join(kept))

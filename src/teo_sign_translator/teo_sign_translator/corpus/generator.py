@@ -10,6 +10,7 @@ from itertools import accumulate
 from pathlib import Path
 from random import Random
 
+from teo_common.text_folding import folded
 from teo_sign_translator.corpus.choosers import RandomChooser
 from teo_sign_translator.corpus.derivation import Derivation, Sentence
 from teo_sign_translator.corpus.fillers import NoFillerError
@@ -20,7 +21,6 @@ from teo_sign_translator.corpus.templates import Template, templates
 from teo_sign_translator.corpus.words import WordLists, is_held_out
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.text.cleaning import folded
 
 #: Share of each split.
 SHARES = {"train": 0.93, "dev": 0.02, "test_words": 0.02, "test_templates": 0.02, "test_both": 0.01}

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.tables import write_atomically
 
 COLUMNS = ("spanish", "glosses", "alignment", "rule", "split")
 
@@ -52,6 +52,7 @@ def write_pairs(path: Path, pairs: Iterable[Pair]) -> None:
         )
         for pair in pairs
     )
+    path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, ("\n".join(lines) + "\n").encode())
 
 

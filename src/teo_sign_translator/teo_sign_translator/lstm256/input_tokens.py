@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
+from teo_common.text_folding import fold
 from teo_sign_translator.corpus.paper_pairs import SLOTS
-from teo_sign_translator.text.cleaning import clean, fold
+from teo_sign_translator.text.cleaning import clean
 
 #: Marks that are tokens of their own.
 MARKS = ("?", "!")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from teo_common.text_folding import strip_marks
 from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.input_tokens import MARKS
@@ -12,7 +13,6 @@ from teo_sign_translator.lstm256.seq2seq import Prediction, SequenceModel
 from teo_sign_translator.output.number_signs import number
 from teo_sign_translator.output.output_words import Draft, carried, spelled
 from teo_sign_translator.output.translation import Kind, Origin
-from teo_sign_translator.text.cleaning import strip_marks
 from teo_sign_translator.text.reading import Clause, Word, WordKind
 
 #: Confidence in an answer to a sentence outside the training data, times the model's probability: a model

@@ -12,13 +12,13 @@ import safetensors.numpy
 from numpy.typing import NDArray
 from safetensors import SafetensorError
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.seq2seq import LstmModel
 from teo_sign_translator.lstm256.vocabulary import Vocabulary
 from teo_sign_translator.model_card import read_card
 from teo_sign_translator.pointer.zoo import POINTER
 from teo_sign_translator.resources import models_directory
-from teo_sign_translator.tables import write_atomically
 
 #: Of the models that ship: translates sentences that it has not seen.
 DEFAULT_MODEL = POINTER
@@ -100,6 +100,7 @@ def save_model(
         **card,
         "vocabulary": {"input": list(inputs.tokens), "output": list(outputs.tokens)},
     }
+    directory.mkdir(parents=True, exist_ok=True)
     write_atomically(directory / f"{name}.safetensors", safetensors.numpy.save(halves))
     text = json.dumps(content, ensure_ascii=False, indent=2)
     write_atomically(directory / f"{name}.json", text.encode() + b"\n")

@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
+from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import TAGS, Reading
 from teo_sign_translator.resources import data_file
 from teo_sign_translator.tables import read_rows
-from teo_sign_translator.text.cleaning import fold
 from teo_sign_translator.text.source_words import SourceWord
 
 _ANY = "*"

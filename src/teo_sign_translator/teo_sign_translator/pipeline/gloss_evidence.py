@@ -8,13 +8,13 @@ from fnmatch import fnmatchcase
 from functools import lru_cache
 from pathlib import Path
 
+from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.neural import OutputGloss
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
 from teo_sign_translator.resources import data_file
 from teo_sign_translator.tables import read_rows
-from teo_sign_translator.text.cleaning import fold
 from teo_sign_translator.text.source_words import SourceWord
 
 _NONE = "-"

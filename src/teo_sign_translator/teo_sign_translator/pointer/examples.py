@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.text_folding import without_accents
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
 
@@ -214,8 +214,3 @@ class ExampleReader:
         if not read or read[0].text != text:
             return self._row(word)
         return self._row(read[0])
-
-
-def without_accents(text: str) -> str:
-    """As typed in haste: `"Él"` is `"El"`; `ñ` stays, as Spanish keyboards have it."""
-    return "".join(letter if letter in "ñÑ" else unicodedata.normalize("NFD", letter)[0] for letter in text)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from teo_common.text_folding import fold, without_accents
 from teo_sign_translator.corpus.paper_pairs import (
     NAME,
     NUMBER,
@@ -16,9 +17,8 @@ from teo_sign_translator.corpus.paper_pairs import (
     training_pairs,
 )
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.examples import Reader, without_accents
+from teo_sign_translator.pointer.examples import Reader
 from teo_sign_translator.pointer.sentence_model import SentenceModel
-from teo_sign_translator.text.cleaning import fold
 
 if TYPE_CHECKING:
     from teo_sign_translator.text.source_words import SourceWord

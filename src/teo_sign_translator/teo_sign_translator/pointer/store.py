@@ -13,6 +13,7 @@ import safetensors.numpy
 from numpy.typing import NDArray
 from safetensors import SafetensorError
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_card import read_card
 from teo_sign_translator.pointer.array_model import ArrayModel
@@ -20,7 +21,6 @@ from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.decoding import ZooModel
 from teo_sign_translator.pointer.vocabulary import Lexis
 from teo_sign_translator.resources import models_directory
-from teo_sign_translator.tables import write_atomically
 
 #: Of cards of sentence models; those of `model_store` have schema 1.
 SCHEMA = 2
@@ -104,6 +104,7 @@ def save_sentence_model(
         "network": dataclasses.asdict(config),
         "lexis": lexis.as_dict(),
     }
+    directory.mkdir(parents=True, exist_ok=True)
     write_atomically(directory / f"{name}.safetensors", safetensors.numpy.save(halves))
     # One line: the lists hold thousands of words.
     write_atomically(directory / f"{name}.json", json.dumps(content, ensure_ascii=False).encode() + b"\n")

@@ -12,6 +12,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.batches import WordNumbers, batches
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
@@ -28,7 +29,6 @@ from teo_sign_translator.pointer.examples import (
 from teo_sign_translator.pointer.network import Network, TensorBatch
 from teo_sign_translator.pointer.typing_noise import Typing, copies, typed_sayably, unsayable
 from teo_sign_translator.pointer.vocabulary import Lexis, tag_key
-from teo_sign_translator.text.cleaning import fold
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
 MIN_FORM, MIN_LEMMA = 10, 3

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.text.cleaning import fold
 
 if TYPE_CHECKING:
     from teo_sign_translator.morphology import Reading

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs, training_pairs
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.batches import WordNumbers, batches
@@ -16,7 +17,6 @@ from teo_sign_translator.pointer.examples import (
     Reader,
     WordTable,
     spans,
-    without_accents,
 )
 from teo_sign_translator.pointer.memorised_pairs import ByHeart, by_heart_pairs, key, ways_of_typing
 from teo_sign_translator.pointer.training import make_lexis
@@ -169,10 +169,6 @@ def test_spans_of_nothing_are_nothing() -> None:
     places, starts = spans(np.array([0, 2, 5]), np.array([], np.int64))
     assert len(places) == 0
     assert starts.tolist() == [0]
-
-
-def test_accents_go_and_other_letters_stay() -> None:
-    assert without_accents("¿Él se comió la piña, pingüino?") == "¿El se comio la piña, pinguino?"
 
 
 def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:

@@ -6,8 +6,12 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.camera.camera_topics import CAMERA_INFO, COLOR, DEPTH
-from teo_skeleton_retriever.camera.image_messages import shows_depth
+from teo_skeleton_retriever.camera.image_messages import (
+    CAMERA_INFO_TOPIC,
+    COLOR_TOPIC,
+    DEPTH_TOPIC,
+    shows_depth,
+)
 from teo_skeleton_retriever.errors import BagError
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
@@ -42,13 +46,13 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
     colors = [topic for topic in names if shows_depth(first[topic]) is False]
     coloured = [topic for topic in colors if getattr(first[topic], "encoding", "") not in _GREY]
     infos = [topic for topic, kind in bag.kinds.items() if kind == "sensor_msgs/msg/CameraInfo"]
-    chosen_color = _choose(bag, "color", color, COLOR, coloured or colors)
+    chosen_color = _choose(bag, "color", color, COLOR_TOPIC, coloured or colors)
     beside = f"{_base(chosen_color).rpartition('/')[0]}/camera_info"
     aligned = [topic for topic in depths if any(word in topic for word in _ALIGNED)]
     return Topics(
         chosen_color,
-        _choose(bag, "depth", depth, DEPTH, aligned or depths),
-        _choose(bag, "camera_info", camera_info, CAMERA_INFO, [beside] if beside in infos else infos),
+        _choose(bag, "depth", depth, DEPTH_TOPIC, aligned or depths),
+        _choose(bag, "camera_info", camera_info, CAMERA_INFO_TOPIC, [beside] if beside in infos else infos),
     )
 
 

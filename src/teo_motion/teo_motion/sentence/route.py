@@ -1,0 +1,48 @@
+"""A sentence as waypoints at which every limb's part is decided: what is timed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_motion.sentence.composition import TokenSpan
+from teo_motion.trajectory.ruckig_segment import State
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Route:
+    """Waypoints with every limb in place.
+
+    Attributes:
+        targets: Positions [rad], NaN where a joint is on its way. Shape (n, 28).
+        nominal: Least time from each waypoint to the next [s]. Shape (n - 1,).
+        strokes: Number of the stroke of each step. Shape (n - 1,).
+        spans: Where each token is signed.
+        start: State of the joints at the first waypoint.
+    """
+
+    targets: Array
+    nominal: Array
+    strokes: NDArray[np.intp]
+    spans: tuple[TokenSpan, ...]
+    start: State
+
+    def token_at(self, step: int) -> int | None:
+        """Index of the token that is signed between a waypoint and the next; None between two signs."""
+        for index, span in enumerate(self.spans):
+            if span.first <= step < span.last:
+                return index
+        return None
+
+    def name_at(self, waypoint: int) -> str:
+        """What the robot does at a waypoint, for people."""
+        if waypoint == 0:
+            return "the start"
+        for span in self.spans:
+            if span.first <= waypoint <= span.last:
+                return f"the sign {span.token.gloss!r}" if span.token.gloss else "a pause"
+        return "rest" if waypoint == len(self.targets) - 1 else "a posture between two signs"

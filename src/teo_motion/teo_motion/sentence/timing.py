@@ -1,0 +1,131 @@
+"""From a route to a plan: when each waypoint is passed, how every joint moves, checked against its limits."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_motion.sentence.composition import REST, Composition
+from teo_motion.sentence.plan import Plan, Samples, TokenTiming, sample_at, sample_times
+from teo_motion.sentence.route import Route
+from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import ROUNDING
+from teo_motion.trajectory.waypoint_timing import StationTiming
+from teo_signs.errors import PlanError
+
+Array = NDArray[np.float64]
+
+
+class TimedRoute(NamedTuple):
+    """A route and its motion.
+
+    Attributes:
+        route: The waypoints.
+        plan: The motion through them; distances between parts of the robot are not looked at yet.
+        times: When each waypoint is passed [s]. Shape (n,).
+    """
+
+    route: Route
+    plan: Plan
+    times: Array
+
+
+class SentenceTiming:
+    """Times sentences within the limits of the joints."""
+
+    def __init__(self, *, limits: MotionLimits, period: float, max_duration: float) -> None:
+        """Prepare.
+
+        Args:
+            limits: Limits of the commanded joints.
+            period: Most time between two samples of a plan [s].
+            max_duration: A longer motion is refused [s].
+
+        Raises:
+            PlanError: The limits leave no room for interpolation between points that far apart
+                ("bad_limits").
+        """
+        self._limits = limits
+        self._bounds = limits.for_points(period)
+        self._period = period
+        self._max_duration = max_duration
+
+    def estimate(self, composition: Composition) -> Array:
+        """When about each waypoint is passed, idle limbs aside [s]. Shape (n,)."""
+        return StationTiming(
+            composition.targets, composition.nominal, composition.strokes, composition.start, self._bounds
+        ).times
+
+    def timed(self, route: Route) -> TimedRoute:
+        """Time a route.
+
+        Raises:
+            PlanError: It takes too long ("too_long"), no times are found ("no_timing"), or a joint cannot
+                stay within its limits ("outside_limits").
+        """
+        timing = StationTiming(route.targets, route.nominal, route.strokes, route.start, self._bounds)
+        timing.solve()
+        times = timing.times
+        if times[-1] > self._max_duration:
+            raise PlanError(
+                "too_long",
+                f"expected a sentence of at most {self._max_duration:.0f} s, got one of {times[-1]:.0f} s: "
+                "send it in parts",
+            )
+        motions = timing.motions()
+        self._check(motions)
+        timings = tuple(
+            TokenTiming(
+                token=span.token,
+                start=float(times[span.first]),
+                duration=float(times[span.last] - times[span.first]),
+                stretch=float(times[span.last] - times[span.first]) / span.asked,
+            )
+            for span in route.spans
+        )
+        asked = sum(span.asked for span in route.spans)
+        plan = Plan(
+            names=self._limits.names,
+            motions=motions,
+            samples=self._sample(motions, times),
+            timings=timings,
+            stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
+        )
+        return TimedRoute(route, plan, times)
+
+    def _check(self, motions: tuple[JointMotion, ...]) -> None:
+        """Look at the extremes of the motion itself, whatever is known of how it was made."""
+        limits = self._limits
+        for joint, (name, motion) in enumerate(zip(limits.names, motions, strict=True)):
+            reached = motion.extremes()
+            lower, upper = float(limits.lower[joint]), float(limits.upper[joint])
+            if reached.least < lower - ROUNDING or reached.greatest > upper + ROUNDING:
+                raise PlanError(
+                    "outside_limits",
+                    f"expected {name} within {lower:.4f} .. {upper:.4f} rad, got {reached.least:.4f} .. "
+                    f"{reached.greatest:.4f} rad: the joint is too fast at the start to turn back in time",
+                )
+            for what, value, limit in (
+                ("velocity [rad/s]", reached.velocity, limits.velocity[joint]),
+                ("acceleration [rad/s^2]", reached.acceleration, limits.acceleration[joint]),
+                ("jerk [rad/s^3]", reached.jerk, limits.jerk[joint]),
+            ):
+                if value > limit * (1.0 + ROUNDING):
+                    raise PlanError(
+                        "outside_limits", f"{name}: expected at most {limit:.4f} of {what}, got {value:.4f}"
+                    )
+
+    def _sample(self, motions: tuple[JointMotion, ...], times: Array) -> Samples:
+        found = sample_at(motions, sample_times(times, self._period))
+        # No further than the rounding that `_check` allows; controllers want the end at rest to the digit.
+        positions = np.clip(found.positions, self._limits.lower, self._limits.upper)
+        velocities, accelerations = found.velocities.copy(), found.accelerations.copy()
+        positions[-1], velocities[-1], accelerations[-1] = REST, 0.0, 0.0
+        for array in (positions, velocities, accelerations):
+            array.setflags(write=False)
+        return Samples(
+            times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
+        )
