@@ -11,8 +11,8 @@ from teo_ros2cli.cli.options import add_graph_arguments, positive_int
 from teo_ros2cli.errors import Ros2CliError
 
 DEFAULT_WINDOW = 10000
+# Interval of printing [s].
 _REPORT = 1.0
-"""Interval of printing [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

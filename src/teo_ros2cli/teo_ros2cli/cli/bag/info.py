@@ -7,11 +7,11 @@ from pathlib import Path
 
 from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.summary import summary
-from teo_ros2cli.cli.bag_messages import as_bag_error, warn
+from teo_ros2cli.cli.bag.console import as_bag_error, warn
 from teo_ros2cli.errors import Ros2CliError
 
+# Largest bag that is read through to check it [bytes]: some seconds.
 VERIFIED_SIZE = 1024**3
-"""Largest bag that is read through to check it [bytes]: some seconds."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

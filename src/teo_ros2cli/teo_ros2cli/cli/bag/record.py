@@ -10,19 +10,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from teo_ros2cli.bags.overrides import read_overrides
+from teo_ros2cli.bags.qos_record import read_overrides
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import DEFAULT_PRESET, PRESETS, BagWriter
-from teo_ros2cli.cli.bag_messages import as_bag_error, warn
+from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
-from teo_ros2cli.cli.stop_signals import StopSignals
 from teo_ros2cli.errors import Ros2CliError
 
 if TYPE_CHECKING:
     from teo_ros2cli.graph.recorder import Recorder
 
+# Longest time in which a signal or a key is not looked at [s].
 _STEP = 0.05
-"""Longest time in which a signal or a key is not looked at [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

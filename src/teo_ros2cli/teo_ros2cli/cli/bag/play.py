@@ -10,20 +10,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from teo_ros2cli.bags.bag import Bag, open_bag
-from teo_ros2cli.bags.overrides import read_overrides
-from teo_ros2cli.cli.bag_messages import as_bag_error, warn
+from teo_ros2cli.bags.qos_record import read_overrides
+from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
 from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
-from teo_ros2cli.cli.stop_signals import StopSignals
 from teo_ros2cli.errors import Ros2CliError
 
 if TYPE_CHECKING:
     from teo_ros2cli.graph.player import Player
 
+# Rate of `/clock` if none is given [1/s].
 _DEFAULT_CLOCK = 40.0
-"""Rate of `/clock` if none is given [1/s]."""
 _RATE_STEP = 1.1
+# Time that reliable subscriptions get to receive the last messages before the publishers leave [s].
 _ACKNOWLEDGEMENT = 1.0
-"""Time that reliable subscriptions get to receive the last messages before the publishers leave [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -7,12 +7,12 @@ import functools
 from typing import Any
 
 from teo_ros2cli.cli.options import add_graph_arguments, positive_int
-from teo_ros2cli.cli.topic_echo import message_filter
-from teo_ros2cli.rates import Rate, RateMeter
+from teo_ros2cli.cli.topic.echo import message_filter
+from teo_ros2cli.cli.topic.rates import Rate, RateMeter
 
 DEFAULT_WINDOW = 10000
+# Interval of printing [s].
 _REPORT = 1.0
-"""Interval of printing [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -25,8 +25,8 @@ from teo_ros2cli.messages.yaml_text import parse
 _ACKNOWLEDGEMENT = 5.0
 # Longest wait between two looks for a signal while acknowledgements are awaited [s].
 _ACKNOWLEDGEMENT_STEP = 0.1
+# Interval of looking for subscriptions [s].
 _POLL = 0.02
-"""Interval of looking for subscriptions [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

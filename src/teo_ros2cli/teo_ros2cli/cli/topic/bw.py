@@ -10,8 +10,8 @@ from typing import Any
 from teo_ros2cli.cli.options import add_graph_arguments, positive_int
 
 DEFAULT_WINDOW = 100
+# Interval of printing [s].
 _REPORT = 1.0
-"""Interval of printing [s]."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
