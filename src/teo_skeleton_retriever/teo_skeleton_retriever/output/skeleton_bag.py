@@ -11,6 +11,7 @@ from ament_index_python.packages import get_package_share_directory
 from mcap.writer import CompressionType, Writer
 from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 from teo_skeleton_retriever.output.output_file import temporary_for
 
@@ -39,9 +40,10 @@ class SkeletonBag:
         self._stream = self._temporary.open("wb")
         self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library="teo_skeleton_retriever")
-        definition, type_hash = _definition()
+        types = message_types()
+        definition, _ = types.generate_msgdef(_TYPE, ros_version=2)
         schema = self._writer.register_schema(_TYPE, "ros2msg", definition.encode())
-        metadata = {"topic_type_hash": type_hash, "offered_qos_profiles": "[]"}
+        metadata = {"topic_type_hash": types.hash_rihs01(_TYPE), "offered_qos_profiles": "[]"}
         self._channel = self._writer.register_channel(TOPIC, "cdr", schema, metadata)
         return self
 
@@ -70,11 +72,11 @@ class SkeletonBag:
             self._temporary.unlink(missing_ok=True)
 
 
-def _definition() -> tuple[str, str]:
-    """Give the text of the type with all that it refers to, and its hash."""
+def message_types() -> Typestore:
+    """Give the types of messages of ROS 2 and that of the skeletons, for bags."""
     folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"
     store = get_typestore(Stores.ROS2_JAZZY)
     for name in _PARTS:
         text = (folder / f"{name.rpartition('/')[2]}.msg").read_text(encoding="utf-8")
         store.register(get_types_from_msg(text, name))
-    return store.generate_msgdef(_TYPE, ros_version=2)[0], store.hash_rihs01(_TYPE)
+    return store
