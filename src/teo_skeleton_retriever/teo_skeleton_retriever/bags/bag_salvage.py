@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 import lz4.frame
-from mcap.exceptions import McapError
-from mcap.records import Channel, Message, Schema
-from mcap.stream_reader import StreamReader
+
+from teo_common import mcap_salvage
+from teo_common.mcap_salvage import McapContent
 
 
 class RawMessage(NamedTuple):
@@ -48,28 +48,16 @@ def salvage(path: Path) -> Iterator[RawMessage]:
 
 
 def _scan_mcap(path: Path) -> Iterator[RawMessage]:
-    schemas: dict[int, Schema] = {}
-    channels: dict[int, Channel] = {}
-    with path.open("rb") as stream:
-        records = iter(StreamReader(stream).records)
-        while True:
-            try:
-                record = next(records)
-            except StopIteration:
-                return
-            # Besides its own errors the library lets through those of unpacking bytes that are not there.
-            except (McapError, struct.error, ValueError, KeyError, EOFError, RuntimeError) as error:
-                raise CutOff(f"{type(error).__name__} {error}".strip()) from None
-            match record:
-                case Schema():
-                    schemas[record.id] = record
-                case Channel():
-                    channels[record.id] = record
-                case Message() if record.channel_id in channels:
-                    channel = channels[record.channel_id]
-                    schema = schemas.get(channel.schema_id)
-                    kind = schema.name if schema else ""
-                    yield RawMessage(channel.topic, kind, record.log_time, record.data)
+    content = McapContent()
+    try:
+        for stored in mcap_salvage.salvage(path, content):
+            yield RawMessage(stored.topic, stored.type, stored.log_time, stored.data)
+    except mcap_salvage.NotMcapError as error:
+        raise CutOff(str(error)) from None
+    if not content.complete:
+        raise CutOff(content.fault)
+    if content.damaged_chunks:
+        raise CutOff(f"{content.damaged_chunks} damaged chunks are left out")
 
 
 # ROS 1, format 2.0. Source: http://wiki.ros.org/Bags/Format/2.0
