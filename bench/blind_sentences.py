@@ -16,8 +16,8 @@ from typing import Any
 from report import Figure, share
 from translation_systems import SENTENCES, judged, systems
 
-from teo_sign_translator.pointer.metrics import fewest_edits
-from teo_sign_translator.resources import models_directory
+from teo_sign_translator.model_files import models_directory
+from teo_sign_translator.pointer.training.metrics import fewest_edits
 
 _RECORD = SENTENCES / "blind.json"
 

@@ -3,7 +3,7 @@
 A recorder that is killed leaves a file without its last records: no summary, maybe half a chunk. All that is
 before the cut is good, and is read; a chunk whose checksum is wrong is left out and counted.
 
-Needs the Python package `mcap`; nothing else in this package does.
+Needs the Python package `mcap`, which brings `zstandard`; nothing else in this package does.
 """
 
 from __future__ import annotations
@@ -18,14 +18,7 @@ from mcap.exceptions import McapError
 from mcap.records import Channel, Chunk, Header, McapRecord, Message, Metadata, Schema
 from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import MCAP0_MAGIC
-
-try:
-    from zstandard import ZstdError
-except ImportError:  # only without zstandard, and then there is nothing that raises it
-
-    class ZstdError(Exception):  # type: ignore[no-redef]
-        """Stands in for the missing class."""
-
+from zstandard import ZstdError
 
 # All that the library raises on bytes that are no MCAP.
 DAMAGE = (

@@ -17,14 +17,13 @@ from teo_ros2cli.bags.metadata import (
     read_metadata,
     write_metadata,
 )
-from teo_ros2cli.bags.overrides import read_overrides
-from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, request_for, serves
+from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, read_overrides, request_for, serves
 from teo_ros2cli.bags.schedule import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
 from teo_ros2cli.bags.writer import BagWriter
+from teo_ros2cli.cli.topic.rates import RateMeter
 from teo_ros2cli.definitions.schema_text import schema_of
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.rates import RateMeter
 
 RELIABLE = QosRecord()
 BEST_EFFORT = QosRecord(reliability="best_effort")

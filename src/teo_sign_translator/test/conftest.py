@@ -7,9 +7,9 @@ import pytest
 
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.corpus.generator import Generator
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.resources import data_file
 
 # What several tests here need stands beside them.
 sys.path.insert(0, str(Path(__file__).parent))

@@ -16,8 +16,8 @@ from teo_ros2cli.errors import Ros2CliError
 
 FILE_NAME = "metadata.yaml"
 VERSION = 9
+# Start time of a bag without messages [ns]: the latest time there is.
 NO_START = 2**63 - 1
-"""Start time of a bag without messages [ns]: the latest time there is."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ NODE_NAME_PREFIX = "_ros2cli"
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 # Every participant of ROS 2 publishes on this topic which nodes it holds; its name goes to DDS unmangled.
 _DISCOVERY_TOPIC = "ros_discovery_info"
+# Bytes of an endpoint's identifier that name its participant.
 _PARTICIPANT_PREFIX = 12
-"""Bytes of an endpoint's identifier that name its participant."""
 
 # Time for participants of other machines to answer [s]: the genuine command's default without its daemon.
 _REMOTE_ANSWER = 0.5
@@ -28,8 +28,8 @@ _LONGEST = 3.5
 # Once all participants are known, what belongs to them follows, mostly without a longer pause [s]: what was
 # missed is asked for again with the next announcement, a quarter of a second later (config/fastdds.xml).
 _QUIET = 0.3
+# Interval of looking at the graph [s].
 _POLL = 0.02
-"""Interval of looking at the graph [s]."""
 
 
 @contextmanager

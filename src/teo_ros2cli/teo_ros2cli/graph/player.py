@@ -17,8 +17,8 @@ from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.graph.qos import from_record
 from teo_ros2cli.messages.classes import message_class
 
+# Longest time in which a signal or a key is not looked at [s].
 _STEP = 0.05
-"""Longest time in which a signal or a key is not looked at [s]."""
 
 
 class PlayerSettings(NamedTuple):

@@ -18,11 +18,11 @@ from teo_common.atomic_files import write_atomically
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.corpus_files import read_splits, sample
 from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.examples import Reader
-from teo_sign_translator.pointer.metrics import Score, score
 from teo_sign_translator.pointer.store import load_sentence_model
+from teo_sign_translator.pointer.training.corpus_files import read_splits, sample
+from teo_sign_translator.pointer.training.examples import Reader
+from teo_sign_translator.pointer.training.metrics import Score, score
 from teo_sign_translator.text.source_words import source_words
 
 # Sentences translated between two moves of the progress bar.

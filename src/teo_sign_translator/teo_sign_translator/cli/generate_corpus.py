@@ -13,10 +13,10 @@ from rich.progress import track
 
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.pairs_file import SPLITS, write_pairs
-from teo_sign_translator.corpus.paper import own_pairs
+from teo_sign_translator.corpus.paper_pairs import own_pairs
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.resources import data_file
 
 FILE_NAME = "pairs.tsv"
 

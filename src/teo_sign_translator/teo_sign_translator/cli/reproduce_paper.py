@@ -16,11 +16,10 @@ from rich.progress import Progress
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
-from teo_sign_translator.corpus.paper_pairs import Pair, paper_pairs, paper_predictions
+from teo_sign_translator.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.input_tokens import published_tokens
+from teo_sign_translator.lstm256.tokens import Vocabulary, published_tokens
 from teo_sign_translator.lstm256.training import Example, Training, TrainingConfig, train
-from teo_sign_translator.lstm256.vocabulary import Vocabulary
 
 #: The two step sizes that the paper compares; its predictions are made with the first.
 LEARNING_RATES = (0.0001, 0.001)
@@ -45,7 +44,7 @@ class Run:
     seconds: float
 
 
-def split(pairs: list[Pair]) -> tuple[list[Pair], list[Pair]]:
+def split(pairs: list[PublishedPair]) -> tuple[list[PublishedPair], list[PublishedPair]]:
     """The pairs to train on, and the last 20 % (rounded up) held out: 31 and 8 of 39."""
     count = len(pairs) - math.ceil(HELD_OUT * len(pairs))
     return pairs[:count], pairs[count:]

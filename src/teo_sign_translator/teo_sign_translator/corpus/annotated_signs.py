@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import NamedTuple
 
-from teo_sign_translator.tables import read_rows
+from teo_sign_translator.data_files import read_rows
 
 #: Points at people; all other pointing is no word.
 _PRONOUNS = {"INDX.PRO:1sg": "YO", "INDX.PRO:2sg": "TÚ"}

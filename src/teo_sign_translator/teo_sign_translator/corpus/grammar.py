@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from teo_sign_translator.corpus.patterns import GlossItem, SpanishItem
@@ -177,3 +177,16 @@ class Grammar:
         return replace(
             self, families=tuple(family for family in families if family.rules), categories=categories
         )
+
+
+def fits(rule: Rule, features: Mapping[str, str]) -> bool:
+    """Whether the features handed down are what the rule wants."""
+    return all(allows(allowed, features.get(key, "-").split(",")) for key, allowed in rule.when)
+
+
+def allows(allowed: Sequence[str], given: Sequence[str]) -> bool:
+    """Whether one of the values is allowed; where values are forbidden (`!neg`), whether none is given."""
+    forbidden = [value[1:] for value in allowed if value.startswith("!")]
+    if forbidden:
+        return not any(value in forbidden for value in given)
+    return any(value in allowed for value in given)

@@ -110,7 +110,7 @@ class Reading:
 
 
 def read(text: str) -> Reading:
-    """Split a clean text, as `normalisation.clean` gives it, into clauses and words."""
+    """Split a clean text, as `cleaning.clean` gives it, into clauses and words."""
     return _Reader(text, Expressions.load()).read()
 
 

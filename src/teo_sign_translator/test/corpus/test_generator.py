@@ -10,14 +10,12 @@ import pytest
 import simplemma
 
 from teo_sign_translator.corpus.generator import LARGEST_SHARE, SHARES, Generator
-from teo_sign_translator.corpus.paper import own_pairs
-from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
+from teo_sign_translator.corpus.paper_pairs import gloss_name, own_pairs, paper_pairs
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.nominal import unaccented as strip_accents
-from teo_sign_translator.neural import OutputGloss
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
+from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
+from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
 QUESTION_GLOSSES = {
@@ -176,12 +174,12 @@ def test_glosses_point_at_the_words_that_say_them(pairs, morphology):
 
 
 def test_no_gloss_is_one_that_a_translation_would_be_refused_for(pairs, morphology):
-    warrants = Warrants.load()
+    evidence = GlossEvidence.load()
     for pair in pairs:
         said = [
             OutputGloss(*each, 1.0, copied=False) for each in zip(pair.glosses, pair.alignment, strict=True)
         ]
-        assert not warrants.invented(source_words(pair.spanish, morphology), said), pair
+        assert not evidence.invented(source_words(pair.spanish, morphology), said), pair
 
 
 def test_articles_agree_with_their_nouns(pairs, morphology):

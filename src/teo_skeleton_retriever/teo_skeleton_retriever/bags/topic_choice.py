@@ -12,7 +12,7 @@ from teo_skeleton_retriever.camera.image_messages import (
     DEPTH_TOPIC,
     shows_depth,
 )
-from teo_skeleton_retriever.errors import BagError
+from teo_skeleton_retriever.errors import BagError, TopicError
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _TRANSPORTS = ("compressed", "compressedDepth")
@@ -38,7 +38,8 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
         camera_info: likewise.
 
     Raises:
-        BagError: one is not there, or several may be meant.
+        TopicError: none or several may be meant.
+        BagError: one that is named is not there.
     """
     names = [topic for topic, kind in bag.kinds.items() if kind in _IMAGES and bag.counts.get(topic)]
     first = {topic: bag.first(topic) for topic in names}
@@ -68,16 +69,11 @@ def _choose(bag: Bag, what: str, told: str, usual: str, found: Sequence[str]) ->
     bases = {_base(topic) for topic in found}
     if len(bases) == 1:
         return next(iter(_forms(bases.pop(), found)))
-    option = f"--{what.replace('_', '-')}-topic"
     if not bases:
-        raise BagError(
-            f"no_{what}",
-            f"expected a topic of {what}, got {', '.join(sorted(known)) or 'none'}; see {option}",
-        )
-    raise BagError(
-        f"ambiguous_{what}",
-        f"expected one topic of {what}, got {', '.join(sorted(found))}; name it: {option}",
-    )
+        sentence = f"expected a topic of {what}, got {', '.join(sorted(known)) or 'none'}"
+        raise TopicError(f"no_{what}", sentence, f"{what}_topic")
+    sentence = f"expected one topic of {what}, got {', '.join(sorted(found))}"
+    raise TopicError(f"ambiguous_{what}", sentence, f"{what}_topic")
 
 
 def _forms(base: str, found: Sequence[str]) -> list[str]:
