@@ -11,7 +11,7 @@ from teo_signs.errors import PlanError
 
 
 @dataclass(kw_only=True, eq=False)
-class MotionWatch:
+class PathMonitor:
     """Compares a motion that was sent with the joint states.
 
     Attributes:
