@@ -18,6 +18,7 @@ from teo_lut_executor.execution.events import (
     Outcome,
     PlanWanted,
     Progress,
+    QueueSettings,
     ReturnWanted,
     Sentence,
     Status,
@@ -25,7 +26,6 @@ from teo_lut_executor.execution.events import (
 )
 from teo_lut_executor.execution.path_monitor import PathMonitor
 from teo_lut_executor.execution.robot_state import RobotState
-from teo_lut_executor.execution.settings import QueueSettings
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.stopping import stop
@@ -160,10 +160,6 @@ class ExecutionQueue:
             settings = replace(settings, path_tolerance=_RETURN_TOLERANCE, path_time=_RETURN_TIME)
         current.monitor = PathMonitor(motion=plan, started=now + current.lead, settings=settings)
         return [TrajectoryReady(plan=plan, lead=current.lead)]
-
-    def return_not_planned(self) -> list[Event]:
-        """Answer `ReturnWanted` with that there is no way: the sentence goes on to its end, at rest."""
-        return []
 
     def progress(self, now: float) -> Progress | None:
         """How far the current sentence is; None while none is signed."""
