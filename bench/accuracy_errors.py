@@ -11,8 +11,7 @@ from accuracy_takes import TakeFrame
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 
 ARMS = ("RShoulder", "LShoulder", "RElbow", "LElbow", "RWrist", "LWrist")
 ARM_ROWS = np.array([BODY_25.index[name] for name in ARMS])

@@ -13,10 +13,10 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.skeleton_std import FROM_BODY_25, SKELETON_STD
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.body_conversion import as_body_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_skeleton_retriever.retriever import Frame, Retriever, RetrieverParameters, Skeleton
+from teo_skeleton_retriever.retriever import DetectionFrame, Retriever, RetrieverParameters, Skeleton
 
 BODY_ROW = BODY_25.index
 Detections = Callable[[TakeFrame], tuple[Person2D, ...]]
@@ -72,7 +72,7 @@ def ours(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     retriever = Retriever(RetrieverParameters(newcomer_images=1, detector=detector))
     estimates = []
     for frame in frames:
-        found = retriever.process(Frame(frame.stamp, see(frame), frame.depth(), frame.camera))
+        found = retriever.process(DetectionFrame(frame.stamp, see(frame), frame.depth(), frame.camera))
         signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
         estimates.append(estimate_of(signers[0]) if signers else nothing())
     return estimates

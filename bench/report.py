@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -19,3 +20,13 @@ def percentiles(what: str, seconds: Sequence[float]) -> Figure:
     """Median and 99th percentile of times [s], in milliseconds."""
     median, p99 = np.percentile(seconds, [50, 99]) * 1e3
     return Figure(f"{what} ({len(seconds)} times)", f"median {median:.2f} ms, p99 {p99:.2f} ms")
+
+
+def share(count: int, total: int) -> str:
+    """A share with Wilson's interval, in which the true one is with 95 %: "76 (78 %, 69 to 85 %)"."""
+    z = 1.96
+    part = count / total
+    middle = part + z * z / (2 * total)
+    spread = z * math.sqrt(part * (1 - part) / total + z * z / (4 * total * total))
+    low, high = ((middle + side) / (1 + z * z / total) for side in (-spread, spread))
+    return f"{count} ({100 * part:.0f} %, {100 * low:.0f} to {100 * high:.0f} %)"

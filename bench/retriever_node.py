@@ -27,12 +27,12 @@ from teo_skeleton_retriever.bags.bag_images import BagImages
 from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import choose_topics
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.camera.camera_topics import CAMERA_INFO, COLOR, DEPTH
+from teo_skeleton_retriever.camera.image_messages import CAMERA_INFO_TOPIC, COLOR_TOPIC, DEPTH_TOPIC
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_skeleton_retriever.node.interpreter_tuning import tune_interpreter
+from teo_skeleton_retriever.node.latest_frame_pipeline import tune_interpreter
 from teo_skeleton_retriever.node.retriever_node import RetrieverNode
 
 TAKE = Path(__file__).parents[1] / "bags" / "signer_d435"
@@ -124,9 +124,9 @@ class _Camera:
     def __init__(self, node: Node, images: Sequence[RgbdImage]) -> None:
         self._node = node
         self._messages = [_messages(image) for image in images]
-        self._color = node.create_publisher(Image, COLOR, 5)
-        self._depth = node.create_publisher(Image, DEPTH, 5)
-        self._info = node.create_publisher(CameraInfo, CAMERA_INFO, 5)
+        self._color = node.create_publisher(Image, COLOR_TOPIC, 5)
+        self._depth = node.create_publisher(Image, DEPTH_TOPIC, 5)
+        self._info = node.create_publisher(CameraInfo, CAMERA_INFO_TOPIC, 5)
         self.latencies: dict[float, float] = {}
         self.said: dict[str, str] = {}
         self.skeletons = 0

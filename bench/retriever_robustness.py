@@ -25,9 +25,9 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_skeleton_retriever.retriever import Frame, Retriever, RetrieverParameters, Skeleton
+from teo_skeleton_retriever.retriever import DetectionFrame, Retriever, RetrieverParameters, Skeleton
 
 MISSING = 0.66
 """Share of the depth that is lost, as in recordings of the original's authors."""
@@ -81,7 +81,7 @@ def worsened(frames: Sequence[TakeFrame], worsen: Worsen, seed: int) -> list[Est
     estimates = []
     for frame in frames:
         depth = worsen(frame.depth(), random)
-        found = retriever.process(Frame(frame.stamp, frame.people, depth, frame.camera))
+        found = retriever.process(DetectionFrame(frame.stamp, frame.people, depth, frame.camera))
         signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
         estimates.append(estimate_of(signers[0]) if signers else nothing())
     return estimates
@@ -118,7 +118,9 @@ def crowd(takes: Sequence[Sequence[TakeFrame]], seed: int) -> Crowd:
                 seen[who] = person
         order = random.permutation(list(seen))
         found = retriever.process(
-            Frame(frame.stamp, tuple(seen[who] for who in order), missing(depth, random), frame.camera)
+            DetectionFrame(
+                frame.stamp, tuple(seen[who] for who in order), missing(depth, random), frame.camera
+            )
         )
         owners = {who: _nearest(found, person) for who, person in seen.items()}
         ids.append({who: skeleton.track_id for who, skeleton in owners.items() if skeleton is not None})

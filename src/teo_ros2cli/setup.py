@@ -12,13 +12,13 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/config", ["config/fastdds.xml"]),
     ],
-    install_requires=["setuptools"],
+    install_requires=["setuptools", "mcap", "numpy", "PyYAML"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="A ros2 command for machines whose ROS 2 comes from PyPI; steps aside for the genuine one.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"test": ["pytest", "hypothesis", "mcap-ros2-support", "rosbags"]},
     entry_points={
         "console_scripts": [
             "ros2 = teo_ros2cli.main:main",

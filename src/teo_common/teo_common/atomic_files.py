@@ -24,9 +24,11 @@ def atomic_path(path: Path) -> Iterator[Path]:
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Write a whole file or nothing."""
-    with atomic_path(path) as temporary:
-        temporary.write_bytes(content)
+    """Write a whole file or nothing, and wait until it is on the disk."""
+    with atomic_path(path) as temporary, temporary.open("wb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def _umask() -> int:

@@ -21,11 +21,12 @@ from typer.testing import CliRunner, Result
 
 from teo_description import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_lut_executor.cli.lut import app
+from teo_motion.lone_sign import sign_motion
 from teo_motion.planner import Planner
 from teo_signs.errors import LutError
 from teo_signs.export.play_motion2 import play_motion2_parameters
 from teo_signs.export.playback_thread import playback_mask, playback_table, save_playback_tables
-from teo_signs.export.sign_motion import PARTS, SignMotion, sign_motion
+from teo_signs.export.sign_motion import PARTS, SignMotion
 from teo_signs.sign import Sign
 
 MAXIMUM_VELOCITY = math.radians(50.0)

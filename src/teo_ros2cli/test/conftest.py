@@ -45,12 +45,12 @@ def ros2() -> Callable[..., subprocess.CompletedProcess[str]]:
 
 
 class Running:
-    """The command in the background, with its output as it comes."""
+    """The command, or another program, in the background, with its output as it comes."""
 
-    def __init__(self, *arguments: str, **options: Any) -> None:
+    def __init__(self, *arguments: str, program: str | Path | None = None, **options: Any) -> None:
         options.setdefault("stdin", subprocess.DEVNULL)
         self.process = subprocess.Popen(
-            [_command(), *arguments],
+            [program or _command(), *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

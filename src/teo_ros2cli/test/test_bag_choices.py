@@ -1,24 +1,29 @@
 from __future__ import annotations
 
 import re
+import tempfile
 from pathlib import Path
 
 import pytest
-import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
-from teo_ros2cli.bags.block_yaml import block_yaml
-from teo_ros2cli.bags.metadata import TopicRecord, offered_qos_text, parse_offered_qos
-from teo_ros2cli.bags.overrides import read_overrides
-from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, request_for, serves
+from teo_ros2cli.bags.metadata import (
+    BagMetadata,
+    TopicRecord,
+    offered_qos_text,
+    parse_offered_qos,
+    read_metadata,
+    write_metadata,
+)
+from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, read_overrides, request_for, serves
 from teo_ros2cli.bags.schedule import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
 from teo_ros2cli.bags.writer import BagWriter
+from teo_ros2cli.cli.topic.rates import RateMeter
 from teo_ros2cli.definitions.schema_text import schema_of
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.rates import RateMeter
 
 RELIABLE = QosRecord()
 BEST_EFFORT = QosRecord(reliability="best_effort")
@@ -104,22 +109,12 @@ def test_a_zero_time_means_no_limit() -> None:
 # Metadata text
 
 
-_SCALARS = st.one_of(st.none(), st.booleans(), st.integers(), st.text(max_size=20))
-_TREES = st.recursive(
-    _SCALARS,
-    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=8), inner, max_size=4),
-    max_leaves=12,
-)
-
-
-@given(st.dictionaries(st.text(max_size=8), _TREES, max_size=4))
-def test_block_yaml_means_what_was_meant(tree: dict[str, object]) -> None:
-    def empty_is_null(value: object) -> object:
-        if isinstance(value, dict):
-            return {key: empty_is_null(inner) for key, inner in value.items()} or None
-        return [empty_is_null(inner) for inner in value] if isinstance(value, list) else value
-
-    assert yaml.safe_load(block_yaml(tree)) == (empty_is_null(tree) if tree else None)
+@given(st.dictionaries(st.text(max_size=8), st.text(max_size=90), max_size=4))
+def test_custom_data_of_any_text_are_read_back_from_the_metadata(custom: dict[str, str]) -> None:
+    metadata = BagMetadata((), ((TopicRecord("/a", "p/msg/T", "", (LATCHED,)), 3),), 5, 7, custom_data=custom)
+    with tempfile.TemporaryDirectory() as folder:
+        write_metadata(Path(folder), metadata)
+        assert read_metadata(Path(folder)) == metadata
 
 
 # Which topics

@@ -6,6 +6,7 @@ import functools
 import re
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable
 from typing import Any
@@ -46,6 +47,69 @@ def test_pub_once_waits_for_a_subscription_and_delivers_a_nested_message(graph: 
 
 
 # =builtin_interfaces.msg.Duration(sec=0, nanosec=0))])")
+
+
+# A subscription in a process of its own: prints what comes.
+LISTENER = """
+import sys
+import rclpy
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+rclpy.init()
+node = rclpy.create_node("listener")
+profile = QoSProfile(depth=10, reliability=ReliabilityPolicy[sys.argv[1]])
+node.create_subscription(String, "text", lambda message: print("got", message.data, "."), profile)
+print("listening")
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.parametrize(
+    ("reliabilities", "burners", "texts"),
+    [(["RELIABLE"] * 3, 0, 6), (["RELIABLE", "BEST_EFFORT", "BEST_EFFORT"], 2, 4)],
+    ids=["reliable", "mixed_under_load"],
+)
+def test_pub_once_reaches_each_of_three_processes_with_each_text(
+    domain_id: int,  # noqa: ARG001
+    prompt_discovery: None,  # noqa: ARG001
+    ros2: Command,
+    start: Any,
+    reliabilities: list[str],
+    burners: int,
+    texts: int,
+) -> None:
+    listeners = [start("-c", LISTENER, kind, program=sys.executable) for kind in reliabilities]
+    for listener in listeners:
+        listener.wait_for_line("listening")
+    for _ in range(burners):
+        start("-c", "while True: pass", program=sys.executable)
+    for number in range(texts):
+        done = ros2("topic", "pub", "--once", "/text", "std_msgs/msg/String", f"{{data: text {number}}}")
+        assert (done.returncode, done.stderr) == (0, "")
+    for listener in listeners:
+        # Best effort is not acknowledged: the last one may still be on its way.
+        listener.wait_for_line(f"got text {texts - 1} .")
+        assert listener.lines == ["listening", *(f"got text {number} ." for number in range(texts))]
+
+
+def test_pub_waits_for_the_acknowledgement_of_a_process_that_is_held_up(
+    domain_id: int,  # noqa: ARG001
+    prompt_discovery: None,  # noqa: ARG001
+    start: Any,
+) -> None:
+    listener = start("-c", LISTENER, "RELIABLE", program=sys.executable)
+    listener.wait_for_line("listening")
+    words = ("/text", "std_msgs/msg/String", "{data: held}")
+    pub = start("topic", "pub", "--keep-alive", "0", "-t", "2", "-r", "2", *words)
+    pub.wait_for_line("publishing #1")
+    listener.process.send_signal(signal.SIGSTOP)
+    pub.wait_for_line("publishing #2")
+    with pytest.raises(subprocess.TimeoutExpired):
+        pub.process.wait(0.5)
+    listener.process.send_signal(signal.SIGCONT)
+    assert pub.finish() == 0
+    assert "Not every subscription" not in pub.text
 
 
 def test_pub_so_many_times_with_its_own_name_and_stamp(graph: Any, ros2: Command) -> None:

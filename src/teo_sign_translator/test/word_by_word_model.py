@@ -8,13 +8,12 @@ from teo_sign_translator.corpus.paper_pairs import training_pairs
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.neural import Hypothesis, OutputGloss
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.function_words import FunctionWords
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.pipeline.pointer_back_end import SentenceRoute
+from teo_sign_translator.pipeline.coverage import FunctionWords
+from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
+from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
 
@@ -50,5 +49,5 @@ MORPHOLOGY = Morphology.load()
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
     taught = Phrasebook(training_pairs(), GlossList.load())
-    route = SentenceRoute(model, MORPHOLOGY, Coverage.load(), Warrants.load(), taught)
-    return Translator(route, SignChooser(read_synonyms(), MORPHOLOGY))
+    back_end = PointerBackEnd(model, MORPHOLOGY, HypothesisRepair.load(), taught)
+    return Translator(back_end, SignChooser(read_synonyms(), MORPHOLOGY))

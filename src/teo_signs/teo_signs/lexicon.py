@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
+from teo_common.text_folding import without_accents
 from teo_signs.errors import LutError, PlanError
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_schema import STANDINGS, Standing
 from teo_signs.tokens import Kind, Token, check_tokens
 
 _SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
-_TILDE = "\N{COMBINING TILDE}"
 
 #: Signs of a lower standing are spelled instead. A sketch has no source: a viewer who knows LSE would read
 #: something
@@ -138,12 +137,3 @@ class Lexicon:
             f"expected a gloss of the table or one that its letters can spell, got {token.gloss!r}: "
             f"there is neither a sign of that name nor a letter for {character!r}"
         )
-
-
-def without_accents(text: str) -> str:
-    """Drop the accents of letters, as the manual alphabet does; Ñ stays."""
-    kept: list[str] = []
-    for character in unicodedata.normalize("NFD", text):
-        if not unicodedata.combining(character) or (character == _TILDE and kept and kept[-1] in "Nn"):
-            kept.append(character)
-    return unicodedata.normalize("NFC", "".join(kept))

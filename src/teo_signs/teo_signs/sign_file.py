@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import functools
 import json
-import os
-import tempfile
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NoReturn
@@ -15,6 +13,7 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from teo_common.atomic_files import write_atomically
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign, gloss_key
@@ -118,18 +117,7 @@ def save_sign(directory: Path, sign: Sign, *, replace: bool = False) -> Path:
         message = f"{path.name}: expected a gloss that {directory} does not hold, got {sign.gloss!r}"
         raise LutError("exists", message)
     directory.mkdir(parents=True, exist_ok=True)
-    # Begins with a dot and has another ending, so that a table opened meanwhile does not list it.
-    descriptor, temporary = tempfile.mkstemp(dir=directory, prefix=".", suffix=".tmp")
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        Path(temporary).chmod(0o644)  # mkstemp makes files that only their owner may read
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    write_atomically(path, text.encode("utf-8"))
     return path
 
 

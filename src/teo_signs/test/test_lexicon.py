@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from teo_signs.errors import LutError, PlanError
-from teo_signs.lexicon import Lexicon, without_accents
+from teo_signs.lexicon import Lexicon
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
@@ -40,7 +40,6 @@ def test_letters_of_a_missing_gloss_keep_what_the_token_said(table: Mapping[str,
 
 
 def test_the_tilde_of_ene_is_no_accent(table: Mapping[str, Sign]) -> None:
-    assert without_accents("ÑÁÜÇñ") == "ÑAUCñ"
     assert resolved(table, lexical("CAÑA"))[2] == ("Ñ", "Ñ")
 
 

@@ -16,6 +16,10 @@ class RetrieverError(Exception):
         self.code = code
         self.sentence = sentence
 
+    def __reduce__(self) -> tuple[type[RetrieverError], tuple[str, ...]]:
+        """Give the arguments, so that the error can pass from one process to another."""
+        return type(self), (self.code, self.sentence)
+
 
 class KeypointError(RetrieverError):
     """Keypoints that do not have the shape or the values of their layout."""
@@ -59,6 +63,21 @@ class ImageError(RetrieverError):
 
 class BagError(RetrieverError):
     """A bag that cannot be opened, or in which the topics are not found."""
+
+
+class TopicError(BagError):
+    """A topic of a bag that is to be named, as none or several may be meant.
+
+    Attributes:
+        argument: what names it: "color_topic", "depth_topic" or "camera_info_topic".
+    """
+
+    def __init__(self, code: str, sentence: str, argument: str) -> None:
+        super().__init__(code, sentence)
+        self.argument = argument
+
+    def __reduce__(self) -> tuple[type[TopicError], tuple[str, ...]]:
+        return type(self), (self.code, self.sentence, self.argument)
 
 
 class OutputError(RetrieverError):

@@ -11,9 +11,9 @@ import numpy as np
 
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
-from teo_skeleton_retriever.compat.original_options import original_parameters_from
+from teo_skeleton_retriever.compat.original_parameters import original_parameters_from
 from teo_skeleton_retriever.detectors import Detector
-from teo_skeleton_retriever.detectors.detection_frame import Frame
+from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
@@ -44,7 +44,7 @@ class Retrieved:
 
 
 @dataclass(frozen=True, eq=False)
-class Detected:
+class Detection:
     """What the detector saw in one image.
 
     Attributes:
@@ -61,7 +61,7 @@ class Detected:
 class FrameRetriever(Protocol):
     """What follows people in space."""
 
-    def process(self, frame: Frame) -> tuple[Skeleton, ...]:
+    def process(self, frame: DetectionFrame) -> tuple[Skeleton, ...]:
         """Take one image."""
 
     def lock_signer(self, track_id: int | None) -> None:
@@ -120,18 +120,18 @@ class ImageRetriever:
         """
         return self.follow(self.detect(image))
 
-    def detect(self, image: RgbdImage) -> Detected:
+    def detect(self, image: RgbdImage) -> Detection:
         """Take one image, the first half; see `process`."""
         began = time.perf_counter()
         people = self._detector.detect(image.color, image.stamp)
-        return Detected(image, people, time.perf_counter() - began)
+        return Detection(image, people, time.perf_counter() - began)
 
-    def follow(self, detected: Detected) -> Retrieved:
+    def follow(self, detected: Detection) -> Retrieved:
         """Take one image, the second half; see `process`."""
         began = time.perf_counter()
         image, people = detected.image, detected.people
         skeletons = self._retriever.process(
-            Frame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
+            DetectionFrame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
         )
         self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
         share = float(np.count_nonzero(np.isfinite(image.depth)) / image.depth.size)

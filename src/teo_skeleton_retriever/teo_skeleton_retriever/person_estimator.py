@@ -12,14 +12,18 @@ from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, Wrist
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.depth.face_depth import face_depths
 from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of
-from teo_skeleton_retriever.depth.hand_depth import BONES, HandFit, HandView, fit_hands
+from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
 from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
-from teo_skeleton_retriever.depth.viewing_rays import Detected, detected
-from teo_skeleton_retriever.detectors.detection_frame import Frame
-from teo_skeleton_retriever.detectors.mediapipe.calibration import hand_doubt
-from teo_skeleton_retriever.detectors.mediapipe.hand_joints import MEDIAPIPE_BONES, mediapipe_joints
-from teo_skeleton_retriever.detectors.mediapipe.keypoint_bias import MEDIAPIPE, unbiased
-from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.depth.viewing_rays import ViewingRays, viewing_rays
+from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.detectors.mediapipe.calibration import (
+    BODY_SHIFTS,
+    MEDIAPIPE_HAND_BONES,
+    corrected_body,
+    corrected_hand,
+    extra_hand_sigma,
+)
+from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.person_layout import (
     ACCELERATION,
@@ -30,6 +34,7 @@ from teo_skeleton_retriever.layouts.person_layout import (
     DRIFT,
     FACE,
     GAP,
+    HAND_BONES,
     HANDS,
     JUMP,
     LEFT_HAND,
@@ -83,7 +88,7 @@ class PersonEstimator:
         self._confidence = np.zeros(N)
         self._from_wrist = np.full((N, 3), np.nan)  # of the hands' keypoints, as last seen [m]
 
-    def step(self, frame: Frame, person: Person2D, distance: float) -> PersonParts:
+    def step(self, frame: DetectionFrame, person: Person2D, distance: float) -> PersonParts:
         """Take one image.
 
         Args:
@@ -124,7 +129,7 @@ class PersonEstimator:
         doubt = np.zeros(N)
         doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
         if self._parameters.detector == "mediapipe":
-            doubt += np.where(_ON_HANDS & seen.seen, hand_doubt(seen.confidence), 0.0)
+            doubt += np.where(_ON_HANDS & seen.seen, extra_hand_sigma(seen.confidence), 0.0)
         across = np.hypot(np.hypot(ACROSS, doubt) / near, PIXEL / frame.camera.fx)
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
@@ -150,11 +155,11 @@ class PersonEstimator:
         middle = trunk if np.isfinite(trunk) else distance
         return middle - _BEFORE_TRUNK, middle + _BEHIND_TRUNK
 
-    def _seen(self, frame: Frame, person: Person2D) -> Detected:
+    def _seen(self, frame: DetectionFrame, person: Person2D) -> ViewingRays:
         keypoints = np.zeros((N, 3))
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
-            keypoints[BODY] = unbiased(keypoints[BODY], MEDIAPIPE)
+            keypoints[BODY] = corrected_body(keypoints[BODY], BODY_SHIFTS)
             keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
         for rows, part in (
             (LEFT_HAND, person.left_hand),
@@ -163,10 +168,10 @@ class PersonEstimator:
         ):
             if len(part):
                 keypoints[rows] = part
-        return detected(keypoints, frame.camera, self._parameters.min_confidence)
+        return viewing_rays(keypoints, frame.camera, self._parameters.min_confidence)
 
     def _fit_hands(
-        self, person: Person2D, seen: Detected, surfaces: Surfaces, before: FilterOutput
+        self, person: Person2D, seen: ViewingRays, surfaces: Surfaces, before: FilterOutput
     ) -> dict[str, HandFit]:
         """Find the hands that are seen."""
         sides = [side for side, rows in HANDS.items() if seen.seen[rows].any()]
@@ -182,20 +187,20 @@ class PersonEstimator:
             for side in sides
         ]
         if self._parameters.fit_hands:
-            bones = MEDIAPIPE_BONES if self._parameters.detector == "mediapipe" else BONES
+            bones = MEDIAPIPE_HAND_BONES if self._parameters.detector == "mediapipe" else HAND_BONES
             fits = fit_hands(views, self._size.hand_scale, bones)
         else:
             fits = [_unfitted(view, self._size.hand_scale) for view in views]
         found = {side: fit for side, fit in zip(sides, fits, strict=True) if fit is not None}
         if self._parameters.detector == "mediapipe":
             return {
-                side: fit._replace(points=mediapipe_joints(fit.points, left=side == "L"))
+                side: fit._replace(points=corrected_hand(fit.points, left=side == "L"))
                 for side, fit in found.items()
             }
         return found
 
     def _find_body(
-        self, seen: Detected, surfaces: Surfaces, before: FilterOutput, fits: dict[str, HandFit]
+        self, seen: ViewingRays, surfaces: Surfaces, before: FilterOutput, fits: dict[str, HandFit]
     ) -> BodyDepths:
         wrists = {
             side: WristView(

@@ -6,11 +6,11 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
-from teo_skeleton_retriever.depth.viewing_rays import detected
-from teo_skeleton_retriever.detectors.detection_frame import Frame
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
+from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame, body_frame
-from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.person_estimator import PersonEstimator
@@ -18,7 +18,7 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
 from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
 
-__all__ = ["Frame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
+__all__ = ["DetectionFrame", "KeypointStatus", "Keypoints3D", "Retriever", "RetrieverParameters", "Skeleton"]
 
 _TRUNK = [BODY_25.index[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
 _USUAL = 1.5  # [m] distance of a signer; only sets how much around a keypoint is looked at
@@ -44,7 +44,7 @@ class Retriever:
         self._people: dict[int, PersonEstimator] = {}
         self._time: float | None = None
 
-    def process(self, frame: Frame) -> tuple[Skeleton, ...]:
+    def process(self, frame: DetectionFrame) -> tuple[Skeleton, ...]:
         """Take one image. A stamp before the last forgets everybody: a bag was set back.
 
         Returns:
@@ -83,13 +83,13 @@ class Retriever:
         else:
             self._signer.lock(track_id)
 
-    def _positions(self, frame: Frame, person: Person2D) -> FloatArray:
+    def _positions(self, frame: DetectionFrame, person: Person2D) -> FloatArray:
         """Give about where a person's trunk may be, the likeliest first [m]; NaN if no depth tells.
 
         Shape (k, 3).
         """
         body = as_body_25(person.body)
-        seen = detected(body, frame.camera, self._parameters.min_confidence)
+        seen = viewing_rays(body, frame.camera, self._parameters.min_confidence)
         for rows in (_TRUNK, list(range(len(body)))):
             surfaces = self._lookup.surfaces(
                 frame.depth, seen.pixels[rows], focal=frame.camera.fx, distance=np.full(len(rows), _USUAL)
@@ -102,7 +102,7 @@ class Retriever:
         return np.full((1, 3), np.nan)
 
     def _skeleton(
-        self, frame: Frame, person: Person2D, track_id: int, distance: float, *, is_signer: bool
+        self, frame: DetectionFrame, person: Person2D, track_id: int, distance: float, *, is_signer: bool
     ) -> Skeleton:
         estimator = self._people.setdefault(track_id, PersonEstimator(self._parameters))
         parts = estimator.step(frame, person, distance)

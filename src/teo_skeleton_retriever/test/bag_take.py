@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Any
 
 import camera_take as take
+from openpose_writer import frame_path, write_frame
 from rclpy.serialization import serialize_message
 from rosbags.rosbag1 import Writer as Ros1Writer
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Ros2Writer
 from rosbags.typesys import Stores, get_typestore
 
-from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_writer import frame_path, write_frame
+from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
 
 COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
 INFO = "/camera/color/camera_info"

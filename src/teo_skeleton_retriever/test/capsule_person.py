@@ -9,8 +9,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.detectors.detection_frame import Frame
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 CAMERA = CameraModel(width=320, height=240, fx=300.0, fy=300.0, cx=159.5, cy=119.5)
@@ -226,7 +226,7 @@ def frame(
     jitter: float = 0.0,
     imagined: bool = True,
     camera: CameraModel = CAMERA,
-) -> Frame:
+) -> DetectionFrame:
     """A frame with depth noise [m], a share of depth missing and detections that err by `jitter` [px]."""
     shapes = np.concatenate([capsules(person) for person in people]) if people else np.zeros((0, 7))
     depth = render(shapes, camera)
@@ -239,4 +239,4 @@ def frame(
     seen = [
         person_2d(p, camera, jitter=jitter, seed=seed + i, imagined=imagined) for i, p in enumerate(people)
     ]
-    return Frame(stamp, tuple(seen), depth, camera)
+    return DetectionFrame(stamp, tuple(seen), depth, camera)

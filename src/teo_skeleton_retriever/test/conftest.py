@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import gzip
 import re
 import sys
 from collections.abc import Callable, Iterator
@@ -13,7 +14,8 @@ from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
 
 sys.path.insert(0, str(Path(__file__).parent))  # for helpers that several tests share
 
-RECORDING = Path(__file__).parents[4] / "shared" / "data" / "golden" / "skeleton_retriever_abduction_left.log"
+# The original's output on a recording of its own (test/data/README.md).
+RECORDING = Path(__file__).parent / "data" / "skeleton_retriever_abduction_left.log.gz"
 TOKEN = re.compile(r'\(|\)|"[^"]*"|[^\s()]+')
 
 
@@ -65,9 +67,9 @@ def keypoints(tree: list[Any]) -> dict[str, dict[str, Any]]:
 
 @pytest.fixture(scope="session")
 def recording() -> Recording:
-    if not RECORDING.exists():
-        pytest.skip(f"the recording of the original is not part of the project and not at {RECORDING}")
-    skeletons = [fields(parse(line)[3]) for line in RECORDING.read_text().splitlines()]
+    skeletons = [
+        fields(parse(line)[3]) for line in gzip.decompress(RECORDING.read_bytes()).decode().splitlines()
+    ]
     people = [keypoints(skeleton["skeleton"]) for skeleton in skeletons]
     columns = [
         np.array([[person[tag][key] for tag in SKELETON_STD.keypoints] for person in people])

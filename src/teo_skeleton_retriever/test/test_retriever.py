@@ -13,7 +13,13 @@ from capsule_person import CAMERA, ROW, Pose, face, frame, person_2d, pose
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.errors import FrameError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_skeleton_retriever.retriever import Frame, KeypointStatus, Retriever, RetrieverParameters, Skeleton
+from teo_skeleton_retriever.retriever import (
+    DetectionFrame,
+    KeypointStatus,
+    Retriever,
+    RetrieverParameters,
+    Skeleton,
+)
 
 RATE = 30.0  # [1/s]
 ARMS = [ROW[side + joint] for side in "RL" for joint in ("Shoulder", "Elbow", "Wrist")]
@@ -28,7 +34,7 @@ def signing(time: float, at: tuple[float, float, float] = (0.0, -0.25, 1.6)) -> 
 
 
 def follow(
-    retriever: Retriever, seconds: float, make: Callable[[float], Frame], start: float = 0.0
+    retriever: Retriever, seconds: float, make: Callable[[float], DetectionFrame], start: float = 0.0
 ) -> list[tuple[Skeleton, ...]]:
     return [retriever.process(make(start + i / RATE)) for i in range(round(seconds * RATE))]
 
@@ -99,7 +105,7 @@ def test_sigma_tells_how_far_joints_are_off() -> None:
 
 
 def test_a_hand_that_the_detector_hardly_believes_in_is_less_certain_sideways() -> None:
-    def doubtful(time: float) -> Frame:
+    def doubtful(time: float) -> DetectionFrame:
         shown = frame(time, signing(time), noise=0.003)
         hand = shown.people[0].right_hand.copy()
         hand[:, 2] = 0.6
@@ -217,7 +223,7 @@ def test_who_walks_by_behind_the_signer_is_the_same_person_afterwards() -> None:
 def test_ten_people_keep_their_ids() -> None:
     places = [(x, -0.2, z) for z in (2.2, 3.4) for x in (-0.9, -0.45, 0.0, 0.45, 0.9)]
 
-    def make(time: float) -> Frame:
+    def make(time: float) -> DetectionFrame:
         people = [pose((-0.2, 0.3, -0.15), (0.2, 0.3, -0.15), at=at) for at in places]
         image = frame(time, *people)
         return replace(image, people=image.people[:: 1 if int(time * RATE) % 2 else -1])
@@ -302,14 +308,14 @@ def test_a_person_of_whom_nothing_is_seen_is_nobody() -> None:
 
 def test_depth_of_another_size_than_the_cameras_is_refused() -> None:
     with pytest.raises(FrameError) as caught:
-        Frame(0.0, (), np.zeros((10, 10), np.float32), CAMERA)
+        DetectionFrame(0.0, (), np.zeros((10, 10), np.float32), CAMERA)
     assert caught.value.code == "wrong_size"
 
 
 @pytest.mark.parametrize("stamp", [math.nan, math.inf])
 def test_a_stamp_that_is_no_time_is_refused(stamp: float) -> None:
     with pytest.raises(FrameError) as caught:
-        Frame(stamp, (), np.zeros((240, 320), np.float32), CAMERA)
+        DetectionFrame(stamp, (), np.zeros((240, 320), np.float32), CAMERA)
     assert caught.value.code == "bad_stamp"
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from teo_common.text_folding import without_accents
 from teo_signs.errors import PlanError
-from teo_signs.lexicon import without_accents
 from teo_signs.tokens import PRINTED_PAUSE, Kind, Token
 
 

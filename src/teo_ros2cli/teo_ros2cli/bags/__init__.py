@@ -1,1 +1,1 @@
-"""Bags: MCAP files with a `metadata.yaml` beside them, as rosbag2 Jazzy writes them. Needs no ROS running."""
+"""Bags as files: MCAP and `metadata.yaml`, as rosbag2 Jazzy writes them. Needs no ROS running."""

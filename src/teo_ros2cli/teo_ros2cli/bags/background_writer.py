@@ -12,8 +12,8 @@ from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.definitions.schema_text import Schema
 from teo_ros2cli.errors import Ros2CliError
 
+# How often what was written goes to the operating system [s]: what a crash of this process loses.
 FLUSH_INTERVAL = 1.0
-"""How often what was written goes to the operating system [s]: what a crash of this process loses."""
 
 
 class Arrival(NamedTuple):

@@ -9,7 +9,8 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from teo_ros2cli.bags.mcap_file import FileReport, StoredMessage, iterate, scan, summary_report
+from teo_common.mcap_salvage import McapContent, StoredMessage
+from teo_ros2cli.bags.mcap_file import FileReport, messages_of, scan, summary_report
 from teo_ros2cli.bags.metadata import (
     FILE_NAME,
     NO_START,
@@ -58,9 +59,9 @@ class Bag:
             on_problem: Called with a sentence for each thing that could not be read; nothing is by default.
         """
         for file in self.files:
-            report = FileReport()
-            yield from _in_order(iterate(file, report=report, topics=topics, start=start), start)
-            for problem in _problems_of(file, report):
+            content = McapContent()
+            yield from _in_order(messages_of(file, content, topics=topics, start=start), start)
+            for problem in _problems_of(file, content):
                 on_problem(problem)
 
 
@@ -200,12 +201,12 @@ def _topics_of(report: FileReport, problems: list[str]) -> Iterator[TopicRecord]
         )
 
 
-def _problems_of(file: Path, report: FileReport) -> list[str]:
+def _problems_of(file: Path, content: McapContent) -> list[str]:
     problems = []
-    if report.damaged_chunks:
-        problems.append(f"'{file}' has {report.damaged_chunks} damaged chunk(s), which are left out")
-    if not report.complete:
+    if content.damaged_chunks:
+        problems.append(f"'{file}' has {content.damaged_chunks} damaged chunk(s), which are left out")
+    if not content.complete:
         problems.append(
-            f"'{file}' is truncated or damaged ({report.fault}): what comes after that place is lost"
+            f"'{file}' is truncated or damaged ({content.fault}): what comes after that place is lost"
         )
     return problems

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,14 +11,13 @@ from typing import Any
 
 import yaml
 
-from teo_ros2cli.bags.block_yaml import block_yaml
 from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.errors import Ros2CliError
 
 FILE_NAME = "metadata.yaml"
 VERSION = 9
+# Start time of a bag without messages [ns]: the latest time there is.
 NO_START = 2**63 - 1
-"""Start time of a bag without messages [ns]: the latest time there is."""
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ class BagMetadata:
                 }
                 for record in self.files
             ],
-            "custom_data": dict(self.custom_data),
+            "custom_data": dict(self.custom_data) or None,  # as rosbag2 writes that there are none
             "ros_distro": self.ros_distro,
         }
 
@@ -115,10 +115,27 @@ def _topic_tree(topic: TopicRecord, count: int) -> dict[str, Any]:
     }
 
 
+class _Dumper(yaml.SafeDumper):
+    """Quotes text with line breaks so that every one of them is escaped, which the other quotes fold."""
+
+    def represent_str(self, data: str) -> yaml.ScalarNode:
+        style = None if data.isprintable() else '"'
+        return self.represent_scalar("tag:yaml.org,2002:str", data, style)
+
+
+_Dumper.add_representer(str, _Dumper.represent_str)
+
+
+def block_text(tree: Mapping[str, Any] | Sequence[Any]) -> str:
+    """Return a tree as YAML in block style, keys in their order, no line broken."""
+    text: str = yaml.dump(tree, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=math.inf)
+    return text
+
+
 def write_metadata(directory: Path, metadata: BagMetadata) -> None:
     """Write `metadata.yaml` into a bag's directory, all of it or nothing."""
     temporary = directory / f".{FILE_NAME}.{os.getpid()}"
-    temporary.write_text(block_yaml({"rosbag2_bagfile_information": metadata.to_tree()}), encoding="utf-8")
+    temporary.write_text(block_text({"rosbag2_bagfile_information": metadata.to_tree()}), encoding="utf-8")
     temporary.replace(directory / FILE_NAME)
 
 
@@ -187,7 +204,7 @@ def _topic_from(entry: Mapping[str, Any]) -> tuple[TopicRecord, int]:
 
 def offered_qos_text(profiles: Sequence[QosRecord]) -> str:
     """Return profiles as the YAML text that an MCAP channel's metadata holds."""
-    return block_yaml([profile.to_tree() for profile in profiles]).rstrip("\n") if profiles else "[]"
+    return block_text([profile.to_tree() for profile in profiles]).rstrip("\n")
 
 
 def parse_offered_qos(value: Any) -> tuple[QosRecord, ...]:

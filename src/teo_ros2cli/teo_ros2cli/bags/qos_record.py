@@ -1,4 +1,4 @@
-"""A quality-of-service profile as bags store it, and the choice of one that suits many.
+"""A quality-of-service profile as bags store it, files that name such, and the choice of one that suits many.
 
 Source of names and numbers: rmw/types.h and rmw/qos_string_conversions.h of ROS 2 Jazzy.
 """
@@ -7,10 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
+import yaml
+
+from teo_ros2cli.errors import Ros2CliError
+
+# RMW_DURATION_INFINITE [ns].
 INFINITE = 2**63 - 1
-"""RMW_DURATION_INFINITE [ns]."""
 
 _HISTORY = {"system_default": 0, "keep_last": 1, "keep_all": 2, "unknown": 3}
 _RELIABILITY = {"system_default": 0, "reliable": 1, "best_effort": 2, "unknown": 3, "best_available": 4}
@@ -199,3 +204,23 @@ def _settled(profile: QosRecord) -> QosRecord:
         if getattr(profile, name) == "unknown"
     }
     return replace(profile, **values)
+
+
+def read_overrides(path: Path | None) -> dict[str, QosRecord]:
+    """Read a file that says which profile to use for which topic; no file gives none.
+
+    Raises:
+        Ros2CliError: `invalid_overrides`.
+    """
+    if path is None:
+        return {}
+    try:
+        tree = yaml.safe_load(path.read_text(encoding="utf-8"))
+        if not isinstance(tree, dict):
+            raise ValueError(f"expected a mapping of topic names to profiles, got {tree!r}")
+        profiles = {str(name): QosRecord.from_tree(profile or {}) for name, profile in tree.items()}
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, ValueError, TypeError) as error:
+        raise Ros2CliError(
+            "invalid_overrides", f"QoS profile overrides '{path}' cannot be read: {error}"
+        ) from error
+    return {name if name.startswith("/") else f"/{name}": profile for name, profile in profiles.items()}

@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 from mcap.writer import CompressionType, IndexType, Writer
 
-from teo_ros2cli.bags.block_yaml import block_yaml
 from teo_ros2cli.bags.metadata import (
     NO_START,
     BagMetadata,
     FileRecord,
     TopicRecord,
+    block_text,
     offered_qos_text,
     write_metadata,
 )
@@ -232,7 +232,7 @@ class BagWriter:
             FileRecord(file.path.name, file.span.start, file.span.duration, file.span.messages)
         )
         # rosbag2 keeps its metadata in the file as well, so that a lone file tells all.
-        file.writer.add_metadata("rosbag2", {"serialized_metadata": block_yaml(self._metadata().to_tree())})
+        file.writer.add_metadata("rosbag2", {"serialized_metadata": block_text(self._metadata().to_tree())})
         file.writer.finish()  # type: ignore[no-untyped-call]
         file.stream.close()
 

@@ -1,1 +1,1 @@
-"""The commands and their options, each in a module that is loaded when it is called."""
+"""The commands: their options and output, a module or a room each, loaded when called."""

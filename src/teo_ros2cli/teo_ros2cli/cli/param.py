@@ -19,8 +19,8 @@ VERBS = {
     "list": Entry(__name__, "Output a list of available parameters", "list"),
     "set": Entry(__name__, "Set parameter", "set"),
 }
+# Time that a node gets to answer [s].
 _TIMEOUT = 5.0
-"""Time that a node gets to answer [s]."""
 
 # By the number of the type in rcl_interfaces/msg/ParameterType: how the value is announced, and the field it
 # is in.

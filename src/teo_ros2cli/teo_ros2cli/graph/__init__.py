@@ -1,1 +1,1 @@
-"""The parts that take part in a running ROS graph, through rclpy."""
+"""Taking part in a running ROS graph through rclpy: discovery, subscribing, recording, playing, calling."""

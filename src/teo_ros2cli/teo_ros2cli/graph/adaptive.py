@@ -16,8 +16,8 @@ QUEUE_DEPTH = 1000
 # Messages whose identity is kept to know one that comes a second time: more than any latched topic keeps.
 _REMEMBERED = 2000
 
+# Takes a message (bytes if raw) and rclpy's information on it.
 Receiver = Callable[[Any, dict[str, Any]], None]
-"""Takes a message (bytes if raw) and rclpy's information on it."""
 
 
 class AdaptiveSubscription:

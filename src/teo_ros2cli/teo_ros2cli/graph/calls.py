@@ -7,8 +7,8 @@ from typing import Any
 
 from teo_ros2cli.errors import Ros2CliError
 
+# Longest time in which a signal is not looked at [s].
 _STEP = 0.05
-"""Longest time in which a signal is not looked at [s]."""
 
 
 def wait_for(node: Any, future: Any, timeout: float | None = None) -> Any:

@@ -16,8 +16,8 @@ NODE_NAME_PREFIX = "_ros2cli"
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 # Every participant of ROS 2 publishes on this topic which nodes it holds; its name goes to DDS unmangled.
 _DISCOVERY_TOPIC = "ros_discovery_info"
+# Bytes of an endpoint's identifier that name its participant.
 _PARTICIPANT_PREFIX = 12
-"""Bytes of an endpoint's identifier that name its participant."""
 
 # Time for participants of other machines to answer [s]: the genuine command's default without its daemon.
 _REMOTE_ANSWER = 0.5
@@ -28,8 +28,8 @@ _LONGEST = 3.5
 # Once all participants are known, what belongs to them follows, mostly without a longer pause [s]: what was
 # missed is asked for again with the next announcement, a quarter of a second later (config/fastdds.xml).
 _QUIET = 0.3
+# Interval of looking at the graph [s].
 _POLL = 0.02
-"""Interval of looking at the graph [s]."""
 
 
 @contextmanager
@@ -102,7 +102,7 @@ def _prompt_discovery() -> None:
         os.environ[names[0]] = str(profile)
 
 
-def settle(node: Any, spin_time: float | None = None, *, names: bool = False) -> None:
+def settle(node: Any, spin_time: float | None = None, *, names: bool = False, publisher: Any = None) -> None:
     """Wait until the node knows the graph.
 
     That is: an answering time has passed, every participant of this machine is known, and nothing has changed
@@ -112,6 +112,7 @@ def settle(node: Any, spin_time: float | None = None, *, names: bool = False) ->
         node: The node.
         spin_time: Answering time [s]; by default half a second, less if only this machine takes part.
         names: Wait for the names of the nodes as well, which come after topics and services.
+        publisher: Wait also until every subscription of its topic that can take from it has matched.
     """
     started = time.monotonic()
     shortest = spin_time if spin_time is not None else _answering_time()
@@ -119,11 +120,12 @@ def settle(node: Any, spin_time: float | None = None, *, names: bool = False) ->
     quiet = _QUIET if spin_time is None else min(_QUIET, spin_time)
     changed, last = started, None
     while (now := time.monotonic()) - started < longest:
-        picture = _picture(node, names)
+        picture = _picture(node, names, publisher)
         if picture != last:
             changed, last = now, picture
         ready = UNKNOWN_NODE not in picture.nodes
         ready = ready and picture.participants >= local_participants(node.context.get_domain_id())
+        ready = ready and picture.matched >= len(picture.subscriptions)
         if ready and now - started >= shortest and now - changed >= quiet:
             return
         time.sleep(_POLL)
@@ -139,10 +141,12 @@ class _Picture(NamedTuple):
     participants: int
     nodes: tuple[str, ...]
     topics: tuple[tuple[str, ...], ...]
+    subscriptions: tuple[bytes, ...]
+    matched: int
 
 
-def _picture(node: Any, names: bool) -> _Picture:
-    """Return what the node knows of the graph, the names of nodes only on request."""
+def _picture(node: Any, names: bool, publisher: Any) -> _Picture:
+    """Return what the node knows of the graph; names of nodes and a publisher's matches only on request."""
     announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
     participants = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
     # Every node publishes parameter events: by these one sees whether a node's name has come.
@@ -150,4 +154,25 @@ def _picture(node: Any, names: bool) -> _Picture:
         [info.node_name for info in node.get_publishers_info_by_topic("/parameter_events")] if names else []
     )
     topics = tuple((name, *types) for name, types in node.get_topic_names_and_types())
-    return _Picture(len(participants), tuple(sorted(nodes)), topics)
+    return _Picture(
+        len(participants),
+        tuple(sorted(nodes)),
+        topics,
+        () if publisher is None else _takers(node, publisher),
+        0 if publisher is None else publisher.get_subscription_count(),
+    )
+
+
+def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
+    """Return the identifiers of the subscriptions that a publisher's type and quality of service suit."""
+    from rclpy.qos import QoSCompatibility, qos_check_compatible
+
+    kind = "/".join((*publisher.msg_type.__module__.split(".")[:2], publisher.msg_type.__name__))
+    return tuple(
+        sorted(
+            bytes(info.endpoint_gid)
+            for info in node.get_subscriptions_info_by_topic(publisher.topic_name)
+            if info.topic_type == kind
+            and qos_check_compatible(publisher.qos_profile, info.qos_profile)[0] != QoSCompatibility.ERROR
+        )
+    )

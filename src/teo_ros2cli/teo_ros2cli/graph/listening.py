@@ -9,8 +9,8 @@ from typing import Any
 from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.graph.adaptive import AdaptiveSubscription
 
+# Interval of fitting the subscriptions to their publishers [s].
 _STEP = 0.1
-"""Interval of fitting the subscriptions to their publishers [s]."""
 
 # What every publisher serves: for measuring, where a message that was lost is part of the result.
 ANYTHING = QosRecord(reliability="best_effort")

@@ -8,8 +8,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from queue import Full, Queue
 from typing import Any, NamedTuple
 
+from teo_common.mcap_salvage import StoredMessage
 from teo_ros2cli.bags.bag import Bag
-from teo_ros2cli.bags.mcap_file import StoredMessage
 from teo_ros2cli.bags.metadata import TopicRecord
 from teo_ros2cli.bags.qos_record import QosRecord, offer_for
 from teo_ros2cli.bags.schedule import Schedule
@@ -17,8 +17,8 @@ from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.graph.qos import from_record
 from teo_ros2cli.messages.classes import message_class
 
+# Longest time in which a signal or a key is not looked at [s].
 _STEP = 0.05
-"""Longest time in which a signal or a key is not looked at [s]."""
 
 
 class PlayerSettings(NamedTuple):

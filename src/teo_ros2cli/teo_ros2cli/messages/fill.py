@@ -26,8 +26,8 @@ from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import interface_class, interface_name_of
 from teo_ros2cli.messages.yaml_text import Scalar, plain
 
+# A builtin_interfaces/msg/Time.
 Stamp = Any
-"""A builtin_interfaces/msg/Time."""
 StampSetter = Callable[[Stamp], None]
 
 _INTEGER_RANGES = {

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import os
-import re
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -14,6 +11,7 @@ from pathlib import Path
 
 from rosbags.highlevel import AnyReader
 
+from teo_sign_capture.recordings.retrieval import retrieve_apart
 from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
@@ -21,12 +19,6 @@ from teo_signs.errors import LutError
 BAG_SUFFIXES = (".mcap", ".db3", ".bag")
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _CHUNK = 1 << 20
-_RETRIEVE = "teo_skeleton_retriever.cli.retrieve_cli"
-_PROGRESS = re.compile(rb"(\d+)/(\d+)")
-"""Messages done and in all, in what `retrieve` shows."""
-_CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\r")
-_NOTHING = "no image of"
-"""Begins its complaint that nothing at all could be used."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,13 +120,13 @@ def track_of(
         The person, and what could not be used of the images, a sentence each.
 
     Raises:
-        LutError: Of `read_skeletons`, or what `retrieve` says: "no_depth", "no_camera_info", ...
+        LutError: Of `read_skeletons`, or of `retrieve_apart`: "no_depth", "no_camera_info", ...
     """
     bag, warnings = recording.path, ""
     if not recording.has_skeletons and topic is None:
         bag = _cached(recording, cache)
         if not bag.is_file():
-            _retrieve(recording.path, bag, on_progress)
+            _fill_cache(recording.path, bag, on_progress)
         warnings = _warnings_of(bag).read_text("utf-8") if _warnings_of(bag).is_file() else ""
     track = read_skeletons(bag, topic=topic, signer=person)
     # A rendered recording has stamps, but no day on which anybody stood before a camera.
@@ -167,20 +159,14 @@ def _topics(path: Path) -> tuple[dict[str, str], float]:
         ) from error
 
 
-def _retrieve(bag: Path, out: Path, on_progress: Callable[[int, int], None] | None) -> None:
-    """Run `retrieve` as a process of its own, which also bounds what it may break."""
+def _fill_cache(bag: Path, out: Path, on_progress: Callable[[int, int], None] | None) -> None:
+    """Make skeletons of a bag's images, and beside them a text of what could not be used."""
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         # Two captures of one bag at a time must not write one file.
         with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
             made = Path(folder) / "skeletons.mcap"
-            command = [sys.executable, "-m", _RETRIEVE, str(bag), "--out", str(made)]
-            status, said = _run(command, on_progress)
-            complaints = [
-                line.partition("retrieve: ")[2] for line in said.splitlines() if "retrieve: " in line
-            ]
-            if status and (not made.is_file() or any(line.startswith(_NOTHING) for line in complaints)):
-                raise _refusal(bag, complaints, said, status)
+            complaints = retrieve_apart(bag, made, on_progress)
             if complaints:  # what is left of a recording that was cut off is worth a look
                 _warnings_of(made).write_text("\n".join(complaints), "utf-8")
                 _warnings_of(made).replace(_warnings_of(out))
@@ -189,37 +175,3 @@ def _retrieve(bag: Path, out: Path, on_progress: Callable[[int, int], None] | No
         raise LutError(
             "not_written", f"{out.parent}: expected a directory to write to, got: {error}"
         ) from error
-
-
-def _run(command: list[str], on_progress: Callable[[int, int], None] | None) -> tuple[int, str]:
-    """Run to the end. Returns the exit status and the last of what it said."""
-    # A pipe is no terminal: without these nothing would be said until the end.
-    environment = os.environ | {"COLUMNS": "200", "FORCE_COLOR": "1", "TERM": "xterm"}
-    said = b""
-    with subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env=environment
-    ) as process:
-        try:
-            assert process.stderr is not None
-            while chunk := os.read(process.stderr.fileno(), 4096):
-                said = (said + chunk)[-8192:]
-                found = _PROGRESS.findall(chunk)
-                if found and on_progress is not None:
-                    on_progress(int(found[-1][0]), int(found[-1][1]))
-        except BaseException:
-            process.kill()
-            raise
-    return process.returncode, _CONTROL.sub("", said.decode(errors="replace"))
-
-
-def _refusal(bag: Path, complaints: list[str], said: str, status: int) -> LutError:
-    """What `retrieve` complained about; its codes are passed on."""
-    for line in complaints:
-        coded = re.match(r"(?:\d+ images left out, )?([a-z_]+): (.+)", line)
-        if coded:
-            # Its options are not those of a capture.
-            named = r": if it has another name, run `retrieve \1 NAME` first"
-            sentence = re.sub(r"; see (--[a-z-]+)$", named, coded[2])
-            return LutError(coded[1], f"{bag.name}: {sentence}")
-    reason = (complaints or said.strip().splitlines()[-1:] or [f"exit status {status}"])[0]
-    return LutError("not_retrieved", f"{bag.name}: expected skeletons of its images, got: {reason}")

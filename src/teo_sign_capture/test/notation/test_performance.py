@@ -19,7 +19,7 @@ from teo_sign_capture.notation.score_file import default_scores_directory, read_
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.signing_space.directions import direction
 from teo_sign_capture.signing_space.places import NAMES, OTHER_HAND
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.script.motion import Motion
 from teo_synthetic_signer.script.script_file import read_script

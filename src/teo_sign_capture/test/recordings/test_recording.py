@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import shutil
+from multiprocessing import active_children
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from made_bags import messages, signing, write_bag
 from mcap.writer import Writer
+from rosbags.rosbag2 import Reader
 
 from teo_sign_capture.entries.live_capture import write_skeletons
+from teo_sign_capture.recordings import retrieval
 from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, track_of
 from teo_signs.errors import LutError
 from teo_synthetic_signer.take.take_bag import START
@@ -95,9 +99,9 @@ def test_a_bag_without_images_or_skeletons_says_what_it_holds(tmp_path: Path) ->
     assert error.value.code == "no_skeletons"
 
 
-def test_a_bag_without_depth_is_refused_in_the_retrievers_words(tmp_path: Path) -> None:
-    from rosbags.rosbag2 import Reader
-
+@pytest.fixture
+def colour_only(tmp_path: Path) -> Path:
+    """The first images of the shipped bag, without their depth."""
     path = tmp_path / "colour_only.mcap"
     with Reader(SHIPPED) as reader, path.open("wb") as stream:
         writer = Writer(stream)
@@ -113,7 +117,46 @@ def test_a_bag_without_depth_is_refused_in_the_retrievers_words(tmp_path: Path) 
             if connection.id in channels and index < 60:
                 writer.add_message(channels[connection.id], time, bytes(data), time)
         writer.finish()
-    with pytest.raises(LutError, match="depth") as error:
-        track_of(open_recording(path), cache=tmp_path / "cache")
+    return path
+
+
+def test_a_bag_without_depth_is_refused_in_the_retrievers_words(colour_only: Path, tmp_path: Path) -> None:
+    with pytest.raises(LutError, match="run `retrieve --depth-topic NAME` first") as error:
+        track_of(open_recording(colour_only), cache=tmp_path / "cache")
     assert error.value.code == "no_depth"
     assert not list((tmp_path / "cache").glob("*.mcap"))
+
+
+def test_a_worker_that_may_start_no_process_retrieves_by_itself(
+    colour_only: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(retrieval, "current_process", lambda: SimpleNamespace(daemon=True))
+    monkeypatch.setattr(retrieval, "get_context", lambda method: pytest.fail(f"a process by {method}"))
+    with pytest.raises(LutError, match="depth") as error:
+        retrieval.retrieve_apart(colour_only, tmp_path / "out.mcap")
+    assert error.value.code == "no_depth"
+
+
+def test_a_retriever_that_dies_is_told_and_leaves_nothing(tmp_path: Path) -> None:
+    def kill(*_: int) -> None:
+        for process in active_children():
+            process.kill()
+
+    with pytest.raises(LutError, match="exit status -9") as error:
+        track_of(open_recording(SHIPPED), cache=tmp_path, on_progress=kill)
+    assert error.value.code == "not_retrieved"
+    assert not list(tmp_path.iterdir())
+
+
+def test_whoever_watches_can_stop_the_retriever(tmp_path: Path) -> None:
+    class StoppedError(Exception):
+        pass
+
+    def stop(done: int, total: int) -> None:
+        assert (done, total) == (1, 315)
+        raise StoppedError
+
+    with pytest.raises(StoppedError):
+        track_of(open_recording(SHIPPED), cache=tmp_path, on_progress=stop)
+    assert not active_children()
+    assert not list(tmp_path.iterdir())

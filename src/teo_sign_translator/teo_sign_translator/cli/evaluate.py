@@ -14,15 +14,15 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.corpus_files import read_splits, sample
 from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.examples import Reader
-from teo_sign_translator.pointer.metrics import Score, score
 from teo_sign_translator.pointer.store import load_sentence_model
-from teo_sign_translator.tables import write_atomically
+from teo_sign_translator.pointer.training.corpus_files import read_splits, sample
+from teo_sign_translator.pointer.training.examples import Reader
+from teo_sign_translator.pointer.training.metrics import Score, score
 from teo_sign_translator.text.source_words import source_words
 
 # Sentences translated between two moves of the progress bar.
@@ -120,6 +120,7 @@ def run(
             f"{' '.join(each.glosses)}\t{each.log_probability:.3f}"
             for each in wrong
         )
+        out.parent.mkdir(parents=True, exist_ok=True)
         write_atomically(out, ("\n".join(lines) + "\n").encode())
 
 

@@ -13,10 +13,10 @@ from rich.progress import track
 
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.pairs_file import SPLITS, write_pairs
-from teo_sign_translator.corpus.paper import own_pairs
+from teo_sign_translator.corpus.paper_pairs import own_pairs
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.resources import data_file
 
 FILE_NAME = "pairs.tsv"
 
@@ -29,6 +29,9 @@ def run(
         list[Path] | None,
         typer.Option(help="File of sentences, one a line, that must not occur: of a test. Repeatable."),
     ] = None,
+    hold_out_constructions: Annotated[
+        bool, typer.Option(help="Keep the constructions of held_out.yaml for a split of their own.")
+    ] = False,
 ) -> None:
     """Write sentence pairs of the grammar in data/grammar, and the paper's own, to DIR/pairs.tsv."""
     console = Console(stderr=True)
@@ -38,7 +41,8 @@ def run(
     own = list(own_pairs(morphology))
     unwanted = [line for path in leave_out or () for line in path.read_text(encoding="utf-8").splitlines()]
     # The grammar would translate some of the paper's sentences otherwise than the paper does.
-    made = generator.pairs(pairs, seed, [*unwanted, *(pair.spanish for pair in own)])
+    unwanted += [pair.spanish for pair in own]
+    made = generator.pairs(pairs, seed, unwanted, hold_out_constructions=hold_out_constructions)
     every = chain(own, made)
     written = list(track(every, description="generating", total=pairs, console=console))
     write_pairs(out / FILE_NAME, written)
@@ -47,7 +51,7 @@ def run(
     seconds = time.monotonic() - started
     console.print(
         f"{out / FILE_NAME}: {len(written)} pairs of {rules} templates in {seconds:.0f} s: "
-        + ", ".join(f"{split} {count}" for split, count in counts.items())
+        + ", ".join(f"{split} {count}" for split, count in counts.items() if count)
     )
 
 

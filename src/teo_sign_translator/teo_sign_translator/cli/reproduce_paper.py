@@ -15,12 +15,11 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from teo_sign_translator.corpus.paper_pairs import Pair, paper_pairs, paper_predictions
+from teo_common.atomic_files import write_atomically
+from teo_sign_translator.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.input_tokens import published_tokens
+from teo_sign_translator.lstm256.tokens import Vocabulary, published_tokens
 from teo_sign_translator.lstm256.training import Example, Training, TrainingConfig, train
-from teo_sign_translator.lstm256.vocabulary import Vocabulary
-from teo_sign_translator.tables import write_atomically
 
 #: The two step sizes that the paper compares; its predictions are made with the first.
 LEARNING_RATES = (0.0001, 0.001)
@@ -45,7 +44,7 @@ class Run:
     seconds: float
 
 
-def split(pairs: list[Pair]) -> tuple[list[Pair], list[Pair]]:
+def split(pairs: list[PublishedPair]) -> tuple[list[PublishedPair], list[PublishedPair]]:
     """The pairs to train on, and the last 20 % (rounded up) held out: 31 and 8 of 39."""
     count = len(pairs) - math.ceil(HELD_OUT * len(pairs))
     return pairs[:count], pairs[count:]
@@ -89,6 +88,7 @@ def run(
             )
             for rate in LEARNING_RATES
         ]
+    out.mkdir(parents=True, exist_ok=True)
     for each in runs:
         stem = f"loss_{each.config.learning_rate}"
         write_atomically(out / f"{stem}.csv", _loss_csv(each.training).encode())

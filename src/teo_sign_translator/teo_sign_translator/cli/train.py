@@ -12,12 +12,11 @@ from rich.console import Console
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.train_published import SHIPPED_CONFIG, train_published
+from teo_sign_translator.model_files import models_directory
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.config import TrainingConfig
-from teo_sign_translator.pointer.devices import named_device
-from teo_sign_translator.pointer.training_run import load_training_data, train_model
-from teo_sign_translator.pointer.zoo import POINTER, ZOO, network_config
-from teo_sign_translator.resources import models_directory
+from teo_sign_translator.pointer.config import POINTER, ZOO, TrainingConfig, network_config
+from teo_sign_translator.pointer.training.devices import named_device
+from teo_sign_translator.pointer.training.run import load_training_data, train_model
 from teo_sign_translator.text.source_words import source_words
 
 #: The published model; it needs no corpus.

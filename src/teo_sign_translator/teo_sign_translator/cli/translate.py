@@ -15,11 +15,11 @@ from rich.console import Console
 from rich.progress import track
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.store import DEFAULT_MODEL, available_models
+from teo_sign_translator.model_files import available_models
 from teo_sign_translator.output.sign_choice import read_signs
 from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
-from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
 
 #: Lines of a file that are translated together [lines]: more are no faster, and nothing is written until
 #: they are done.

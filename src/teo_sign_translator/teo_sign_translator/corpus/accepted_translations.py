@@ -1,14 +1,15 @@
 """Notation for the translations that are accepted for a sentence.
 
 `YO (PASADO) PAN/BOLLO COMPRAR || PAN YO COMPRAR`: glosses in order; `/` between glosses of which any one may
-stand; brackets round what may be left out; `||` between whole translations.
+stand; brackets round what may be left out; `||` between whole translations. What stands in brackets in
+several places of a translation, as in `(YO) PAN (YO) COMPRAR`, is said in one of them at most.
 """
 
 from __future__ import annotations
 
-import unicodedata
 from collections.abc import Sequence
 
+from teo_common.text_folding import without_accents
 from teo_sign_translator.errors import TranslationError
 
 #: Letters of words that accents tell apart: TÚ and TU, SÍ and SI.
@@ -19,13 +20,36 @@ def accepts(pattern: str, glosses: Sequence[str]) -> bool:
     """Whether glosses are a translation that a pattern stands for, by their `plain_gloss`.
 
     Raises:
+        TranslationError: "invalid_data" as `accepted`.
+    """
+    return tuple(map(plain_gloss, glosses)) in accepted(pattern)
+
+
+def accepted(pattern: str) -> frozenset[tuple[str, ...]]:
+    """All translations that a pattern stands for, each as its glosses' `plain_gloss`.
+
+    Raises:
         TranslationError: "invalid_data" if the pattern is empty or a bracket is not closed in its own word.
     """
-    alternatives = [[_place(word, pattern) for word in each.split()] for each in pattern.split("||")]
-    if not all(alternatives):
+    return frozenset(glosses for each in pattern.split("||") for glosses in _readings(each.split(), pattern))
+
+
+def _readings(words: Sequence[str], pattern: str) -> set[tuple[str, ...]]:
+    """The translations of one side of `||`."""
+    if not words:
         raise TranslationError("invalid_data", f"expected glosses on both sides of ||, got '{pattern}'")
-    said = [plain_gloss(gloss) for gloss in glosses]
-    return any(_fits(places, said) for places in alternatives)
+    # What is said so far, and which choices in brackets have been taken.
+    reached: set[tuple[tuple[str, ...], frozenset[frozenset[str]]]] = {((), frozenset())}
+    for word in words:
+        choices, optional = _place(word, pattern)
+        said = {
+            ((*before, gloss), taken | {choices} if optional else taken)
+            for before, taken in reached
+            for gloss in choices
+            if not (optional and choices in taken)
+        }
+        reached = said | reached if optional else said
+    return {glosses for glosses, _ in reached}
 
 
 def plain_gloss(gloss: str) -> str:
@@ -34,11 +58,11 @@ def plain_gloss(gloss: str) -> str:
     LSE spells without accents, so longer words are compared without; Ñ stays.
     """
     word = gloss.replace("-", "").replace("_", "").upper()
-    return word if len(word) <= _SHORT else _unaccented(word)
+    return word if len(word) <= _SHORT else without_accents(word)
 
 
-def _place(word: str, pattern: str) -> frozenset[str]:
-    """What may stand in one place; the empty string among it if nothing may."""
+def _place(word: str, pattern: str) -> tuple[frozenset[str], bool]:
+    """What may stand in one place, and whether nothing may."""
     optional = word.startswith("(") and word.endswith(")")
     glosses = word.strip("()").split("/")
     brackets = word.count("(") + word.count(")")
@@ -46,19 +70,4 @@ def _place(word: str, pattern: str) -> frozenset[str]:
         raise TranslationError(
             "invalid_data", f"expected a gloss like (A/B) or A/B, got '{word}' in '{pattern}'"
         )
-    return frozenset([*map(plain_gloss, glosses), *([""] if optional else [])])
-
-
-def _fits(places: Sequence[frozenset[str]], glosses: Sequence[str]) -> bool:
-    """Whether glosses fill places one after the other."""
-    reached = {0}
-    for choices in places:
-        filled = {count + 1 for count in reached if count < len(glosses) and glosses[count] in choices}
-        reached = filled | (reached if "" in choices else set())
-    return len(glosses) in reached
-
-
-def _unaccented(word: str) -> str:
-    decomposed = unicodedata.normalize("NFD", word)
-    kept = (c for c in decomposed if not unicodedata.combining(c) or c == "\N{COMBINING TILDE}")
-    return unicodedata.normalize("NFC", "".join(kept))
+    return frozenset(map(plain_gloss, glosses)), optional

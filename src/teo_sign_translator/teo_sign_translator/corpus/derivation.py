@@ -7,13 +7,12 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from teo_sign_translator.corpus.choosers import Chooser
-from teo_sign_translator.corpus.features import fits, looked_up
 from teo_sign_translator.corpus.fillers import NoFillerError, can_be_in_words, number_phrase, word_phrase
-from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule, Slot
+from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule, Slot, fits
 from teo_sign_translator.corpus.sides import Sides
 from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tenses import Tenses
-from teo_sign_translator.corpus.tokens import Phrase, SaidVerb
+from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, looked_up
 from teo_sign_translator.corpus.verb_phrase import marked_once, marks_ambiguous
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError

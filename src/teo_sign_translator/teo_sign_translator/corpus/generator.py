@@ -10,6 +10,7 @@ from itertools import accumulate
 from pathlib import Path
 from random import Random
 
+from teo_common.text_folding import folded
 from teo_sign_translator.corpus.choosers import RandomChooser
 from teo_sign_translator.corpus.derivation import Derivation, Sentence
 from teo_sign_translator.corpus.fillers import NoFillerError
@@ -20,10 +21,11 @@ from teo_sign_translator.corpus.templates import Template, templates
 from teo_sign_translator.corpus.words import WordLists, is_held_out
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.text.cleaning import strip_marks
 
 #: Share of each split.
 SHARES = {"train": 0.93, "dev": 0.02, "test_words": 0.02, "test_templates": 0.02, "test_both": 0.01}
+#: Share of the sentences in constructions that training was made without, beside the splits of `SHARES`.
+_CONSTRUCTIONS_SHARE = 0.02
 #: No template gives more than this share of the pairs.
 LARGEST_SHARE = 0.03
 #: A template that gives nothing new this often in a row has given all it has.
@@ -62,30 +64,55 @@ class Generator:
         words.held_out = held_out_words(grammar, words)
         return cls(grammar, words, frozenset(word.lower() for word in words.held_out))
 
-    def pairs(self, count: int, seed: int, leave_out: Iterable[str] = ()) -> Iterator[Pair]:
+    def pairs(
+        self,
+        count: int,
+        seed: int,
+        leave_out: Iterable[str] = (),
+        *,
+        hold_out_constructions: bool = False,
+    ) -> Iterator[Pair]:
         """Yield pairs, split by split: different sentences, but for the set phrases that train repeats.
 
         Args:
             count: About how many; a little fewer if the grammar has no more.
             seed: The same seed gives the same pairs.
-            leave_out: Sentences that must not occur, in whatever accents, marks and capitals.
+            leave_out: Sentences that must not occur, in whatever accents, marks, capitals and spaces.
+            hold_out_constructions: Whether the grammar's `constructions` occur in a split of their own alone.
         """
-        every = templates(self.grammar)
-        seen_templates = [each for each in every if each.name not in self.grammar.held_out]
-        new_templates = [each for each in every if each.name in self.grammar.held_out]
+        grammar = self.grammar.without_constructions() if hold_out_constructions else self.grammar
+        every = templates(grammar)
+        seen_templates = [each for each in every if each.name not in grammar.held_out]
+        new_templates = [each for each in every if each.name in grammar.held_out]
         seen = _Seen(leave_out)
         for index, (split, share) in enumerate(SHARES.items()):
             chosen = new_templates if split in ("test_templates", "test_both") else seen_templates
             if chosen:
                 random = Random(seed * len(SHARES) + index)
                 held = split in ("test_words", "test_both")
-                yield from self._split(split, round(count * share), chosen, random, seen, held=held)
+                derivation = Derivation(grammar, self.words, RandomChooser(random, held))
+                yield from self._split(
+                    split, round(count * share), chosen, derivation, random, seen, held=held
+                )
+        if hold_out_constructions:
+            kept = {each.name for each in every}
+            chosen = [each for each in templates(self.grammar) if each.name not in kept]
+            random = Random(seed * len(SHARES) + len(SHARES))
+            derivation = Derivation(self.grammar, self.words, RandomChooser(random))
+            size = round(count * _CONSTRUCTIONS_SHARE)
+            yield from self._split("test_constructions", size, chosen, derivation, random, seen, held=False)
 
     def _split(
-        self, split: str, count: int, chosen: list[Template], random: Random, seen: _Seen, *, held: bool
+        self,
+        split: str,
+        count: int,
+        chosen: list[Template],
+        derivation: Derivation,
+        random: Random,
+        seen: _Seen,
+        *,
+        held: bool,
     ) -> Iterator[Pair]:
-        chooser = RandomChooser(random, held)
-        derivation = Derivation(self.grammar, self.words, chooser)
         left = list(chosen)
         made = [0] * len(chosen)
         places = list(range(len(chosen)))
@@ -132,7 +159,7 @@ class _Seen:
     """Sentences that must not come (again)."""
 
     def __init__(self, unwanted: Iterable[str]) -> None:
-        self._unwanted = frozenset(map(_bare, unwanted))
+        self._unwanted = frozenset(map(folded, unwanted))
         self._made: Counter[str] = Counter()
 
     def add(self, sentence: str) -> None:
@@ -140,12 +167,7 @@ class _Seen:
 
     def has(self, sentence: str, most: int) -> bool:
         """Whether a sentence has come as often as it may."""
-        return self._made[sentence] >= most or (bool(self._unwanted) and _bare(sentence) in self._unwanted)
-
-
-def _bare(sentence: str) -> str:
-    """Letters and digits alone."""
-    return "".join(letter for letter in strip_marks(sentence) if letter.isalnum())
+        return self._made[sentence] >= most or (bool(self._unwanted) and folded(sentence) in self._unwanted)
 
 
 def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from teo_sign_translator.corpus.patterns import GlossItem, SpanishItem
 
@@ -147,6 +147,9 @@ class Grammar:
         paradigms: Agreeing words: masculine and feminine singular, then plural.
         word_lists: Lists of the grammar's own, by name (nouns, names, …).
         held_out: Names of templates that only tests see.
+        constructions: For each construction that a corpus may be made without, all that says it: families
+            (`condition`), sentence rules (`in_case.if_then`) and alternatives of categories
+            (`vp.better_than`).
     """
 
     families: tuple[Family, ...]
@@ -155,3 +158,35 @@ class Grammar:
     paradigms: Mapping[str, tuple[str, str, str, str]]
     word_lists: Mapping[str, tuple[str, ...]]
     held_out: frozenset[str]
+    constructions: Mapping[str, tuple[str, ...]]
+
+    def without_constructions(self) -> Grammar:
+        """The grammar without the sentence rules and alternatives of all `constructions`."""
+        gone = {name for names in self.constructions.values() for name in names}
+        families = (
+            replace(
+                family, rules=tuple(rule for rule in family.rules if f"{family.name}.{rule.name}" not in gone)
+            )
+            for family in self.families
+            if family.name not in gone
+        )
+        categories = {
+            category: tuple(rule for rule in rules if f"{category}.{rule.name}" not in gone)
+            for category, rules in self.categories.items()
+        }
+        return replace(
+            self, families=tuple(family for family in families if family.rules), categories=categories
+        )
+
+
+def fits(rule: Rule, features: Mapping[str, str]) -> bool:
+    """Whether the features handed down are what the rule wants."""
+    return all(allows(allowed, features.get(key, "-").split(",")) for key, allowed in rule.when)
+
+
+def allows(allowed: Sequence[str], given: Sequence[str]) -> bool:
+    """Whether one of the values is allowed; where values are forbidden (`!neg`), whether none is given."""
+    forbidden = [value[1:] for value in allowed if value.startswith("!")]
+    if forbidden:
+        return not any(value in forbidden for value in given)
+    return any(value in allowed for value in given)

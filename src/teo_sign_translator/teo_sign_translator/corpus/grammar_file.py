@@ -30,7 +30,7 @@ from teo_sign_translator.corpus.patterns import (
 )
 from teo_sign_translator.errors import TranslationError
 
-_SECTIONS = ("families", "categories", "shapes", "paradigms", "word_lists", "held_out")
+_SECTIONS = ("families", "categories", "shapes", "paradigms", "word_lists", "held_out", "constructions")
 _RULE_KEYS = ("weight", "when", "pick", "es", "lse", "set", "head", "example", "repeat")
 _SHAPE_KEYS = ("weight", "mood", "time", "mark", "kind", "dated", "es", "lse")
 _MOODS = ("ind", "sub", "sub_past", "inf", "imp", "neg_imp", "ger")
@@ -76,6 +76,10 @@ def load_grammar(folder: Path) -> Grammar:
             for name, (where, words) in merged["word_lists"].items()
         },
         held_out=frozenset(merged["held_out"]),
+        constructions={
+            name: tuple(_text(f"{where}: {name}", names).split())
+            for name, (where, names) in merged["constructions"].items()
+        },
     )
     _check_links(grammar)
     return grammar
@@ -248,6 +252,17 @@ def _check_links(grammar: Grammar) -> None:
             signed = any(item.slot == slot.name for item in rule.glosses)
             if signed and slot.name not in said and (slot.category in LEXICAL or not silent):
                 _fail(rule.where, f"slot '{slot.name}' in 'es' since it is in 'lse'")
+    known = {
+        name for family in grammar.families for name in (family.name, *_names(family.name, family.rules))
+    }
+    known |= {name for category, rules in grammar.categories.items() for name in _names(category, rules)}
+    for construction, names in grammar.constructions.items():
+        if unknown := sorted(set(names) - known):
+            _fail(f"constructions: {construction}", f"families, their rules or alternatives, got {unknown}")
+
+
+def _names(group: str, rules: tuple[Rule, ...]) -> list[str]:
+    return [f"{group}.{rule.name}" for rule in rules]
 
 
 def _four(where: str, name: str, forms: Any) -> tuple[str, str, str, str]:

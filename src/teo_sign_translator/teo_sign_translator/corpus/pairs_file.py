@@ -6,14 +6,15 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.tables import write_atomically
 
 COLUMNS = ("spanish", "glosses", "alignment", "rule", "split")
 
 #: `test_words`: known templates with words that train never has; `test_templates`: known words in templates
-#: that train never has; `test_both`: neither was seen.
-SPLITS = ("train", "dev", "test_words", "test_templates", "test_both")
+#: that train never has; `test_both`: neither was seen; `test_constructions`: known words in constructions
+#: that no sentence of train has, if the corpus was made without them.
+SPLITS = ("train", "dev", "test_words", "test_templates", "test_both", "test_constructions")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +52,7 @@ def write_pairs(path: Path, pairs: Iterable[Pair]) -> None:
         )
         for pair in pairs
     )
+    path.parent.mkdir(parents=True, exist_ok=True)
     write_atomically(path, ("\n".join(lines) + "\n").encode())
 
 

@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 
-from teo_sign_translator.corpus.features import allows
-from teo_sign_translator.corpus.grammar import Grammar, Rule
+from teo_sign_translator.corpus.grammar import Grammar, Rule, allows
 
 
 @dataclass(frozen=True, slots=True)

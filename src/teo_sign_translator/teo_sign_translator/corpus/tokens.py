@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from teo_sign_translator.corpus.grammar import Shape
-    from teo_sign_translator.corpus.verb_phrase import VerbPhrase
-    from teo_sign_translator.corpus.words import Word
+from teo_sign_translator.corpus.grammar import Shape
+from teo_sign_translator.corpus.words import Word
 
 
 @dataclass(slots=True, eq=False)
@@ -40,6 +39,24 @@ class Sign:
     sources: list[Token] = field(default_factory=list)
     pending: str = ""
     tense: str = ""
+
+
+class VerbPhrase(NamedTuple):
+    """A verb as said.
+
+    Attributes:
+        tokens: Words in order, clitics among them.
+        finite: The word that shows person and tense.
+        main: The word of the main verb.
+        clitics: For each clitic, in the order given, the word that says it.
+        parts: Words of auxiliaries and literals by lemma.
+    """
+
+    tokens: list[Token]
+    finite: Token
+    main: Token
+    clitics: list[Token]
+    parts: dict[str, Token]
 
 
 @dataclass(slots=True, eq=False)
@@ -81,3 +98,11 @@ class SaidVerb:
     word: Word
     shape: Shape
     said: VerbPhrase | None = None
+
+
+def looked_up(value: str, features: Mapping[str, str], slots: Mapping[str, Phrase]) -> str:
+    """A value as written, or the feature it names: `$V.object` of slot V, `$pol` handed down; "" for none."""
+    if not value.startswith("$"):
+        return value
+    name, dot, key = value[1:].partition(".")
+    return slots[name].features.get(key, "") if dot else features.get(name, "")

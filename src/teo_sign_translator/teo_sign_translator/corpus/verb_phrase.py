@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from typing import NamedTuple
 
-from teo_sign_translator.corpus.enclitics import REFLEXIVES, in_order
 from teo_sign_translator.corpus.grammar import Shape
-from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
+from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token, VerbPhrase
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.enclitics import attach_pronouns
@@ -17,24 +15,12 @@ _TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
 _WE_NOW = "V:ind:pres:1p"
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
+#: Reflexive pronoun by person.
+REFLEXIVES = {"1s": "me", "2s": "te", "3s": "se", "1p": "nos", "2p": "os", "3p": "se"}
 
-
-class VerbPhrase(NamedTuple):
-    """A verb as said.
-
-    Attributes:
-        tokens: Words in order, clitics among them.
-        finite: The word that shows person and tense.
-        main: The word of the main verb.
-        clitics: For each clitic, in the order given, the word that says it.
-        parts: Words of auxiliaries and literals by lemma.
-    """
-
-    tokens: list[Token]
-    finite: Token
-    main: Token
-    clitics: list[Token]
-    parts: dict[str, Token]
+_ORDER = {"se": 0, "te": 1, "os": 1, "me": 2, "nos": 2}
+_LAST = 3
+_THIRD_ACCUSATIVE = frozenset(("lo", "la", "los", "las"))
 
 
 def say_verb(
@@ -83,6 +69,15 @@ def say_verb(
         tokens.append(token)
     assert finite is not None and main is not None, shape.name
     return VerbPhrase(tokens, finite, main, _carriers(pronouns, ordered, carriers, clitics), parts)
+
+
+def in_order(clitics: Sequence[str]) -> tuple[str, ...]:
+    """Clitics as they stand before or behind a verb: `("lo", "le")` is `("se", "lo")`."""
+    ordered = tuple(sorted(clitics, key=lambda clitic: _ORDER.get(clitic, _LAST)))
+    if len(ordered) > 1 and set(ordered) & _THIRD_ACCUSATIVE:
+        changed = ["se" if clitic in ("le", "les") else clitic for clitic in ordered]
+        return tuple(sorted(changed, key=lambda clitic: _ORDER.get(clitic, _LAST)))
+    return ordered
 
 
 def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase) -> list[Sign]:

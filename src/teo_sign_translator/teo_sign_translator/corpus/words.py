@@ -10,9 +10,9 @@ from itertools import accumulate
 from pathlib import Path
 from random import Random
 
+from teo_sign_translator.data_files import read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.tables import read_rows
 
 #: One word in this many is held out.
 HELD_OUT_ONE_IN = 20

@@ -6,10 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from teo_common.text_folding import fold, strip_marks
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
-from teo_sign_translator.text.cleaning import fold, strip_marks
 
 _CLASSES = ("function", "interjection", "word")
 _NO_SIGN = "-"

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from teo_common.text_folding import strip_marks
 from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS
 from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.lstm256.input_tokens import MARKS
 from teo_sign_translator.lstm256.phrasebook import Match, Phrasebook
 from teo_sign_translator.lstm256.seq2seq import Prediction, SequenceModel
-from teo_sign_translator.output.number_signs import number
-from teo_sign_translator.output.output_words import Draft, carried, spelled
+from teo_sign_translator.lstm256.tokens import MARKS
+from teo_sign_translator.output.output_words import OutputWord, carried, number, spelled
 from teo_sign_translator.output.translation import Kind, Origin
-from teo_sign_translator.text.cleaning import strip_marks
 from teo_sign_translator.text.reading import Clause, Word, WordKind
 
 #: Confidence in an answer to a sentence outside the training data, times the model's probability: a model
@@ -40,7 +39,7 @@ class KnownSentences:
         self._glosses = glosses
         self._inputs = {strip_marks(token): token for token in model.inputs.tokens if token not in SLOTS}
 
-    def translate(self, match: Match, clauses: Sequence[Clause]) -> list[Draft] | None:
+    def translate(self, match: Match, clauses: Sequence[Clause]) -> list[OutputWord] | None:
         """Translate a sentence of the training data.
 
         Args:
@@ -60,9 +59,9 @@ class KnownSentences:
         prediction = self._believed(tokens)
         if prediction is None or prediction.tokens != match.pattern.glosses:
             return None
-        return _drafts(prediction, match.pattern.sources, match.words, factor=1.0)
+        return _output_words(prediction, match.pattern.sources, match.words, factor=1.0)
 
-    def translate_similar(self, words: Sequence[Word], end: str) -> list[Draft] | None:
+    def translate_similar(self, words: Sequence[Word], end: str) -> list[OutputWord] | None:
         """Translate a sentence that the model was not trained on, if its answer can be accounted for.
 
         Args:
@@ -82,7 +81,7 @@ class KnownSentences:
         sources = self._account(prediction.tokens, groups)
         if sources is None:
             return None
-        return _drafts(prediction, sources, [group for _, group in groups], factor=UNSEEN_FACTOR)
+        return _output_words(prediction, sources, [group for _, group in groups], factor=UNSEEN_FACTOR)
 
     def _believed(self, tokens: Sequence[str]) -> Prediction | None:
         """The model's answer, if it is one and the model is sure of it."""
@@ -153,13 +152,13 @@ class KnownSentences:
         return all(entry is not None and entry.function for entry in entries)
 
 
-def _drafts(
+def _output_words(
     prediction: Prediction,
     sources: Sequence[tuple[int, ...]],
     words: Sequence[tuple[Word, ...]],
     *,
     factor: float,
-) -> list[Draft]:
+) -> list[OutputWord]:
     """Output words of a prediction; words that no gloss stands for go with the next one that has a gloss.
 
     Args:
@@ -169,7 +168,7 @@ def _drafts(
         factor: Times the model's probabilities gives the confidence.
     """
     extras = _unclaimed(sources, len(words))
-    result: list[Draft] = []
+    result: list[OutputWord] = []
     for token, probability, own, extra in zip(
         prediction.tokens, prediction.probabilities, sources, extras, strict=True
     ):
@@ -177,7 +176,7 @@ def _drafts(
         if token not in SLOTS:
             said = _typed(words, sorted((*own, *extra)))
             result.append(
-                Draft(
+                OutputWord(
                     signs=(token,), kind=Kind.LEXICAL, confidence=confidence, words=said, origin=Origin.MODEL
                 )
             )

@@ -7,10 +7,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from teo_common.text_folding import strip_marks
 from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS, AlignedPair
 from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.lstm256.input_tokens import MARKS, folded_tokens
-from teo_sign_translator.text.cleaning import strip_marks
+from teo_sign_translator.lstm256.tokens import MARKS, folded_tokens
 from teo_sign_translator.text.reading import Word, WordKind, read
 from teo_sign_translator.text.sentence_type import SentenceType, sentence_type
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.vocabulary import END, START, Vocabulary
+from teo_sign_translator.lstm256.tokens import END, START, Vocabulary
 
 Array = NDArray[np.float32]
 

@@ -1,44 +1,32 @@
-"""Models as files: weights in safetensors, and a card that says what they are and what made them."""
+"""The published model's files."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import safetensors.numpy
-from numpy.typing import NDArray
-from safetensors import SafetensorError
-
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.seq2seq import LstmModel
-from teo_sign_translator.lstm256.vocabulary import Vocabulary
-from teo_sign_translator.model_card import read_card
-from teo_sign_translator.pointer.zoo import POINTER
-from teo_sign_translator.resources import models_directory
-from teo_sign_translator.tables import write_atomically
+from teo_sign_translator.lstm256.tokens import Vocabulary
+from teo_sign_translator.model_files import (
+    Weights,
+    available_models,
+    models_directory,
+    read_card,
+    read_weights,
+    write_model,
+)
 
-#: Of the models that ship: translates sentences that it has not seen.
-DEFAULT_MODEL = POINTER
-
-_SCHEMA = 1
-
-
-def available_models(directory: Path | None = None) -> tuple[str, ...]:
-    """Names of the models in a folder (by default the package's), sorted."""
-    directory = directory or models_directory()
-    return tuple(
-        sorted(path.stem for path in directory.glob("*.safetensors") if path.with_suffix(".json").is_file())
-    )
+#: Of the cards of this kind of model.
+SCHEMA = 1
 
 
 def load_model(name: str, directory: Path | None = None) -> LstmModel:
     """Load a model.
 
     Args:
-        name: One of `available_models`.
+        name: One of `model_files.available_models`.
         directory: Folder of the models; by default the package's.
 
     Raises:
@@ -50,13 +38,11 @@ def load_model(name: str, directory: Path | None = None) -> LstmModel:
         raise TranslationError("unknown_model", f"expected a model of {directory} ({known}), got '{name}'")
     card = load_card(name, directory)
     path = directory / f"{name}.safetensors"
+    weights = read_weights(path)
     try:
-        weights = safetensors.numpy.load_file(path)
         return LstmModel(
             Vocabulary(card["vocabulary"]["input"]), Vocabulary(card["vocabulary"]["output"]), weights
         )
-    except (OSError, SafetensorError) as error:
-        raise TranslationError("invalid_model", f"{path}: expected a safetensors file: {error}") from error
     except (KeyError, TypeError) as error:
         raise TranslationError(
             "invalid_model", f"{path.with_suffix('.json')}: no usable vocabulary: {error}"
@@ -71,7 +57,7 @@ def load_card(name: str, directory: Path | None = None) -> dict[str, Any]:
     Raises:
         TranslationError: "invalid_model" if it cannot be read or has another schema.
     """
-    return read_card((directory or models_directory()) / f"{name}.json", _SCHEMA)
+    return read_card((directory or models_directory()) / f"{name}.json", SCHEMA)
 
 
 def save_model(
@@ -80,7 +66,7 @@ def save_model(
     *,
     inputs: Vocabulary,
     outputs: Vocabulary,
-    weights: Mapping[str, NDArray[np.float32]],
+    weights: Weights,
     card: Mapping[str, Any],
 ) -> None:
     """Write weights, in half precision, and card.
@@ -93,13 +79,10 @@ def save_model(
         weights: As `LstmModel` takes them.
         card: What else the card says.
     """
-    halves = {key: value.astype(np.float16) for key, value in weights.items()}
     content = {
-        "schema": _SCHEMA,
+        "schema": SCHEMA,
         "name": name,
         **card,
         "vocabulary": {"input": list(inputs.tokens), "output": list(outputs.tokens)},
     }
-    write_atomically(directory / f"{name}.safetensors", safetensors.numpy.save(halves))
-    text = json.dumps(content, ensure_ascii=False, indent=2)
-    write_atomically(directory / f"{name}.json", text.encode() + b"\n")
+    write_model(name, directory, weights, content, indent=2)

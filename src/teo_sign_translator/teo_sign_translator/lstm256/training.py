@@ -15,7 +15,7 @@ from torch.nn.utils.rnn import pack_padded_sequence, pad_sequence
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.seq2seq import LstmModel
-from teo_sign_translator.lstm256.vocabulary import END, START, Vocabulary
+from teo_sign_translator.lstm256.tokens import END, START, Vocabulary
 
 #: One input sequence and its output sequence.
 Example = tuple[tuple[str, ...], tuple[str, ...]]

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from itertools import takewhile
 
 from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.output.number_signs import number
-from teo_sign_translator.output.output_words import Draft, carried, spelled
+from teo_sign_translator.output.output_words import OutputWord, carried, number, spelled
 from teo_sign_translator.output.translation import Kind, Origin
 from teo_sign_translator.text.reading import Word, WordKind
 
@@ -22,7 +21,7 @@ NAME_CONFIDENCE = 0.5
 SPELLED_CONFIDENCE = 0.3
 
 
-def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
+def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:
     """Sign each word: listed words and phrases by their gloss, numbers by digits, all others spelled.
 
     Function words have no sign and go with the next word. A capital in the middle marks a name, which is
@@ -30,7 +29,7 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
     """
     shouted = all(word.parts[0].isupper() for word in words)
     content = [word for word in words if not _is_function(word, glosses)]
-    result: list[Draft] = []
+    result: list[OutputWord] = []
     index = 0
     while index < len(words):
         word = words[index]
@@ -54,7 +53,7 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[Draft]:
         else:
             alone = size == len(words)
             result.append(
-                Draft(
+                OutputWord(
                     signs=(entry.gloss,),
                     kind=Kind.LEXICAL,
                     confidence=ALONE_CONFIDENCE if alone else LISTED_CONFIDENCE,

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
+from teo_common.text_folding import strip_marks
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.accents import accents_fit, unaccented
@@ -19,8 +21,6 @@ from teo_sign_translator.morphology.guessing import guess
 from teo_sign_translator.morphology.lexicon import Form
 from teo_sign_translator.morphology.reading import Reading
 from teo_sign_translator.morphology.tags import tag_class
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.text.cleaning import strip_marks
 
 #: Most readings of one word; few words have more, and none of them is likely.
 MAX_READINGS = 4

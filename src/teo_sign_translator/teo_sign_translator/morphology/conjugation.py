@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from teo_common.text_folding import strip_marks
+from teo_sign_translator.data_files import read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.tags import VERB_TAGS
-from teo_sign_translator.tables import read_rows
-from teo_sign_translator.text.cleaning import strip_marks
 
 #: Where one form is several of its verb (come: he, or an order; comía: I, he), the first here is taken for
 #: it, and of persons the third.

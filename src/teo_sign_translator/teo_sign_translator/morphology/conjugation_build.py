@@ -17,11 +17,11 @@ from typing import Annotated, Any
 
 import typer
 
+from teo_common.atomic_files import write_atomically
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.accents import unaccented
 from teo_sign_translator.morphology.tags import IMPERATIVE_PERSONS, PERSONS, VERB_TAGS
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows, write_atomically
 
 #: Forms of one verb by tag, the usual one first.
 Forms = dict[str, tuple[str, ...]]

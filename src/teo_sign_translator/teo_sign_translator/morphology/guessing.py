@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
+from teo_common.text_folding import strip_marks
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.reading import Reading
-from teo_sign_translator.text.cleaning import strip_marks
 
 #: The verb whose endings new verbs take (guglear), and its forms that hardly any noun looks like: -ado,
 #: -ara, -ase, -aste and -o are endings of nouns too.

@@ -6,10 +6,9 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import NamedTuple
 
+from teo_sign_translator.data_files import data_file, read_rows, words_of
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.nominal import feminine, is_invariable, plural
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows, words_of
 
 ADVERB_TAGS = {
     "time-past": "ADV:time:past",

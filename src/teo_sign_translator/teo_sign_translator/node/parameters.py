@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
-from teo_sign_translator.lstm256.store import DEFAULT_MODEL
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
-from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE
+from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE, DEFAULT_MODEL
 
 #: Depth of `sign_tokens` [messages]: a whole text can wait there for a reader that is busy.
 SIGN_TOKENS_DEPTH = 100

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from rclpy.node import Node
 from rclpy.task import Future
+from teo_sign_msgs.msg import SignToken
 from teo_sign_msgs.srv import ListSigns
-
-from teo_sign_translator.node.messages import lexical_glosses
 
 #: How often the executor is asked for its signs [s]: a new sign is used before anyone has typed a sentence.
 SIGNS_PERIOD = 2.0
@@ -58,3 +57,12 @@ class SignInventory:
         if signs != self._answered:
             self._answered = signs
             self._node.get_logger().info(f"{len(signs)} glosses have signs")
+
+
+def lexical_glosses(response: ListSigns.Response) -> frozenset[str]:
+    """Glosses that have a sign of their own, without letters and numbers."""
+    return frozenset(
+        gloss
+        for gloss, kind in zip(response.glosses, response.kinds, strict=True)
+        if kind == SignToken.KIND_LEXICAL
+    )

@@ -22,11 +22,10 @@ from teo_sign_msgs.srv import Translate
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.node.log_text import quoted, short
-from teo_sign_translator.node.messages import to_diagnostics, to_messages
+from teo_sign_translator.node.diagnostics import Statistics, quoted, short, to_diagnostics
+from teo_sign_translator.node.messages import to_messages
 from teo_sign_translator.node.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
 from teo_sign_translator.node.sign_inventory import SignInventory
-from teo_sign_translator.node.text_statistics import Statistics
 from teo_sign_translator.node.text_worker import TextWorker
 from teo_sign_translator.output.sign_choice import listed_signs
 from teo_sign_translator.pipeline.translator import Translator

@@ -9,9 +9,12 @@ from itertools import groupby
 from teo_sign_translator.output.spelling import DIGITS, letters
 from teo_sign_translator.output.translation import Kind, Origin, Token
 
+# Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
+_DECIMAL_GLOSS = "COMA"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Draft:
+class OutputWord:
     """One output word.
 
     Attributes:
@@ -35,15 +38,17 @@ class Draft:
 
 
 #: Hands held still between two clauses.
-PAUSE = Draft(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PAUSE)
+PAUSE = OutputWord(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origin=Origin.PAUSE)
 
 
-def carried(word: str, typed: tuple[str, ...]) -> Draft:
-    """A word that goes with the next draft that is signed."""
-    return Draft(signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word)
+def carried(word: str, typed: tuple[str, ...]) -> OutputWord:
+    """A word that goes with the next output word that is signed."""
+    return OutputWord(
+        signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word
+    )
 
 
-def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[Draft]:
+def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[OutputWord]:
     """A word in letters of the manual alphabet; digits in it ("UC3M") as numbers.
 
     Args:
@@ -51,21 +56,50 @@ def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[Draft]
         typed: Words of the text that it stands for.
         confidence: 0 to 1.
     """
-    result: list[Draft] = []
+    result: list[OutputWord] = []
     for is_number, run in groupby(word, key=lambda character: character in DIGITS):
         text = "".join(run)
         signs = tuple(text) if is_number else letters(text)
         if signs:
             kind = Kind.NUMBER if is_number else Kind.LETTER
             result.append(
-                Draft(signs=signs, kind=kind, confidence=confidence, words=typed, origin=Origin.SPELLED)
+                OutputWord(signs=signs, kind=kind, confidence=confidence, words=typed, origin=Origin.SPELLED)
             )
     return result
 
 
-def name(gloss: str, typed: tuple[str, ...], confidence: float) -> Draft:
+def number(value: str, typed: tuple[str, ...], confidence: float) -> list[OutputWord]:
+    """A number as the signs of its digits; a decimal comma is a word between them.
+
+    Hours and minutes of a time of day are two numbers; no minutes are not said.
+
+    Args:
+        value: Digits, with one `,` if it has decimals, or one `:` in a time of day.
+        typed: Words of the text that it stands for.
+        confidence: 0 to 1.
+    """
+    hours, _, minutes = value.partition(":")
+    if minutes:
+        said = [hours] if minutes == "00" else [hours, minutes]
+        return [_digits(digits, typed, confidence) for digits in said]
+    whole, _, decimals = value.partition(",")
+    if not decimals:
+        return [_digits(whole, typed, confidence)]
+    comma = OutputWord(
+        signs=(_DECIMAL_GLOSS,), kind=Kind.LEXICAL, confidence=confidence, words=typed, origin=Origin.NUMBER
+    )
+    return [_digits(whole, typed, confidence), comma, _digits(decimals, typed, confidence)]
+
+
+def _digits(digits: str, typed: tuple[str, ...], confidence: float) -> OutputWord:
+    return OutputWord(
+        signs=tuple(digits), kind=Kind.NUMBER, confidence=confidence, words=typed, origin=Origin.NUMBER
+    )
+
+
+def name(gloss: str, typed: tuple[str, ...], confidence: float) -> OutputWord:
     """Somebody's name; its letters if it has no sign."""
-    return Draft(
+    return OutputWord(
         signs=(gloss,),
         kind=Kind.LEXICAL,
         confidence=confidence,
@@ -75,26 +109,30 @@ def name(gloss: str, typed: tuple[str, ...], confidence: float) -> Draft:
     )
 
 
-def hand_over(drafts: Sequence[Draft], confidence: float) -> list[Draft]:
-    """Give the words of drafts without signs to the next one that is signed, or to the last.
+def hand_over(output_words: Sequence[OutputWord], confidence: float) -> list[OutputWord]:
+    """Give the words of output words without signs to the next one that is signed, or to the last.
 
     Args:
-        drafts: Of one sentence. If none of them is signed, their words are spelled.
+        output_words: Of one sentence. If none of them is signed, their words are spelled.
         confidence: Of words that are spelled for that reason.
     """
-    if not any(draft.signs and draft.kind is not Kind.PAUSE for draft in drafts):
-        return [each for draft in drafts for each in spelled(draft.said, draft.words, confidence)]
-    result: list[Draft] = []
+    if not any(output_word.signs and output_word.kind is not Kind.PAUSE for output_word in output_words):
+        return [
+            each
+            for output_word in output_words
+            for each in spelled(output_word.said, output_word.words, confidence)
+        ]
+    result: list[OutputWord] = []
     waiting: list[str] = []
-    for draft in drafts:
-        if not draft.signs:
-            waiting += draft.words
-        elif draft.kind is Kind.PAUSE:
+    for output_word in output_words:
+        if not output_word.signs:
+            waiting += output_word.words
+        elif output_word.kind is Kind.PAUSE:
             # One pause between two words, none at the ends, however many marks were typed.
             if result and result[-1].kind is not Kind.PAUSE:
-                result.append(draft)
+                result.append(output_word)
         else:
-            result.append(replace(draft, words=(*waiting, *draft.words)))
+            result.append(replace(output_word, words=(*waiting, *output_word.words)))
             waiting = []
     if result[-1].kind is Kind.PAUSE:
         result.pop()
@@ -102,28 +140,33 @@ def hand_over(drafts: Sequence[Draft], confidence: float) -> list[Draft]:
     return result
 
 
-def number_tokens(drafts: Iterable[Draft]) -> tuple[Token, ...]:
-    """Turn drafts into tokens, counting the output words."""
+def number_tokens(output_words: Iterable[OutputWord]) -> tuple[Token, ...]:
+    """Turn output words into tokens, counting the output words."""
     return tuple(
         Token(
             gloss=sign,
-            kind=draft.kind,
-            confidence=draft.confidence,
+            kind=output_word.kind,
+            confidence=output_word.confidence,
             word_index=index,
-            source_words=draft.words,
-            origin=draft.origin,
+            source_words=output_word.words,
+            origin=output_word.origin,
         )
-        for index, draft in enumerate(drafts)
-        for sign in draft.signs
+        for index, output_word in enumerate(output_words)
+        for sign in output_word.signs
     )
 
 
-def divide(drafts: Sequence[Draft], most: int) -> list[list[Draft]]:
-    """Divide drafts into parts of at most `most` signs, between words unless one word is longer than that."""
-    parts: list[list[Draft]] = [[]]
+def divide(output_words: Sequence[OutputWord], most: int) -> list[list[OutputWord]]:
+    """Divide output words into parts of at most so many signs.
+
+    Args:
+        output_words: Of one sentence.
+        most: Signs of a part; the division is between words unless one word has more.
+    """
+    parts: list[list[OutputWord]] = [[]]
     room = most
-    for draft in drafts:
-        rest = draft
+    for output_word in output_words:
+        rest = output_word
         while len(rest.signs) > room:
             if room == most or (len(rest.signs) > most and room > 0):
                 parts[-1].append(replace(rest, signs=rest.signs[:room]))

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 
+from teo_sign_translator.data_files import data_file, read_lines
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.output_words import Draft, spelled
+from teo_sign_translator.output.output_words import OutputWord, spelled
 from teo_sign_translator.output.translation import Kind, Origin
-from teo_sign_translator.resources import data_file
 
 # What a look-up table can name: Spanish letters, `_` for spaces, as long as a message holds.
 _SIGN_NAME = re.compile(r"[A-ZÁÉÍÓÚÜÑ_]{1,64}")
@@ -28,13 +28,7 @@ def read_synonyms(path: Path | None = None) -> dict[str, tuple[str, ...]]:
     """
     path = path or data_file("synonyms.tsv")
     synonyms: dict[str, tuple[str, ...]] = {}
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise TranslationError("invalid_data", f"{path}: expected a readable UTF-8 file: {error}") from error
-    for line_number, line in enumerate(lines, start=1):
-        if not line.strip() or line.startswith("#"):
-            continue
+    for line_number, line in read_lines(path):
         group = [gloss.strip() for gloss in line.split(",")]
         if len(group) < 2 or any(not _SIGN_NAME.fullmatch(gloss) or gloss in synonyms for gloss in group):
             raise TranslationError(
@@ -52,14 +46,10 @@ def read_signs(path: Path) -> frozenset[str]:
     Raises:
         TranslationError: "invalid_data", with file and line.
     """
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise TranslationError("invalid_data", f"{path}: expected a readable UTF-8 file: {error}") from error
     signs: set[str] = set()
-    for line_number, line in enumerate(lines, start=1):
+    for line_number, line in read_lines(path):
         gloss = line.strip().upper()
-        if not gloss or gloss.startswith("#"):
+        if gloss.startswith("#"):
             continue
         if not _SIGN_NAME.fullmatch(gloss):
             raise TranslationError(
@@ -91,38 +81,38 @@ class SignChooser:
         self._synonyms = synonyms
         self._morphology = morphology
 
-    def choose(self, drafts: Iterable[Draft], signs: Set[str] | None) -> list[Draft]:
-        """Make drafts of what has signs, in the same order.
+    def choose(self, output_words: Iterable[OutputWord], signs: Set[str] | None) -> list[OutputWord]:
+        """Make output words of what has signs, in the same order.
 
         Args:
-            drafts: Glosses, letters, numbers, pauses.
+            output_words: Glosses, letters, numbers, pauses.
             signs: Glosses that have a sign of their own. None if that is not known: then every gloss that
                 could have one is kept, for the executor to look up, and names are spelled.
         """
-        return [chosen for draft in drafts for chosen in self._choose(draft, signs)]
+        return [chosen for output_word in output_words for chosen in self._choose(output_word, signs)]
 
-    def _choose(self, draft: Draft, signs: Set[str] | None) -> Sequence[Draft]:
-        if draft.kind is not Kind.LEXICAL or not draft.signs:
-            return [draft]
-        (gloss,) = draft.signs
+    def _choose(self, output_word: OutputWord, signs: Set[str] | None) -> Sequence[OutputWord]:
+        if output_word.kind is not Kind.LEXICAL or not output_word.signs:
+            return [output_word]
+        (gloss,) = output_word.signs
         if signs is None:
-            keeps = not draft.is_name and _SIGN_NAME.fullmatch(gloss)
-            return [draft] if keeps else _letters(draft)
+            keeps = not output_word.is_name and _SIGN_NAME.fullmatch(gloss)
+            return [output_word] if keeps else _letters(output_word)
         if gloss in signs:
-            return [draft]
-        if draft.is_name:
-            return _letters(draft)
+            return [output_word]
+        if output_word.is_name:
+            return _letters(output_word)
         for other in self._lemmas(gloss):
             if other in signs:
-                return [replace(draft, signs=(other,), origin=Origin.LEMMA)]
+                return [replace(output_word, signs=(other,), origin=Origin.LEMMA)]
         for known in (gloss, *self._lemmas(gloss)):
             for other in self._synonyms.get(known, ()):
                 if other in signs:
-                    return [replace(draft, signs=(other,), origin=Origin.SYNONYM)]
+                    return [replace(output_word, signs=(other,), origin=Origin.SYNONYM)]
         parts = [part for part in gloss.split("_") if part]
         if len(parts) > 1:
-            return [c for part in parts for c in self._choose(replace(draft, signs=(part,)), signs)]
-        return _letters(draft)
+            return [c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs)]
+        return _letters(output_word)
 
     def _lemmas(self, gloss: str) -> tuple[str, ...]:
         """Other glosses of the same word: AMIGO for AMIGA."""
@@ -133,6 +123,8 @@ class SignChooser:
         return tuple(dict.fromkeys(lemma for lemma in lemmas if lemma != gloss))
 
 
-def _letters(draft: Draft) -> list[Draft]:
-    (gloss,) = draft.signs
-    return [each for part in gloss.split("_") for each in spelled(part, draft.words, draft.confidence)]
+def _letters(output_word: OutputWord) -> list[OutputWord]:
+    (gloss,) = output_word.signs
+    return [
+        each for part in gloss.split("_") for each in spelled(part, output_word.words, output_word.confidence)
+    ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import unicodedata
+from teo_common.text_folding import without_accents
 
 #: The 30 signs of the LSE manual alphabet; CH, LL and RR are one sign each.
 ALPHABET = frozenset("ABCDEFGHIJKLMNÑOPQRSTUVWXYZ") | {"CH", "LL", "RR"}
@@ -11,23 +11,14 @@ ALPHABET = frozenset("ABCDEFGHIJKLMNÑOPQRSTUVWXYZ") | {"CH", "LL", "RR"}
 DIGITS = frozenset("0123456789")
 
 # Letters of other Latin alphabets that are no base letter with a mark, as Spanish texts transcribe them.
-_TRANSCRIPTION = {
-    "ẞ": "SS", "Æ": "AE", "Œ": "OE", "Ø": "O", "Ł": "L", "Đ": "D", "Ð": "D", "Þ": "TH", "ª": "A", "º": "O",
-}  # fmt: skip
+_TRANSCRIPTION = str.maketrans(
+    {"ẞ": "SS", "Æ": "AE", "Œ": "OE", "Ø": "O", "Ł": "L", "Đ": "D", "Ð": "D", "Þ": "TH", "ª": "A", "º": "O"}
+)
 
 
 def plain_letters(word: str) -> str:
     """A word in capitals A to Z and Ñ, without accents; letters that have no such form stay as they are."""
-    result: list[str] = []
-    for character in unicodedata.normalize("NFC", word):
-        upper = _TRANSCRIPTION.get(character) or character.upper()
-        for letter in upper:
-            if letter == "Ñ":
-                result.append(letter)
-                continue
-            base = "".join(c for c in unicodedata.normalize("NFD", letter) if unicodedata.category(c) != "Mn")
-            result.append(_TRANSCRIPTION.get(base, base))
-    return "".join(result)
+    return without_accents(word.upper()).translate(_TRANSCRIPTION)
 
 
 def letters(word: str) -> tuple[str, ...]:

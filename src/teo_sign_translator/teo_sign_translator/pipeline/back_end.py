@@ -1,4 +1,4 @@
-"""From the clauses of a text to drafts of its sentences: what every model has in common."""
+"""From the clauses of a text to output words of its sentences: what every model has in common."""
 
 from __future__ import annotations
 
@@ -6,39 +6,40 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from teo_sign_translator.output.output_words import Draft
+from teo_sign_translator.output.output_words import OutputWord
 from teo_sign_translator.text.reading import Clause
 from teo_sign_translator.text.sentence_type import SentenceType
 
 
 @dataclass(frozen=True, slots=True)
-class DraftedSentence:
+class TranslatedSentence:
     """One sentence of a text, translated.
 
     Attributes:
         clauses: At least one.
-        drafts: Its output words and pauses, in signing order.
+        output_words: Its output words and pauses, in signing order.
         recognised: Its type as far as the translation tells; counts only if no mark was typed.
     """
 
     clauses: Sequence[Clause]
-    drafts: Sequence[Draft]
+    output_words: Sequence[OutputWord]
     recognised: SentenceType | None
 
 
-class Route(Protocol):
+class BackEnd(Protocol):
     """A way of translating sentences, with its model."""
 
     @property
     def name(self) -> str:
         """Of the model."""
 
-    def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[DraftedSentence]]:
+    def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[TranslatedSentence]]:
         """Translate texts.
 
         Args:
             texts: The clauses of each.
 
         Returns:
-            The sentences of each text, in its order; every word of the text is among their drafts' words.
+            The sentences of each text, in its order; every word of the text is among the
+            words of their output.
         """

@@ -5,15 +5,67 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
+from teo_common.text_folding import fold
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.neural import OutputGloss
-from teo_sign_translator.pipeline.function_words import FunctionWords
+from teo_sign_translator.morphology import TAGS, Reading
+from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
 from teo_sign_translator.text.source_words import SourceWord
+
+_ANY = "*"
+
+
+class FunctionWords:
+    """Tells function words from words with a meaning of their own."""
+
+    def __init__(self, lemmas: dict[str, frozenset[str]]) -> None:
+        """Take lemmas by the beginning of the tag that they must have; `*` among them stands for all."""
+        self._lemmas = dict(lemmas)
+
+    @classmethod
+    def load(cls, path: Path | None = None) -> FunctionWords:
+        """Read the list.
+
+        Args:
+            path: The file; by default the package's `data/function_words.tsv`, which explains its columns.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        path = path or data_file("function_words.tsv")
+        lemmas: dict[str, frozenset[str]] = {}
+        for number, (tag, listed) in read_rows(path, columns=2):
+            if tag in lemmas or not any(_begins(known, tag) for known in TAGS):
+                raise TranslationError(
+                    "invalid_data",
+                    f"{path}, line {number}: expected the beginning of a tag, once, got '{tag}'",
+                )
+            lemmas[tag] = frozenset(lemma.strip() for lemma in listed.split(","))
+        return cls(lemmas)
+
+    def may_be_left_out(self, word: SourceWord) -> bool:
+        """Whether one of a word's readings is a function word, or it is a mark.
+
+        Who types accents means them: "quién" is not "quien"; "esta" may be "está".
+        """
+        plain = word.form == fold(word.form)
+        return word.is_mark or any(self.lists(reading) for reading in word.readings if plain or reading.exact)
+
+    def lists(self, reading: Reading) -> bool:
+        """Whether this reading is that of a function word."""
+        found = self._by_tag.get(reading.tag)
+        if found is None:
+            listed = [lemmas for tag, lemmas in self._lemmas.items() if _begins(reading.tag, tag)]
+            found = self._by_tag[reading.tag] = frozenset[str]().union(*listed)
+        return _ANY in found or reading.lemma in found
+
+    @cached_property
+    def _by_tag(self) -> dict[str, frozenset[str]]:
+        return {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,3 +181,7 @@ def _says_only_the_future(words: Sequence[SourceWord], place: int) -> bool:
         and following[0].form == "a"
         and any(reading.tag == "V:inf" for reading in following[1].readings)
     )
+
+
+def _begins(tag: str, beginning: str) -> bool:
+    return tag == beginning or tag.startswith(f"{beginning}:")

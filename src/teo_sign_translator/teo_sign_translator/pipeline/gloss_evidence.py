@@ -1,4 +1,4 @@
-"""Which glosses of a translation no word of the sentence warrants: a model has invented them."""
+"""Which glosses of a translation have no evidence in the sentence: a model has invented them."""
 
 from __future__ import annotations
 
@@ -8,13 +8,12 @@ from fnmatch import fnmatchcase
 from functools import lru_cache
 from pathlib import Path
 
+from teo_common.text_folding import fold
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.neural import OutputGloss
+from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
-from teo_sign_translator.text.cleaning import fold
 from teo_sign_translator.text.source_words import SourceWord
 
 _NONE = "-"
@@ -40,8 +39,8 @@ _CLITICS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Warrant:
-    """What warrants a gloss.
+class Evidence:
+    """What in a sentence is evidence for a gloss.
 
     Attributes:
         tags: Patterns of tags.
@@ -52,7 +51,7 @@ class Warrant:
     lemmas: frozenset[str]
 
     def given_by(self, reading: Reading) -> bool:
-        """Whether this reading warrants the gloss."""
+        """Whether this reading is evidence for the gloss."""
         return (
             reading.lemma in self.lemmas
             or _fits(reading.tag, self.tags)
@@ -60,36 +59,36 @@ class Warrant:
         )
 
 
-class Warrants:
+class GlossEvidence:
     """Finds invented glosses."""
 
-    def __init__(self, by_gloss: Mapping[str, Warrant]) -> None:
-        """Take what warrants each gloss; others need none."""
+    def __init__(self, by_gloss: Mapping[str, Evidence]) -> None:
+        """Take the evidence that each gloss needs; others need none."""
         self._by_gloss = dict(by_gloss)
 
     @classmethod
-    def load(cls, path: Path | None = None) -> Warrants:
+    def load(cls, path: Path | None = None) -> GlossEvidence:
         """Read the list.
 
         Args:
-            path: The file; by default the package's `data/warrants.tsv`, which explains its columns.
+            path: The file; by default the package's `data/gloss_evidence.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        path = path or data_file("warrants.tsv")
-        found: dict[str, Warrant] = {}
+        path = path or data_file("gloss_evidence.tsv")
+        found: dict[str, Evidence] = {}
         for number, (gloss, tags, lemmas) in read_rows(path, columns=3):
             if gloss in found or gloss != gloss.upper():
                 raise TranslationError(
                     "invalid_data",
                     f"{path}, line {number}: expected a gloss in capitals, once, got '{gloss}'",
                 )
-            found[gloss] = Warrant(tuple(_listed(tags)), frozenset(_listed(lemmas)))
+            found[gloss] = Evidence(tuple(_listed(tags)), frozenset(_listed(lemmas)))
         return cls(found)
 
     def invented(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
-        """Places of the glosses that no word warrants.
+        """Places of the glosses that no word is evidence for.
 
         Besides those listed: of PASADO beside a verb that is now, and of a word said twice that is there
         once and no plural.
@@ -103,15 +102,15 @@ class Warrants:
         return [
             place
             for place, gloss in enumerate(glosses)
-            if (self._unwarranted(gloss.gloss, readings) and not _unsure(gloss, words))
+            if (self._lacks_evidence(gloss.gloss, readings) and not _unsure(gloss, words))
             or (gloss.gloss == _PAST and _present(glosses[place:], meant))
             or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words, readings))
         ]
 
-    def _unwarranted(self, gloss: str, readings: Sequence[Reading]) -> bool:
-        warrant = self._by_gloss.get(gloss)
-        return warrant is not None and not any(
-            warrant.given_by(reading) or copied_gloss(reading) == gloss for reading in readings
+    def _lacks_evidence(self, gloss: str, readings: Sequence[Reading]) -> bool:
+        evidence = self._by_gloss.get(gloss)
+        return evidence is not None and not any(
+            evidence.given_by(reading) or copied_gloss(reading) == gloss for reading in readings
         )
 
 

@@ -1,4 +1,4 @@
-"""Glosses of a sentence model as drafts: signs, names, numbers, pauses, each with the words behind it."""
+"""Glosses of a sentence model as output words: signs, names, numbers and pauses, with the words they say."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.neural import OutputGloss
-from teo_sign_translator.output.number_signs import number
-from teo_sign_translator.output.output_words import PAUSE, Draft, name
+from teo_sign_translator.output.output_words import PAUSE, OutputWord, name, number
 from teo_sign_translator.output.translation import Kind, Origin
-from teo_sign_translator.pipeline.hypothesis_repair import Faithful
+from teo_sign_translator.pipeline.hypothesis_repair import Repaired
+from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
 
@@ -21,8 +20,10 @@ _PEOPLE = ("NAME", "NAME:m", "NAME:f")
 _NAME_GLOSS = "NOMBRE"
 
 
-def gloss_drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection[str]) -> list[Draft]:
-    """Glosses as drafts; words that none stands for go with the next one, marks between them are pauses.
+def gloss_output_words(
+    words: Sequence[SourceWord], said: Repaired, signed: Collection[str]
+) -> list[OutputWord]:
+    """Glosses as output words; words that none says go with the next one, marks between them are pauses.
 
     Args:
         words: Of the sentence.
@@ -31,25 +32,25 @@ def gloss_drafts(words: Sequence[SourceWord], said: Faithful, signed: Collection
     """
     typed = _typed(words, [gloss.sources for gloss in said.glosses])
     pauses = _pauses(words, said.glosses)
-    result: list[Draft] = []
+    result: list[OutputWord] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
         named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
         origin = Origin.REPAIRED if repaired else Origin.MODEL
-        draft = _draft(words, gloss, origin, own, named=named)
-        result += [replace(each, is_name=False) for each in draft] if gloss.gloss in signed else draft
+        own_words = _output_words(words, gloss, origin, own, named=named)
+        result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
         if place in pauses:
             result.append(PAUSE)
     return result
 
 
-def _draft(
+def _output_words(
     words: Sequence[SourceWord],
     gloss: OutputGloss,
     origin: Origin,
     typed: tuple[str, ...],
     *,
     named: bool,
-) -> list[Draft]:
+) -> list[OutputWord]:
     """A gloss as a sign, a name or a number.
 
     Args:
@@ -66,7 +67,7 @@ def _draft(
     if _is_name([words[source] for source in gloss.sources], meant, named=named):
         return [name(gloss.gloss, typed, gloss.probability)]
     return [
-        Draft(
+        OutputWord(
             signs=(gloss.gloss,),
             kind=Kind.LEXICAL,
             confidence=gloss.probability,

@@ -1,15 +1,15 @@
-"""Seeing to it that a translation loses no word of its sentence and invents none."""
+"""Mends what a model says: a translation loses no word of its sentence and invents none."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.neural import Hypothesis, OutputGloss
 from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.function_words import FunctionWords
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
+from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
+from teo_sign_translator.pipeline.long_sentences import Piece
+from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
 
@@ -21,7 +21,7 @@ _LAST = ("WH",)
 
 
 @dataclass(frozen=True, slots=True)
-class Faithful:
+class Repaired:
     """Glosses that leave no word out.
 
     Attributes:
@@ -33,71 +33,104 @@ class Faithful:
     repaired: tuple[bool, ...]
 
 
-def as_said(hypothesis: Hypothesis) -> Faithful:
+def as_said(hypothesis: Hypothesis) -> Repaired:
     """A translation as the model says it."""
-    return Faithful(hypothesis.glosses, (False,) * len(hypothesis.glosses))
+    return Repaired(hypothesis.glosses, (False,) * len(hypothesis.glosses))
 
 
-def faithful(
-    words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis], coverage: Coverage, warrants: Warrants
-) -> Faithful:
-    """The best translation that loses no word and invents no gloss.
+@dataclass(frozen=True, slots=True)
+class HypothesisRepair:
+    """Chooses among a model's translations, and mends the one it chooses: no word lost, no gloss invented.
 
-    If there is none, that with the fewest faults, without what it invents and with what it loses put back: a
-    sign that nobody said misleads. A word put back stands beside the gloss of the nearest word that has one,
-    a question word last. A sentence of nothing but function words has each of them signed, since it would be
-    empty otherwise.
-
-    Args:
-        words: Of the sentence; one at least is no mark.
-        hypotheses: Its translations, best first.
+    Attributes:
         coverage: Finds lost words.
-        warrants: Finds invented glosses.
+        evidence: Finds invented glosses.
     """
-    for hypothesis in hypotheses:
-        if hypothesis.glosses and not _faults(words, hypothesis.glosses, coverage, warrants):
-            return as_said(hypothesis)
-    best = min(
-        (each.glosses for each in hypotheses), key=lambda each: _faults(words, each, coverage, warrants)
-    )
-    invented = warrants.invented(words, best)
-    best = tuple(gloss for place, gloss in enumerate(best) if place not in invented)
-    missing = {place: _meant(words[place], coverage.function_words) for place in coverage.lost(words, best)}
-    if not best and not missing:
-        missing = {place: word.readings[0] for place, word in enumerate(words) if not word.is_mark}
-    glosses = list(best)
-    repaired = [False] * len(best)
-    for place, reading in missing.items():
-        index = len(glosses)
-        if not reading.tag.startswith(_LAST):
-            index = _beside(place, words, glosses, coverage)
-        gloss = OutputGloss(copied_gloss(reading), (place,), REPAIRED_CONFIDENCE, copied=True)
-        glosses.insert(index, gloss)
-        repaired.insert(index, True)
-    return Faithful(tuple(glosses), tuple(repaired))
 
+    coverage: Coverage
+    evidence: GlossEvidence
 
-def _faults(
-    words: Sequence[SourceWord], glosses: Sequence[OutputGloss], coverage: Coverage, warrants: Warrants
-) -> int:
-    return len(coverage.lost(words, glosses)) + len(warrants.invented(words, glosses))
+    @classmethod
+    def load(cls) -> HypothesisRepair:
+        """With the package's data.
 
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        return cls(Coverage.load(), GlossEvidence.load())
 
-def _meant(word: SourceWord, function_words: FunctionWords) -> Reading:
-    """The likeliest reading of a word that was left out: a name where a capital says so."""
-    names = (reading for reading in word.readings if word.capital and reading.tag.startswith("NAME"))
-    others = (reading for reading in word.readings if not function_words.lists(reading))
-    return next(names, None) or next(others, None) or word.readings[0]
+    def repair(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
+        """The best translation that loses no word and invents no gloss.
 
+        If there is none, that with the fewest faults, without what it invents and with what it loses put
+        back: a sign that nobody said misleads. A word put back stands beside the gloss of the nearest word
+        that has one, a question word last. A sentence of nothing but function words has each of them signed,
+        since it would be empty otherwise.
 
-def _beside(
-    word: int, words: Sequence[SourceWord], glosses: Sequence[OutputGloss], coverage: Coverage
-) -> int:
-    """Where the gloss of a word belongs: beside that of the nearest word, of two the one before."""
-    best, index = float("inf"), len(glosses)
-    for place, said in enumerate(coverage.said(words, glosses)):
-        for source in said:
-            distance = 2 * abs(source - word) - (source < word)
-            if distance < best or (distance == best and source < word):
-                best, index = distance, place + (source < word)
-    return index
+        Args:
+            words: Of the sentence; one at least is no mark.
+            hypotheses: Its translations, best first.
+        """
+        for hypothesis in hypotheses:
+            if hypothesis.glosses and not self._faults(words, hypothesis.glosses):
+                return as_said(hypothesis)
+        best = min((each.glosses for each in hypotheses), key=lambda each: self._faults(words, each))
+        invented = self.evidence.invented(words, best)
+        best = tuple(gloss for place, gloss in enumerate(best) if place not in invented)
+        missing = {place: self._meant(words[place]) for place in self.coverage.lost(words, best)}
+        if not best and not missing:
+            missing = {place: word.readings[0] for place, word in enumerate(words) if not word.is_mark}
+        glosses = list(best)
+        repaired = [False] * len(best)
+        for place, reading in missing.items():
+            index = len(glosses)
+            if not reading.tag.startswith(_LAST):
+                index = self._beside(place, words, glosses)
+            gloss = OutputGloss(copied_gloss(reading), (place,), REPAIRED_CONFIDENCE, copied=True)
+            glosses.insert(index, gloss)
+            repaired.insert(index, True)
+        return Repaired(tuple(glosses), tuple(repaired))
+
+    def join(self, words: Sequence[SourceWord], translated: Sequence[tuple[Piece, Repaired]]) -> Repaired:
+        """The translation of a sentence from those of its pieces, one after the other.
+
+        A conjunction that has a meaning of its own is signed between them, as far from certain as a word that
+        was put back.
+
+        Args:
+            words: Of the whole sentence.
+            translated: Its pieces in their order, each with its translation.
+        """
+        glosses: list[OutputGloss] = []
+        repaired: list[bool] = []
+        for piece, said in translated:
+            joint = piece.joint
+            if joint is not None and not self.coverage.function_words.may_be_left_out(words[joint]):
+                gloss = copied_gloss(words[joint].readings[0])
+                glosses.append(OutputGloss(gloss, (joint,), REPAIRED_CONFIDENCE, copied=True))
+                repaired.append(False)
+            glosses += (
+                replace(each, sources=tuple(source + piece.start for source in each.sources))
+                for each in said.glosses
+            )
+            repaired += said.repaired
+        return Repaired(tuple(glosses), tuple(repaired))
+
+    def _faults(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int:
+        return len(self.coverage.lost(words, glosses)) + len(self.evidence.invented(words, glosses))
+
+    def _meant(self, word: SourceWord) -> Reading:
+        """The likeliest reading of a word that was left out: a name where a capital says so."""
+        names = (reading for reading in word.readings if word.capital and reading.tag.startswith("NAME"))
+        others = (each for each in word.readings if not self.coverage.function_words.lists(each))
+        return next(names, None) or next(others, None) or word.readings[0]
+
+    def _beside(self, word: int, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int:
+        """Where the gloss of a word belongs: beside that of the nearest word, of two the one before."""
+        best, index = float("inf"), len(glosses)
+        for place, said in enumerate(self.coverage.said(words, glosses)):
+            for source in said:
+                distance = 2 * abs(source - word) - (source < word)
+                if distance < best or (distance == best and source < word):
+                    best, index = distance, place + (source < word)
+        return index

@@ -1,16 +1,11 @@
-"""Dividing a sentence that is too much for the model, and joining the translations of its pieces."""
+"""Dividing a sentence that is too much for the model."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
-from teo_sign_translator.neural import OutputGloss
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.hypothesis_repair import REPAIRED_CONFIDENCE, Faithful
-from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.tables import words_of
+from teo_sign_translator.data_files import words_of
 from teo_sign_translator.text.source_words import SourceWord
 
 #: Words of a sentence that are translated together; a longer one is divided. The model has seen no longer
@@ -68,31 +63,6 @@ def pieces(words: Sequence[SourceWord]) -> list[Piece]:
     if start < len(words):
         result.append(Piece(start, len(words), joint))
     return result
-
-
-def joined(
-    words: Sequence[SourceWord],
-    translated: Sequence[tuple[Piece, Faithful]],
-    coverage: Coverage,
-) -> Faithful:
-    """The translation of a sentence from those of its pieces, one after the other.
-
-    A conjunction that has a meaning of its own is signed between them, as far from certain as a word that
-    was put back.
-    """
-    glosses: list[OutputGloss] = []
-    repaired: list[bool] = []
-    for piece, said in translated:
-        if piece.joint is not None and not coverage.function_words.may_be_left_out(words[piece.joint]):
-            gloss = copied_gloss(words[piece.joint].readings[0])
-            glosses.append(OutputGloss(gloss, (piece.joint,), REPAIRED_CONFIDENCE, copied=True))
-            repaired.append(False)
-        glosses += (
-            replace(each, sources=tuple(source + piece.start for source in each.sources))
-            for each in said.glosses
-        )
-        repaired += said.repaired
-    return Faithful(tuple(glosses), tuple(repaired))
 
 
 def _has_verb(words: Sequence[SourceWord]) -> bool:

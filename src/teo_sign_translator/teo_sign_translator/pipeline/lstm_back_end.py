@@ -10,8 +10,8 @@ from teo_sign_translator.lstm256.known_sentences import KnownSentences
 from teo_sign_translator.lstm256.phrasebook import Match, Phrasebook
 from teo_sign_translator.lstm256.seq2seq import SequenceModel
 from teo_sign_translator.lstm256.word_by_word import word_by_word
-from teo_sign_translator.output.output_words import PAUSE, Draft
-from teo_sign_translator.pipeline.back_end import DraftedSentence
+from teo_sign_translator.output.output_words import PAUSE, OutputWord
+from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.text.reading import Clause, Word
 from teo_sign_translator.text.sentence_type import SentenceType
 
@@ -26,16 +26,16 @@ class _Unit:
 
     Attributes:
         clauses: One, or several that are one sentence of the training data.
-        drafts: Their output words.
+        output_words: Their output words.
         known: Type of the sentence of the training data that ends the unit; None if it is none.
     """
 
     clauses: Sequence[Clause]
-    drafts: list[Draft]
+    output_words: list[OutputWord]
     known: SentenceType | None
 
 
-class PhraseRoute:
+class LstmBackEnd:
     """Translates with a model that has learned sentences by heart, and word by word where it must not.
 
     A sentence of the training data is left to the model. Another sentence is shown to the model if it knows
@@ -60,9 +60,9 @@ class PhraseRoute:
         self._glosses = glosses
         self.name = name
 
-    def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[DraftedSentence]]:
-        """See `Route`."""
-        return [[_drafted(units) for units in self._by_sentence(clauses)] for clauses in texts]
+    def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[TranslatedSentence]]:
+        """See `BackEnd`."""
+        return [[_assembled(units) for units in self._by_sentence(clauses)] for clauses in texts]
 
     def _by_sentence(self, clauses: Sequence[Clause]) -> list[list[_Unit]]:
         """Translate the clauses of a text, grouped by sentence."""
@@ -85,16 +85,16 @@ class PhraseRoute:
                 continue
             stops = any(clause.closes for clause in run[:-1])
             match = self._phrasebook.match(words, crosses_stop=stops, crosses_pause=True)
-            drafts = self._sentences.translate(match, run) if match else None
-            if match and drafts:
-                return _Unit(run, drafts, match.pattern.type)
+            output_words = self._sentences.translate(match, run) if match else None
+            if match and output_words:
+                return _Unit(run, output_words, match.pattern.type)
         return None
 
     def _unit(self, clause: Clause) -> _Unit:
         """Translate one clause."""
         known: SentenceType | None = None
         pieces = self._pieces(clause.words)
-        drafts: list[Draft] = []
+        output_words: list[OutputWord] = []
         for index, piece in enumerate(pieces):
             part = replace(clause, end=clause.end if index == len(pieces) - 1 else "")
             if isinstance(piece, Match):
@@ -104,8 +104,8 @@ class PhraseRoute:
             else:
                 translated, words, known = None, tuple(piece), None
             translated = translated or self._sentences.translate_similar(words, part.end)
-            drafts += translated or word_by_word(words, self._glosses)
-        return _Unit([clause], drafts, known)
+            output_words += translated or word_by_word(words, self._glosses)
+        return _Unit([clause], output_words, known)
 
     def _pieces(self, words: Sequence[Word]) -> list[Match | Sequence[Word]]:
         """Find sentences of the training data in a clause: all of it, behind a greeting, joined by "y"."""
@@ -153,8 +153,10 @@ class PhraseRoute:
         return []
 
 
-def _drafted(units: Sequence[_Unit]) -> DraftedSentence:
-    drafts: list[Draft] = []
+def _assembled(units: Sequence[_Unit]) -> TranslatedSentence:
+    output_words: list[OutputWord] = []
     for unit in units:
-        drafts += [*([PAUSE] if drafts else []), *unit.drafts]
-    return DraftedSentence([clause for unit in units for clause in unit.clauses], drafts, units[-1].known)
+        output_words += [*([PAUSE] if output_words else []), *unit.output_words]
+    return TranslatedSentence(
+        [clause for unit in units for clause in unit.clauses], output_words, units[-1].known
+    )

@@ -9,14 +9,12 @@ from typing import NamedTuple
 from teo_sign_translator.corpus.paper_pairs import NAME, SLOTS
 from teo_sign_translator.lstm256.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.morphology import Morphology, Reading
-from teo_sign_translator.neural import Hypothesis, OutputGloss, SentenceModel
-from teo_sign_translator.output.output_words import PAUSE, Draft
-from teo_sign_translator.pipeline.back_end import DraftedSentence
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.pipeline.gloss_output import gloss_drafts
-from teo_sign_translator.pipeline.hypothesis_repair import Faithful, as_said, faithful
-from teo_sign_translator.pipeline.long_sentences import joined, parts, pieces
+from teo_sign_translator.output.output_words import PAUSE, OutputWord
+from teo_sign_translator.pipeline.back_end import TranslatedSentence
+from teo_sign_translator.pipeline.gloss_output import gloss_output_words
+from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair, Repaired, as_said
+from teo_sign_translator.pipeline.long_sentences import parts, pieces
+from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.text.reading import Clause
 from teo_sign_translator.text.sentence_type import SentenceType
 from teo_sign_translator.text.source_words import SourceWord, words_of_clauses
@@ -49,15 +47,14 @@ class _Part(NamedTuple):
     taught: Pattern | None
 
 
-class SentenceRoute:
+class PointerBackEnd:
     """Translates each sentence with a model that reads words with their readings."""
 
     def __init__(
         self,
         model: SentenceModel,
         morphology: Morphology,
-        coverage: Coverage,
-        warrants: Warrants,
+        repair: HypothesisRepair,
         taught: Phrasebook,
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
@@ -67,16 +64,14 @@ class SentenceRoute:
         Args:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
-            coverage: Finds words that a translation loses.
-            warrants: Finds glosses that a translation invents.
+            repair: Chooses among the model's translations and mends the one it chooses.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
             beam_width: Translations that the model weighs against each other, at least 1.
         """
         self._model = model
         self._morphology = morphology
-        self._coverage = coverage
-        self._warrants = warrants
+        self._repair = repair
         self._taught = taught
         self._beam_width = beam_width
 
@@ -85,8 +80,8 @@ class SentenceRoute:
         """Of the model."""
         return self._model.name
 
-    def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[DraftedSentence]]:
-        """See `Route`; all sentences of all texts are given to the model together."""
+    def translate(self, texts: Sequence[Sequence[Clause]]) -> list[list[TranslatedSentence]]:
+        """See `BackEnd`; all sentences of all texts are given to the model together."""
         sentences = [self._sentences(clauses) for clauses in texts]
         every = [
             _Part(words, sentence.taught)
@@ -96,15 +91,15 @@ class SentenceRoute:
         ]
         said = iter(self._say(every))
         return [
-            [_drafted(sentence, [next(said) for _ in sentence.parts]) for sentence in text]
+            [_assembled(sentence, [next(said) for _ in sentence.parts]) for sentence in text]
             for text in sentences
         ]
 
-    def _say(self, every: Sequence[_Part]) -> list[Faithful]:
+    def _say(self, every: Sequence[_Part]) -> list[Repaired]:
         """Translate parts; those that lose words piece by piece, if that loses fewer."""
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            self._as_taught(part, hypotheses) or self._faithful(part.words, hypotheses)
+            self._as_taught(part, hypotheses) or self._repair.repair(part.words, hypotheses)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -114,16 +109,13 @@ class SentenceRoute:
         ]
         again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
         for index, own in divided.items():
-            translated = [(piece, self._faithful(*next(again))) for piece in own]
-            together = joined(every[index].words, translated, self._coverage)
+            translated = [(piece, self._repair.repair(*next(again))) for piece in own]
+            together = self._repair.join(every[index].words, translated)
             if sum(together.repaired) < sum(result[index].repaired):
                 result[index] = together
         return result
 
-    def _faithful(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Faithful:
-        return faithful(words, hypotheses, self._coverage, self._warrants)
-
-    def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Faithful | None:
+    def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Repaired | None:
         """The translation that was taught; if it is not among the first, looked for among more."""
         if part.taught is None:
             return None
@@ -157,17 +149,17 @@ class SentenceRoute:
         )
 
 
-def _drafted(sentence: _Sentence, translated: Sequence[Faithful]) -> DraftedSentence:
+def _assembled(sentence: _Sentence, translated: Sequence[Repaired]) -> TranslatedSentence:
     """A sentence from the translations of its parts."""
-    drafts: list[Draft] = []
+    output_words: list[OutputWord] = []
     recognised = sentence.taught.type if sentence.taught else None
     for words, said in zip(sentence.parts, translated, strict=True):
-        if drafts:
-            drafts.append(PAUSE)
-        drafts += gloss_drafts(words, said, sentence.taught.glosses if sentence.taught else ())
+        if output_words:
+            output_words.append(PAUSE)
+        output_words += gloss_output_words(words, said, sentence.taught.glosses if sentence.taught else ())
         if not sentence.taught and _asks(words, said.glosses):
             recognised = SentenceType.WH_QUESTION
-    return DraftedSentence(sentence.clauses, drafts, recognised)
+    return TranslatedSentence(sentence.clauses, output_words, recognised)
 
 
 def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
@@ -179,7 +171,7 @@ def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:
     return [sentence for sentence in sentences if sentence]
 
 
-def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Faithful | None:
+def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Repaired | None:
     """The translation that was taught, if the model thinks of it: what it leaves out is no loss."""
     for hypothesis in hypotheses:
         if len(hypothesis.glosses) == len(taught.glosses) and all(

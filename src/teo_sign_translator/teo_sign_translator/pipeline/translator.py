@@ -11,23 +11,26 @@ from teo_sign_translator.corpus.paper_pairs import training_pairs
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
-from teo_sign_translator.lstm256.store import DEFAULT_MODEL, load_model
+from teo_sign_translator.lstm256.store import load_model
 from teo_sign_translator.lstm256.word_by_word import SPELLED_CONFIDENCE
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.neural import load_sentence_model
 from teo_sign_translator.output.output_words import divide, hand_over, number_tokens
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
 from teo_sign_translator.output.spelling import unsignable
 from teo_sign_translator.output.translation import Sentence, Translation
-from teo_sign_translator.pipeline.back_end import DraftedSentence, Route
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.pipeline.lstm_back_end import PhraseRoute
-from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, SentenceRoute
+from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
+from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
+from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
+from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
+from teo_sign_translator.pointer import load_sentence_model
+from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import sentence_models
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import Clause, WordKind, read
 from teo_sign_translator.text.sentence_type import is_negated, sentence_type
+
+#: Of the models that ship: translates sentences that it has not seen.
+DEFAULT_MODEL = POINTER
 
 #: Probability of a token below which its sentence is called uncertain: of 900 held-out sentences, half of the
 #: wrong translations are, and 2 % of the right ones.
@@ -60,16 +63,16 @@ class Translator:
     """Translates text with a model, and says how sure it is of what."""
 
     def __init__(
-        self, route: Route, chooser: SignChooser, *, min_confidence: float = DEFAULT_MIN_CONFIDENCE
+        self, back_end: BackEnd, chooser: SignChooser, *, min_confidence: float = DEFAULT_MIN_CONFIDENCE
     ) -> None:
         """Put the parts together; `load` does it for a model that ships with the package.
 
         Args:
-            route: Translates sentences.
+            back_end: Translates sentences.
             chooser: Finds signs for glosses.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
         """
-        self._route = route
+        self._back_end = back_end
         self._chooser = chooser
         self.min_confidence = min_confidence
 
@@ -85,7 +88,7 @@ class Translator:
         """Load a model and the package's data.
 
         Args:
-            name: One of `model_store.available_models`.
+            name: One of `model_files.available_models`.
             directory: Folder of the models; by default the package's.
             beam_width: Translations that the model weighs against each other; `lstm256` has but one.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
@@ -98,17 +101,17 @@ class Translator:
         if name in sentence_models(directory):
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
-            route: Route = SentenceRoute(
-                model, morphology, Coverage.load(), Warrants.load(), taught, beam_width=beam_width
+            back_end: BackEnd = PointerBackEnd(
+                model, morphology, HypothesisRepair.load(), taught, beam_width=beam_width
             )
-            return cls(route, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
-        route = PhraseRoute(load_model(name, directory), taught, glosses, name=name)
-        return cls(route, SignChooser(read_synonyms(), None), min_confidence=min_confidence)
+            return cls(back_end, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
+        back_end = LstmBackEnd(load_model(name, directory), taught, glosses, name=name)
+        return cls(back_end, SignChooser(read_synonyms(), None), min_confidence=min_confidence)
 
     @property
     def name(self) -> str:
         """Of the model."""
-        return self._route.name
+        return self._back_end.name
 
     def translate(self, text: str, signs: Set[str] | None = None) -> Translation:
         """Translate a text of one or more sentences.
@@ -139,7 +142,9 @@ class Translator:
             For each text its translation, or why there is none.
         """
         read = [_read(text) for text in texts]
-        translated = iter(self._route.translate([each.clauses for each in read if isinstance(each, _Read)]))
+        translated = iter(
+            self._back_end.translate([each.clauses for each in read if isinstance(each, _Read)])
+        )
         answers: list[Translation | TranslationError] = []
         for each in read:
             if isinstance(each, TranslationError):
@@ -147,23 +152,27 @@ class Translator:
                 continue
             sentences = [
                 sentence
-                for drafted in next(translated)
-                for sentence in self._finish(drafted, each.cleaned, signs)
+                for translated_sentence in next(translated)
+                for sentence in self._finish(translated_sentence, each.cleaned, signs)
             ]
             answers.append(
                 Translation(text=each.text, sentences=tuple(sentences), ignored=each.ignored, model=self.name)
             )
         return answers
 
-    def _finish(self, drafted: DraftedSentence, text: str, signs: Set[str] | None) -> list[Sentence]:
+    def _finish(
+        self, translated_sentence: TranslatedSentence, text: str, signs: Set[str] | None
+    ) -> list[Sentence]:
         """One sentence as messages hold it; several if it has more tokens than they can hold."""
-        clauses = drafted.clauses
+        clauses = translated_sentence.clauses
         kind = sentence_type(clauses)
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
-        if unmarked and drafted.recognised is not None:
-            kind = drafted.recognised
-        drafts = self._chooser.choose(hand_over(drafted.drafts, SPELLED_CONFIDENCE), signs)
-        parts = [number_tokens(part) for part in divide(drafts, MAX_SENTENCE_TOKENS)]
+        if unmarked and translated_sentence.recognised is not None:
+            kind = translated_sentence.recognised
+        output_words = self._chooser.choose(
+            hand_over(translated_sentence.output_words, SPELLED_CONFIDENCE), signs
+        )
+        parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(
                 text=text[clauses[0].start : clauses[-1].stop].strip(),

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from teo_sign_translator.pointer.array_cells import Array, make_layer, run_layer
 from teo_sign_translator.pointer.config import NetworkConfig
-from teo_sign_translator.pointer.vocabulary import BLANK, READINGS, ROOT, Lexis, WordFeatures, tag_parts
+from teo_sign_translator.pointer.vocabulary import BLANK, READINGS, ROOT, Vocabulary, WordFeatures, tag_parts
 from teo_sign_translator.pointer.weight_shapes import check_weights
 
 if TYPE_CHECKING:
@@ -71,17 +71,17 @@ class ArrayModel:
     """Embeddings, encoder, decoder step; `decoding.py` searches with it."""
 
     def __init__(
-        self, config: NetworkConfig, lexis: Lexis, weights: Mapping[str, NDArray[np.floating]]
+        self, config: NetworkConfig, vocabulary: Vocabulary, weights: Mapping[str, NDArray[np.floating]]
     ) -> None:
         """Take over the weights of a `Network` of the same configuration.
 
         Raises:
             TranslationError: "invalid_model" if a weight is missing, has another shape or is not finite.
         """
-        check_weights(config, lexis, weights)
+        check_weights(config, vocabulary, weights)
         full: dict[str, Array] = {name: np.asarray(value, np.float32) for name, value in weights.items()}
         self.config = config
-        self.lexis = lexis
+        self.vocabulary = vocabulary
         self._form, self._capital, self._lemma = (
             full["form.weight"],
             full["capital.weight"],
@@ -89,9 +89,9 @@ class ArrayModel:
         )
         self._rank = full["rank"]
         self._part = full["part"]
-        self._parts = {part: place for place, part in enumerate(lexis.parts)}
+        self._parts = {part: place for place, part in enumerate(vocabulary.parts)}
         own = full["tag.weight"]
-        self._tags = {key: own[row] + self._by_parts(key) for row, key in enumerate(lexis.tags)}
+        self._tags = {key: own[row] + self._by_parts(key) for row, key in enumerate(vocabulary.tags)}
         self._state_size = config.hidden * (1 + (config.cell == "lstm"))
         directions = ("", "_reverse")[: 1 + config.bidirectional]
         self._encoder = [
@@ -214,7 +214,7 @@ class ArrayModel:
         """Features of a word, its vector and those of its readings."""
         known = self._features.get(word)
         if known is None:
-            features = self.lexis.features(word)
+            features = self.vocabulary.features(word)
             readings = np.zeros((READINGS, self.config.embedding), np.float32)
             for place, key in enumerate(features.tag_keys):
                 tag = self._tags.get(key)
@@ -229,7 +229,7 @@ class ArrayModel:
 
     def _bare(self, form: str) -> Array:
         """Vector of the root or a blank."""
-        vector = self._form[self.lexis.form_index[form]] + self._capital[0]
+        vector = self._form[self.vocabulary.form_index[form]] + self._capital[0]
         return np.concatenate([vector, np.zeros_like(vector)])
 
     def _by_parts(self, key: str) -> Array:
@@ -238,11 +238,11 @@ class ArrayModel:
         return result
 
     def _slots(self, glosses: Sequence[str]) -> list[int]:
-        size = len(self.lexis.glosses)
+        size = len(self.vocabulary.glosses)
         first: dict[str, int] = {}
         return [
-            self.lexis.gloss_index[gloss]
-            if gloss in self.lexis.gloss_index
+            self.vocabulary.gloss_index[gloss]
+            if gloss in self.vocabulary.gloss_index
             else size + first.setdefault(gloss, place)
             for place, gloss in enumerate(glosses)
         ]

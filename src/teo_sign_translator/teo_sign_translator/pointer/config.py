@@ -1,8 +1,9 @@
-"""How a network is built and how it is trained."""
+"""How a network is built and how it is trained, and the zoo: the models that can be trained."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Literal, get_args
 
 from teo_sign_translator.errors import TranslationError
@@ -65,7 +66,8 @@ class TrainingConfig:
         rare_word: A word that occurs n times in the training pairs is shown as unknown with probability
             rare_word / (rare_word + n), so that words never seen are carried over too: a content word about
             every fifth time, a function word hardly ever.
-        clean: Part of the pairs that is shown as written; the others with typing noise (`noise.py`).
+        clean: Part of the pairs that is shown as written; the others as people type in haste
+            (`training/typing_noise.py`).
         attention_weight: Weight of the loss by which attention follows the pairs' alignment.
         by_heart: Part of a pass that is pairs of the paper and the project, each repeated equally often:
             they are few, must be known by heart, and are exceptions to the grammar of the others.
@@ -104,3 +106,37 @@ def _refuse(problems: list[str], config: object) -> None:
     expected = ", ".join(filter(None, problems))
     if expected:
         raise TranslationError("invalid_config", f"expected {expected}, got {config}")
+
+
+#: The model that translates unseen sentences: attention and copying over words read from both ends.
+POINTER = "pointer"
+
+#: By name, from the simplest on. The first ones are the layouts of Figure 1 of arXiv:1907.04198, then its
+#: future work. All read the same words and readings, so that a row of `compare` differs from the next by its
+#: mechanism alone. The equal-length layout reads from both ends: its first gloss stands at the first word,
+#: and may be said by the last.
+ZOO = MappingProxyType(
+    {
+        "rnn_equal": NetworkConfig(cell="rnn", layout="equal_length", bidirectional=True),
+        "lstm_equal": NetworkConfig(cell="lstm", layout="equal_length", bidirectional=True),
+        "rnn": NetworkConfig(cell="rnn"),
+        "gru": NetworkConfig(cell="gru"),
+        "lstm": NetworkConfig(cell="lstm"),
+        "lstm_stacked": NetworkConfig(cell="lstm", layers=2),
+        "gru_attention": NetworkConfig(cell="gru", bidirectional=True, attention=True),
+        "lstm_attention": NetworkConfig(cell="lstm", bidirectional=True, attention=True),
+        "pointer_gru": NetworkConfig(cell="gru", bidirectional=True, attention=True, copy=True),
+        POINTER: NetworkConfig(cell="lstm", bidirectional=True, attention=True, copy=True),
+    }
+)
+
+
+def network_config(name: str) -> NetworkConfig:
+    """The configuration of a model of the zoo.
+
+    Raises:
+        TranslationError: "unknown_model", with the names there are.
+    """
+    if name not in ZOO:
+        raise TranslationError("unknown_model", f"expected a model of {', '.join(ZOO)}, got '{name}'")
+    return ZOO[name]

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped] # ships no types
 
 from teo_sign_translator.pointer.array_cells import Array
 from teo_sign_translator.pointer.array_model import ArrayModel, Ints, Memory
-from teo_sign_translator.pointer.one_core import one_core
 from teo_sign_translator.pointer.sentence_model import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX
 
@@ -97,7 +99,7 @@ def search(
     """
     memory = model.encode(sentences)
     count, width = memory.words.shape[:2]
-    size = len(model.lexis.glosses)
+    size = len(model.vocabulary.glosses)
     states = tuple(np.repeat(state, beam, axis=0) for state in memory.first)
     score = np.full((count, beam), -np.inf, np.float32)
     score[:, 0] = 0
@@ -178,12 +180,12 @@ def _hypotheses(
 
 
 def _gloss(model: ArrayModel, memory: Memory, choice: _Choice, index: int, place: int) -> OutputGloss:
-    size = len(model.lexis.glosses)
+    size = len(model.vocabulary.glosses)
     said = int(choice.said[index, place])
     looked = sources(choice.attention[index, place])
     probability = min(1.0, float(choice.probability[index, place]))
     if said < size:
-        return OutputGloss(model.lexis.glosses[said], looked, probability, copied=False)
+        return OutputGloss(model.vocabulary.glosses[said], looked, probability, copied=False)
     word = (said - size) // READINGS - 1
     gloss = memory.glosses[index][said - size]
     return OutputGloss(gloss, tuple(sorted({*looked, word})), probability, copied=True)
@@ -211,8 +213,23 @@ def _at_positions(
         stop = int(ends[0]) if len(ends) else len(places)
         chances = probability[row, np.arange(len(places)), places]
         glosses = tuple(
-            OutputGloss(model.lexis.glosses[gloss], (), float(chance), copied=False)
+            OutputGloss(model.vocabulary.glosses[gloss], (), float(chance), copied=False)
             for gloss, chance in zip(places[:stop], chances[:stop], strict=True)
         )
         result.append((Hypothesis(glosses, float(np.log(chances[: stop + 1]).sum())),))
     return result
+
+
+def one_core() -> AbstractContextManager[object]:
+    """Let BLAS use one thread inside the `with`, and as many as before behind it (8 µs).
+
+    The products of one sentence are so small that sharing them out costs more than it gains, and on a busy
+    machine each waits for its slowest part: 46 ms a sentence were measured where one core took 3.
+    """
+    limiter: AbstractContextManager[object] = _blas().limit(limits=1)
+    return limiter
+
+
+@cache
+def _blas() -> ThreadpoolController:
+    return ThreadpoolController().select(user_api="blas")

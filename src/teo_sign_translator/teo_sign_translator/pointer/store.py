@@ -1,41 +1,35 @@
-"""Sentence models as files: weights in safetensors, and a card that says what they are and what made them."""
+"""Files of the models of the zoo, `pointer` among them."""
 
 from __future__ import annotations
 
 import dataclasses
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import safetensors.numpy
-from numpy.typing import NDArray
-from safetensors import SafetensorError
-
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.model_card import read_card
+from teo_sign_translator.model_files import (
+    Weights,
+    available_models,
+    models_directory,
+    read_card,
+    read_weights,
+    write_model,
+)
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.vocabulary import Lexis
-from teo_sign_translator.resources import models_directory
-from teo_sign_translator.tables import write_atomically
+from teo_sign_translator.pointer.vocabulary import Vocabulary
 
-#: Of cards of sentence models; those of `model_store` have schema 1.
+#: Of the cards of sentence models.
 SCHEMA = 2
+# Of a card: the lists that number the words and glosses.
+_LISTS = "lexis"
 
 
 def sentence_models(directory: Path | None = None) -> tuple[str, ...]:
     """Names of the sentence models in a folder (by default the package's), sorted."""
-    directory = directory or models_directory()
-    return tuple(
-        sorted(
-            path.stem
-            for path in directory.glob("*.safetensors")
-            if path.with_suffix(".json").is_file() and _schema(path.with_suffix(".json")) == SCHEMA
-        )
-    )
+    return available_models(directory, schema=SCHEMA)
 
 
 def load_sentence_model(name: str, directory: Path | None = None) -> ZooModel:
@@ -55,13 +49,11 @@ def load_sentence_model(name: str, directory: Path | None = None) -> ZooModel:
         listed = ", ".join(sentence_models(directory)) or "none"
         raise TranslationError("unknown_model", f"expected a model of {directory} ({listed}), got '{name}'")
     card = load_sentence_card(name, directory)
+    weights = read_weights(path)
     try:
         config = NetworkConfig(**card["network"])
-        lexis = Lexis.from_dict(card["lexis"])
-        weights = safetensors.numpy.load_file(path)
-        return ZooModel(name, ArrayModel(config, lexis, weights))
-    except (OSError, SafetensorError) as error:
-        raise TranslationError("invalid_model", f"{path}: expected a safetensors file: {error}") from error
+        vocabulary = Vocabulary.from_dict(card[_LISTS])
+        return ZooModel(name, ArrayModel(config, vocabulary, weights))
     except (KeyError, TypeError, AttributeError) as error:
         raise TranslationError("invalid_model", f"{path}: no usable card beside it: {error}") from error
     except TranslationError as error:
@@ -82,8 +74,8 @@ def save_sentence_model(
     directory: Path,
     *,
     config: NetworkConfig,
-    lexis: Lexis,
-    weights: Mapping[str, NDArray[np.float32]],
+    vocabulary: Vocabulary,
+    weights: Weights,
     card: Mapping[str, Any],
 ) -> None:
     """Write weights, in half precision, and card.
@@ -92,26 +84,15 @@ def save_sentence_model(
         name: Of the model and its two files.
         directory: Made if it is missing.
         config: Goes into the card.
-        lexis: Likewise, in the order of the weights' rows.
+        vocabulary: Likewise, in the order of the weights' rows.
         weights: As `ArrayModel` takes them.
         card: What else the card says.
     """
-    halves = {key: value.astype(np.float16) for key, value in weights.items()}
     content = {
         "schema": SCHEMA,
         "name": name,
         **card,
         "network": dataclasses.asdict(config),
-        "lexis": lexis.as_dict(),
+        _LISTS: vocabulary.as_dict(),
     }
-    write_atomically(directory / f"{name}.safetensors", safetensors.numpy.save(halves))
-    # One line: the lists hold thousands of words.
-    write_atomically(directory / f"{name}.json", json.dumps(content, ensure_ascii=False).encode() + b"\n")
-
-
-def _schema(path: Path) -> object:
-    try:
-        card = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return card.get("schema") if isinstance(card, dict) else None
+    write_model(name, directory, weights, content, indent=None)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.text.cleaning import fold
 
 if TYPE_CHECKING:
     from teo_sign_translator.morphology import Reading
@@ -35,7 +35,7 @@ _GLOSSES = (END, START)
 
 
 class WordFeatures(NamedTuple):
-    """What a model reads of one word, as places in the lists of its `Lexis`.
+    """What a model reads of one word, as places in the lists of its `Vocabulary`.
 
     Attributes:
         form: Of its folded form.
@@ -71,7 +71,7 @@ def tag_parts(key: str) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
-class Lexis:
+class Vocabulary:
     """The closed lists of a model, each with its fixed first entries.
 
     Attributes:
@@ -91,7 +91,7 @@ class Lexis:
     @classmethod
     def of(
         cls, forms: Sequence[str], lemmas: Sequence[str], tags: Sequence[str], glosses: Sequence[str]
-    ) -> Lexis:
+    ) -> Vocabulary:
         """Lists with the fixed entries first; the parts are those of the tags."""
         tags = list(dict.fromkeys((*tags, UNKNOWN_TAG)))
         parts = sorted({part for key in tags for part in tag_parts(key)})
@@ -100,7 +100,7 @@ class Lexis:
         )
 
     @classmethod
-    def from_dict(cls, lists: Mapping[str, Any]) -> Lexis:
+    def from_dict(cls, lists: Mapping[str, Any]) -> Vocabulary:
         """The lists of a card.
 
         Raises:

@@ -9,22 +9,22 @@ from numpy.typing import NDArray
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import NetworkConfig
-from teo_sign_translator.pointer.vocabulary import READINGS, Lexis
+from teo_sign_translator.pointer.vocabulary import READINGS, Vocabulary
 
 _GATES = {"rnn": 1, "gru": 3, "lstm": 4}
 
 
-def weight_shapes(config: NetworkConfig, lexis: Lexis) -> dict[str, tuple[int, ...]]:
+def weight_shapes(config: NetworkConfig, vocabulary: Vocabulary) -> dict[str, tuple[int, ...]]:
     """Shape of each weight by its name in `Network`."""
     size, hidden = config.embedding, config.hidden
     memory = hidden * (1 + config.bidirectional)
-    glosses = len(lexis.glosses)
+    glosses = len(vocabulary.glosses)
     shapes: dict[str, tuple[int, ...]] = {
-        "form.weight": (len(lexis.forms), size),
+        "form.weight": (len(vocabulary.forms), size),
         "capital.weight": (2, size),
-        "lemma.weight": (len(lexis.lemmas), size),
-        "tag.weight": (len(lexis.tags), size),
-        "part": (len(lexis.parts), size),
+        "lemma.weight": (len(vocabulary.lemmas), size),
+        "tag.weight": (len(vocabulary.tags), size),
+        "part": (len(vocabulary.parts), size),
         "rank": (READINGS, size),
     }
     for layer in range(config.layers):
@@ -45,13 +45,15 @@ def weight_shapes(config: NetworkConfig, lexis: Lexis) -> dict[str, tuple[int, .
     return shapes
 
 
-def check_weights(config: NetworkConfig, lexis: Lexis, weights: Mapping[str, NDArray[np.floating]]) -> None:
+def check_weights(
+    config: NetworkConfig, vocabulary: Vocabulary, weights: Mapping[str, NDArray[np.floating]]
+) -> None:
     """Refuse weights that do not fit.
 
     Raises:
         TranslationError: "invalid_model" if a weight is missing, has another shape or is not finite.
     """
-    for name, shape in weight_shapes(config, lexis).items():
+    for name, shape in weight_shapes(config, vocabulary).items():
         if name not in weights or weights[name].shape != shape or not np.isfinite(weights[name]).all():
             got = f"shape {weights[name].shape}" if name in weights else "none"
             raise TranslationError(

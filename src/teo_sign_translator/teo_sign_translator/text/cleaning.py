@@ -105,24 +105,6 @@ def _plain(character: str) -> str:
     return unicodedata.normalize("NFKC", character).replace("⁄", "/")
 
 
-def fold(word: str) -> str:
-    """Lower case without accents but with `ñ`: `"CÓMO"` is `"como"`, `"año"` is not `"ano"`."""
-    if word.isascii():
-        return word.lower()
-    decomposed = unicodedata.normalize("NFD", word.lower())
-    kept = [
-        mark
-        for index, mark in enumerate(decomposed)
-        if unicodedata.category(mark) != "Mn" or (mark == "\u0303" and index and decomposed[index - 1] == "n")
-    ]
-    return unicodedata.normalize("NFC", "".join(kept))
-
-
-def strip_marks(word: str) -> str:
-    """Lower case without any mark: how a word comes from a keyboard without `ñ`."""
-    return "".join(c for c in unicodedata.normalize("NFD", word.lower()) if unicodedata.category(c) != "Mn")
-
-
 def is_drawn_out(word: str) -> bool:
     """Whether a letter stands three times in a row, as in `"holaaaa"`: no Spanish word is written so."""
     return _DRAWN_OUT.search(word) is not None

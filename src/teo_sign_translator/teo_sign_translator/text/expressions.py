@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
 
 _CLASSES = ("title", "unit", "word", "chat")
 

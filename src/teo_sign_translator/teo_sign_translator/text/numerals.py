@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.tables import words_of
+from teo_sign_translator.data_files import words_of
 
 _UNITS = words_of("cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince")
 _TEENS = words_of(

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from teo_sign_translator.text.cleaning import fold, strip_marks
+from teo_common.text_folding import fold, strip_marks
 from teo_sign_translator.text.expressions import Expressions, Found
 from teo_sign_translator.text.numerals import (
     ACCENTED_NUMBER_WORDS,
@@ -110,7 +110,7 @@ class Reading:
 
 
 def read(text: str) -> Reading:
-    """Split a clean text, as `normalisation.clean` gives it, into clauses and words."""
+    """Split a clean text, as `cleaning.clean` gives it, into clauses and words."""
     return _Reader(text, Expressions.load()).read()
 
 

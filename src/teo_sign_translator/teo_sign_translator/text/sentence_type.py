@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import IntEnum
 
-from teo_sign_translator.tables import words_of
+from teo_sign_translator.data_files import words_of
 from teo_sign_translator.text.cleaning import shortened
 from teo_sign_translator.text.reading import Clause, Word
 

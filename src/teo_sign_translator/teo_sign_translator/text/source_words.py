@@ -50,7 +50,7 @@ def source_words(sentence: str, morphology: Morphology) -> tuple[SourceWord, ...
         morphology: Gives the readings.
 
     Raises:
-        TranslationError: See `normalisation.clean`.
+        TranslationError: See `cleaning.clean`.
     """
     return words_of_clauses(read(clean(sentence).text).clauses, morphology)
 

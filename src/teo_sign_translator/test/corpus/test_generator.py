@@ -9,16 +9,13 @@ from itertools import pairwise
 import pytest
 import simplemma
 
-from teo_sign_translator.corpus import SPLITS
-from teo_sign_translator.corpus.generator import LARGEST_SHARE, Generator
-from teo_sign_translator.corpus.paper import own_pairs
-from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
+from teo_sign_translator.corpus.generator import LARGEST_SHARE, SHARES, Generator
+from teo_sign_translator.corpus.paper_pairs import gloss_name, own_pairs, paper_pairs
+from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.nominal import unaccented as strip_accents
-from teo_sign_translator.neural import OutputGloss
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.tables import read_rows
+from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
+from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
 QUESTION_GLOSSES = {
@@ -65,7 +62,7 @@ def test_the_same_seed_gives_the_same_pairs_and_another_seed_others(generator):
 
 def test_every_sentence_occurs_once_but_set_phrases_and_every_split_has_its_share(generator, pairs):
     assert len(pairs) == 5000
-    assert set(Counter(pair.split for pair in pairs)) == set(SPLITS)
+    assert set(Counter(pair.split for pair in pairs)) == set(SHARES)
     repeat = {
         f"{family.name}.{rule.name}": rule.repeat
         for family in generator.grammar.families
@@ -97,6 +94,34 @@ def test_held_out_templates_are_nowhere_in_train(pairs, train):
     new = {pair.rule for pair in pairs if pair.split in ("test_templates", "test_both")}
     assert new
     assert not new & known
+
+
+SAYS_A_CONSTRUCTION = re.compile(
+    r"\b(más|menos) (?!mal|para)(\w+ )?que\b|\btan \w+ como\b"  # comparisons, but not "menos mal que"
+    r"|\blo que\b|\b(con|de) (el|la|los|las) que\b"  # relative clauses
+    r"|\b(sé|sabe|sabes) (si|dónde|quién(es)?|cuándo|cuánto)\b"  # indirect questions
+    r"|\bhace \w+ (días|semanas|meses|años) que\b|\bdesde hace\b"  # durations
+    r"|\bllev(o|as|a|amos|áis|an) \w+ (días|semanas|meses|años)\b"
+)
+
+
+def test_constructions_held_out_are_said_in_a_split_of_their_own_alone(generator):
+    pairs = list(generator.pairs(4000, seed=3, hold_out_constructions=True))
+    taught = [pair.spanish for pair in pairs if pair.split != "test_constructions"]
+    held = [pair for pair in pairs if pair.split == "test_constructions"]
+    assert len(held) == 80
+    assert not [spanish for spanish in taught if SAYS_A_CONSTRUCTION.search(spanish.lower())]
+    conditional = [spanish for spanish in taught if re.search(r"\bsi\b", spanish.lower())]
+    assert all(spanish.lower().startswith("a ver si ") for spanish in conditional)  # a wish
+    assert len([pair for pair in held if SAYS_A_CONSTRUCTION.search(pair.spanish.lower())]) > 20
+    assert [pair for pair in held if pair.spanish.startswith("Si ")]
+
+
+def test_without_holding_them_out_every_construction_is_taught(generator):
+    taught = {pair.rule for pair in generator.pairs(4000, seed=3) if pair.split == "train"}
+    for construction, names in generator.grammar.constructions.items():
+        said = [rule for rule in taught if any(rule.startswith(f"{name}.") or rule == name for name in names)]
+        assert said, construction
 
 
 def test_no_template_makes_more_than_its_share(train):
@@ -149,12 +174,12 @@ def test_glosses_point_at_the_words_that_say_them(pairs, morphology):
 
 
 def test_no_gloss_is_one_that_a_translation_would_be_refused_for(pairs, morphology):
-    warrants = Warrants.load()
+    evidence = GlossEvidence.load()
     for pair in pairs:
         said = [
             OutputGloss(*each, 1.0, copied=False) for each in zip(pair.glosses, pair.alignment, strict=True)
         ]
-        assert not warrants.invented(source_words(pair.spanish, morphology), said), pair
+        assert not evidence.invented(source_words(pair.spanish, morphology), said), pair
 
 
 def test_articles_agree_with_their_nouns(pairs, morphology):
@@ -263,6 +288,6 @@ def test_the_papers_sentences_are_in_the_corpus_as_the_paper_translates_them(mor
 
 def test_unwanted_sentences_do_not_occur_however_they_are_typed(generator):
     first = [pair.spanish for pair in generator.pairs(200, seed=3)]
-    unwanted = [sentence.lower().strip("¿¡.?!") for sentence in first[:50]]
+    unwanted = [strip_accents(sentence).upper().replace(" ", "  ").strip("¿¡.?!") for sentence in first[:50]]
     second = {pair.spanish for pair in generator.pairs(200, seed=3, leave_out=unwanted)}
     assert not second & set(first[:50])

@@ -10,9 +10,9 @@ from teo_sign_translator.corpus.choosers import ExampleChooser
 from teo_sign_translator.corpus.derivation import Derivation
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.grammar_file import load_grammar
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.resources import data_file
 
 #: Lists of words.yaml that are not of nouns.
 OTHER_LISTS = ("stressed_a", "mass_classes")
@@ -97,6 +97,12 @@ def test_every_word_of_the_lists_is_in_the_lexicon(generator):
             "held_out:\n",
             "held_out:\n  - statement.plain.nowhere\n",
             "statement.plain.nowhere",
+        ),
+        (
+            "held_out.yaml",
+            "conditions: condition",
+            "conditions: condition vp.nowhere",
+            "vp.nowhere",
         ),
         ("everyday.yaml", "families:", "family:", "everyday.yaml"),
     ],

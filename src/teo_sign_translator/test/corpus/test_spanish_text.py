@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teo_sign_translator.corpus.enclitics import in_order
-from teo_sign_translator.corpus.number_words import LIMIT, number_words
+from teo_common.text_folding import fold
+from teo_sign_translator.corpus.fillers import LIMIT, number_words
 from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tokens import Token
+from teo_sign_translator.corpus.verb_phrase import in_order
 from teo_sign_translator.morphology.enclitics import attach_pronouns
-from teo_sign_translator.text.cleaning import fold
 from teo_sign_translator.text.numerals import read_number_words
 
 

@@ -10,8 +10,8 @@ from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.tokens import Sign
 from teo_sign_translator.corpus.verb_phrase import marked_once
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.resources import data_file
 
 
 @pytest.fixture(scope="module")

@@ -10,11 +10,11 @@ import torch
 from teo_sign_translator.cli.reproduce_paper import split
 from teo_sign_translator.corpus.paper_pairs import paper_pairs
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.input_tokens import published_tokens
 from teo_sign_translator.lstm256.seq2seq import MAX_OUTPUT, LstmModel
-from teo_sign_translator.lstm256.store import available_models, load_model, save_model
+from teo_sign_translator.lstm256.store import load_model, save_model
+from teo_sign_translator.lstm256.tokens import END, START, Vocabulary, published_tokens
 from teo_sign_translator.lstm256.training import EncoderDecoder, Training, TrainingConfig, train
-from teo_sign_translator.lstm256.vocabulary import END, START, Vocabulary
+from teo_sign_translator.model_files import available_models
 
 EXAMPLES = [(published_tokens(pair.sentence), pair.glosses) for pair in paper_pairs()[:8]]
 INPUTS = Vocabulary.of_inputs(source for source, _ in EXAMPLES)

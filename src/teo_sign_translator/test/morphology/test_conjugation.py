@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 import simplemma
 
+from teo_common.text_folding import strip_marks
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.tags import PERSONS, VERB_TAGS
-from teo_sign_translator.resources import data_file
-from teo_sign_translator.text.cleaning import strip_marks
 
 CONJUGATIONS = Conjugations(data_file("morphology/conjugations.tsv"))
 

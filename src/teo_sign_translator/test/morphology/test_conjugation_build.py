@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.conjugation_build import (
@@ -17,7 +18,6 @@ from teo_sign_translator.morphology.conjugation_build import (
     read_package,
 )
 from teo_sign_translator.morphology.tags import VERB_TAGS
-from teo_sign_translator.resources import data_file
 
 FOLDER = "mlconjug3/data/conjug_manager/"
 SHIPPED = Conjugations(data_file("morphology/conjugations.tsv"))

@@ -8,9 +8,9 @@ from collections import Counter
 import pytest
 import simplemma
 
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import TAGS, lexicon
-from teo_sign_translator.resources import data_file
 
 SPANISH_WORD = re.compile("[a-záéíóúüñ]+|mp3")
 SPANISH_NAME = re.compile("[A-ZÁÉÍÓÚÑ][a-záéíóúüñàèòçöüï]+")

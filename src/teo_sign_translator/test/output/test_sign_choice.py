@@ -8,60 +8,60 @@ import pytest
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.output_words import Draft, name
+from teo_sign_translator.output.output_words import OutputWord, name
 from teo_sign_translator.output.sign_choice import SignChooser, read_signs, read_synonyms
 from teo_sign_translator.output.translation import Kind, Origin
 
 CHOOSER = SignChooser(read_synonyms(), MORPHOLOGY)
 
 
-def _draft(gloss: str) -> Draft:
-    return Draft(signs=(gloss,), kind=Kind.LEXICAL, confidence=0.8, words=("x",), origin=Origin.MODEL)
+def _output_word(gloss: str) -> OutputWord:
+    return OutputWord(signs=(gloss,), kind=Kind.LEXICAL, confidence=0.8, words=("x",), origin=Origin.MODEL)
 
 
-def _chosen(draft: Draft, *signs: str) -> list[tuple[str, Origin]]:
-    return [(" ".join(d.signs), d.origin) for d in CHOOSER.choose([draft], set(signs))]
+def _chosen(output_word: OutputWord, *signs: str) -> list[tuple[str, Origin]]:
+    return [(" ".join(d.signs), d.origin) for d in CHOOSER.choose([output_word], set(signs))]
 
 
 def test_a_gloss_with_a_sign_keeps_it() -> None:
-    assert _chosen(_draft("AMIGA"), "AMIGA", "AMIGO") == [("AMIGA", Origin.MODEL)]
+    assert _chosen(_output_word("AMIGA"), "AMIGA", "AMIGO") == [("AMIGA", Origin.MODEL)]
 
 
 def test_else_the_sign_of_its_lemma_is_taken() -> None:
-    assert _chosen(_draft("AMIGA"), "AMIGO") == [("AMIGO", Origin.LEMMA)]
+    assert _chosen(_output_word("AMIGA"), "AMIGO") == [("AMIGO", Origin.LEMMA)]
 
 
 def test_else_that_of_a_word_that_means_the_same() -> None:
-    assert _chosen(_draft("AUTO"), "COCHE") == [("COCHE", Origin.SYNONYM)]
-    assert _chosen(_draft("COCHE"), "AUTO") == [("AUTO", Origin.SYNONYM)]
+    assert _chosen(_output_word("AUTO"), "COCHE") == [("COCHE", Origin.SYNONYM)]
+    assert _chosen(_output_word("COCHE"), "AUTO") == [("AUTO", Origin.SYNONYM)]
 
 
 def test_else_it_is_spelled() -> None:
-    assert _chosen(_draft("LÁPIZ"), "COCHE") == [("L A P I Z", Origin.SPELLED)]
+    assert _chosen(_output_word("LÁPIZ"), "COCHE") == [("L A P I Z", Origin.SPELLED)]
 
 
 def test_a_gloss_of_several_words_is_shown_word_by_word() -> None:
-    assert _chosen(_draft("POR_FAVOR"), "POR") == [("POR", Origin.MODEL), ("F A V O R", Origin.SPELLED)]
+    assert _chosen(_output_word("POR_FAVOR"), "POR") == [("POR", Origin.MODEL), ("F A V O R", Origin.SPELLED)]
 
 
 def test_a_name_is_spelled_unless_it_has_a_sign_of_its_own() -> None:
     ana = name("ANA", ("Ana",), 0.8)
     assert _chosen(ana, "HOLA") == [("A N A", Origin.SPELLED)]
     assert _chosen(ana, "ANA") == [("ANA", Origin.MODEL)]
-    assert [draft.signs for draft in CHOOSER.choose([ana], None)] == [("A", "N", "A")]
+    assert [output_word.signs for output_word in CHOOSER.choose([ana], None)] == [("A", "N", "A")]
 
 
 def test_without_an_inventory_every_possible_sign_is_kept() -> None:
-    assert CHOOSER.choose([_draft("LÁPIZ")], None) == [_draft("LÁPIZ")]
-    (odd,) = CHOOSER.choose([_draft("ŁÓDŹ")], None)
+    assert CHOOSER.choose([_output_word("LÁPIZ")], None) == [_output_word("LÁPIZ")]
+    (odd,) = CHOOSER.choose([_output_word("ŁÓDŹ")], None)
     assert odd.signs == ("L", "O", "D", "Z")
-    (long,) = CHOOSER.choose([_draft("A" * 65)], None)
+    (long,) = CHOOSER.choose([_output_word("A" * 65)], None)
     assert long.kind is Kind.LETTER
 
 
 def test_letters_share_the_confidence_and_the_words_of_their_gloss() -> None:
-    (draft,) = CHOOSER.choose([_draft("LÁPIZ")], set())
-    assert (draft.confidence, draft.words) == (0.8, ("x",))
+    (output_word,) = CHOOSER.choose([_output_word("LÁPIZ")], set())
+    assert (output_word.confidence, output_word.words) == (0.8, ("x",))
 
 
 def test_a_file_of_signs_holds_one_gloss_a_line(tmp_path: Path) -> None:

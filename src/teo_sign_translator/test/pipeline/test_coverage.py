@@ -8,10 +8,10 @@ import pytest
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_translator.corpus.generator import Generator
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.neural import OutputGloss
 from teo_sign_translator.pipeline.coverage import Coverage, read_gloss_words
-from teo_sign_translator.resources import data_file
+from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
 COVERAGE = Coverage.load()

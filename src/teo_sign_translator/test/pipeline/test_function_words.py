@@ -8,7 +8,7 @@ import pytest
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pipeline.function_words import FunctionWords
+from teo_sign_translator.pipeline.coverage import FunctionWords
 from teo_sign_translator.text.source_words import source_words
 
 

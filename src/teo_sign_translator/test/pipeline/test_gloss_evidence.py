@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.neural import Hypothesis, OutputGloss
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.pipeline.hypothesis_repair import faithful
+from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
+from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
+from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
-WARRANTS = Warrants.load()
+EVIDENCE = GlossEvidence.load()
+REPAIR = HypothesisRepair.load()
 
 
 def _glosses(*glosses: tuple[str, int]) -> tuple[OutputGloss, ...]:
@@ -51,11 +51,11 @@ def _glosses(*glosses: tuple[str, int]) -> tuple[OutputGloss, ...]:
         ("Bebe agua.", [("AGUA", 1), ("BEBER", 0), ("NO", 0)], ["NO"]),
     ],
 )
-def test_glosses_that_no_word_warrants_are_found(
+def test_glosses_without_evidence_are_found(
     sentence: str, glosses: list[tuple[str, int]], invented: list[str]
 ) -> None:
     said = _glosses(*glosses)
-    found = WARRANTS.invented(source_words(sentence, MORPHOLOGY), said)
+    found = EVIDENCE.invented(source_words(sentence, MORPHOLOGY), said)
     assert [said[place].gloss for place in found] == invented
 
 
@@ -63,25 +63,25 @@ def test_the_best_translation_that_invents_nothing_is_taken() -> None:
     words = source_words("Llego tarde.", MORPHOLOGY)
     past = Hypothesis(_glosses(("PASADO", 0), ("YO", 0), ("LLEGAR", 0), ("TARDE", 1)), -1.0)
     now = Hypothesis(_glosses(("YO", 0), ("TARDE", 1), ("LLEGAR", 0)), -2.0)
-    assert faithful(words, [past, now], Coverage.load(), WARRANTS).glosses == now.glosses
+    assert REPAIR.repair(words, [past, now]).glosses == now.glosses
 
 
 def test_what_every_translation_invents_is_left_out() -> None:
     words = source_words("Llego tarde.", MORPHOLOGY)
     past = Hypothesis(_glosses(("PASADO", 0), ("YO", 0), ("LLEGAR", 0), ("TARDE", 1)), -1.0)
-    result = faithful(words, [past], Coverage.load(), WARRANTS)
+    result = REPAIR.repair(words, [past])
     assert [gloss.gloss for gloss in result.glosses] == ["YO", "LLEGAR", "TARDE"]
 
 
 @given(st.text(max_size=40))
-def test_a_gloss_that_needs_no_warrant_is_never_refused(text: str) -> None:
+def test_a_gloss_that_needs_no_evidence_is_never_refused(text: str) -> None:
     words = source_words(text, MORPHOLOGY)
-    assert WARRANTS.invented(words, (OutputGloss("MOTIVO", (), 0.5, False),)) == []
+    assert EVIDENCE.invented(words, (OutputGloss("MOTIVO", (), 0.5, False),)) == []
 
 
 @pytest.mark.parametrize("line", ["PASADO\tV:*", "pasado\tV:*\t-", "YO\t*:1s\t-\nYO\t*:1s\t-"])
 def test_a_broken_list_is_named(tmp_path: Path, line: str) -> None:
-    path = tmp_path / "warrants.tsv"
+    path = tmp_path / "gloss_evidence.tsv"
     path.write_text(f"{line}\n", encoding="utf-8")
-    with pytest.raises(TranslationError, match=r"warrants\.tsv"):
-        Warrants.load(path)
+    with pytest.raises(TranslationError, match=r"gloss_evidence\.tsv"):
+        GlossEvidence.load(path)

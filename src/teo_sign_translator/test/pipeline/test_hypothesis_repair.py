@@ -5,12 +5,11 @@ from __future__ import annotations
 import pytest
 from word_by_word_model import MORPHOLOGY
 
-from teo_sign_translator.neural import Hypothesis, OutputGloss
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.pipeline.hypothesis_repair import REPAIRED_CONFIDENCE, Faithful, faithful
+from teo_sign_translator.pipeline.hypothesis_repair import REPAIRED_CONFIDENCE, HypothesisRepair, Repaired
+from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
+REPAIR = HypothesisRepair.load()
 WORDS = source_words("La niña bebe leche fría.", MORPHOLOGY)
 
 
@@ -18,11 +17,11 @@ def _hypothesis(*glosses: tuple[str, int]) -> Hypothesis:
     return Hypothesis(tuple(OutputGloss(gloss, (place,), 0.9, True) for gloss, place in glosses), -1.0)
 
 
-def _checked(*hypotheses: Hypothesis) -> Faithful:
-    return faithful(WORDS, hypotheses, Coverage.load(), Warrants.load())
+def _checked(*hypotheses: Hypothesis) -> Repaired:
+    return REPAIR.repair(WORDS, hypotheses)
 
 
-def _glosses(result: Faithful) -> str:
+def _glosses(result: Repaired) -> str:
     return " ".join(gloss.gloss for gloss in result.glosses)
 
 
@@ -56,19 +55,19 @@ def test_lost_words_are_put_back_beside_their_neighbours(kept: list[tuple[str, i
     assert all(gloss.probability == REPAIRED_CONFIDENCE for gloss in back)
 
 
-def test_a_sentence_of_coverage_alone_has_them_all() -> None:
+def test_a_sentence_of_function_words_alone_has_them_all() -> None:
     words = source_words("de la", MORPHOLOGY)
-    result = faithful(words, [Hypothesis((), 0.0)], Coverage.load(), Warrants.load())
+    result = REPAIR.repair(words, [Hypothesis((), 0.0)])
     assert [gloss.sources for gloss in result.glosses] == [(0,), (1,)]
 
 
 def test_a_verb_that_only_says_the_future_may_be_left_out() -> None:
     words = source_words("Mañana voy a comer", MORPHOLOGY)
     said = _hypothesis(("MAÑANA", 0), ("COMER", 3))
-    assert faithful(words, [said], Coverage.load(), Warrants.load()).glosses == said.glosses
+    assert REPAIR.repair(words, [said]).glosses == said.glosses
     words = source_words("Mañana voy a Roma", MORPHOLOGY)
     said = _hypothesis(("MAÑANA", 0), ("ROMA", 3))
-    assert "IR" in _glosses(faithful(words, [said], Coverage.load(), Warrants.load()))
+    assert "IR" in _glosses(REPAIR.repair(words, [said]))
 
 
 def test_a_gloss_that_is_one_words_lemma_says_that_word_alone() -> None:
@@ -81,10 +80,10 @@ def test_a_gloss_says_nothing_but_its_own_words_and_those_that_are_listed() -> N
     said = Hypothesis(
         (OutputGloss("ALGUIEN", (0, 2, 3), 0.9, False), OutputGloss("COMER", (1,), 0.9, True)), -1
     )
-    assert _glosses(faithful(words, [said], Coverage.load(), Warrants.load())) == "ALGUIEN ANA COMER 3 PERA"
+    assert _glosses(REPAIR.repair(words, [said])) == "ALGUIEN ANA COMER 3 PERA"
 
 
 def test_a_question_word_is_put_back_at_the_end() -> None:
     words = source_words("¿Cuándo come Ana?", MORPHOLOGY)
     said = _hypothesis(("ANA", 2), ("COMER", 1))
-    assert _glosses(faithful(words, [said], Coverage.load(), Warrants.load())) == "ANA COMER CUÁNDO"
+    assert _glosses(REPAIR.repair(words, [said])) == "ANA COMER CUÁNDO"

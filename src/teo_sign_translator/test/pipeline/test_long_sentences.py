@@ -5,10 +5,8 @@ from __future__ import annotations
 import pytest
 from word_by_word_model import MORPHOLOGY, WordByWordModel
 
-from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import Warrants
-from teo_sign_translator.pipeline.hypothesis_repair import faithful
-from teo_sign_translator.pipeline.long_sentences import MOST_WORDS, joined, parts, pieces
+from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
+from teo_sign_translator.pipeline.long_sentences import MOST_WORDS, parts, pieces
 from teo_sign_translator.text.source_words import source_words
 
 
@@ -40,20 +38,15 @@ def test_no_part_is_longer_than_the_model_has_seen_and_none_is_lost(text: str) -
 
 def test_pieces_are_joined_with_their_places_and_conjunctions() -> None:
     words = source_words("Como pan, bebo agua y duermo, pero sueño", MORPHOLOGY)
-    model, coverage = WordByWordModel(), Coverage.load()
+    model, repair = WordByWordModel(), HypothesisRepair.load()
     translated = [
         (
             piece,
-            faithful(
-                words[piece.start : piece.stop],
-                model.translate(words[piece.start : piece.stop]),
-                coverage,
-                Warrants.load(),
-            ),
+            repair.repair(words[piece.start : piece.stop], model.translate(words[piece.start : piece.stop])),
         )
         for piece in pieces(words)
     ]
-    whole = joined(words, translated, coverage)
+    whole = repair.join(words, translated)
     assert [(words[gloss.sources[0]].form, len(gloss.sources)) for gloss in whole.glosses] == [
         (form, 1) for form in ("como", "pan", "bebo", "agua", "duermo", "pero", "sueño")
     ]

@@ -7,10 +7,10 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.seq2seq import Prediction
-from teo_sign_translator.lstm256.vocabulary import Vocabulary
+from teo_sign_translator.lstm256.tokens import Vocabulary
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token
-from teo_sign_translator.pipeline.lstm_back_end import PhraseRoute
+from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
 from teo_sign_translator.text.sentence_type import SentenceType
@@ -158,8 +158,8 @@ class _Parrot:
 
 def _translator_with(model: _Parrot) -> Translator:
     glosses = GlossList.load()
-    route = PhraseRoute(model, Phrasebook(training_pairs(), glosses), glosses, name="parrot")
-    return Translator(route, SignChooser({}, None))
+    back_end = LstmBackEnd(model, Phrasebook(training_pairs(), glosses), glosses, name="parrot")
+    return Translator(back_end, SignChooser({}, None))
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import pytest
 from word_by_word_model import WordByWordModel, translator_with
 
-from teo_sign_translator.neural import Hypothesis, OutputGloss
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, printed
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
+from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.sentence_type import SentenceType
 from teo_sign_translator.text.source_words import SourceWord
 
@@ -108,7 +108,7 @@ def test_a_sentence_that_is_too_much_for_the_model_is_translated_piece_by_piece(
     assert sum(token.kind is Kind.PAUSE for token in sentence.tokens) == 1
 
 
-class ByHeart:
+class MemorisedPair:
     """Knows one answer by heart."""
 
     name = "by heart"
@@ -129,7 +129,7 @@ class ByHeart:
 
 
 def test_what_the_paper_leaves_out_is_no_loss() -> None:
-    paper = translator_with(ByHeart(("BIEN", (1,)), ("DORMIR", (4,))))
+    paper = translator_with(MemorisedPair(("BIEN", (1,)), ("DORMIR", (4,))))
     assert str(paper.translate("Estoy bien pero tengo sueño")) == "BIEN DORMIR"
     assert str(paper.translate("estoy bien pero tengo sueno")) == "BIEN DORMIR"
     assert "PERO" in str(paper.translate("Estoy bien pero tengo frío")).split()
@@ -144,7 +144,7 @@ def test_what_the_paper_leaves_out_is_no_loss() -> None:
     ],
 )
 def test_all_words_of_a_name_are_spelled(text: str, name: str) -> None:
-    forgetful = translator_with(ByHeart(("MI", (0,)), ("NOMBRE", (1,))))
+    forgetful = translator_with(MemorisedPair(("MI", (0,)), ("NOMBRE", (1,))))
     assert str(forgetful.translate(text)) == f"MI NOMBRE {name}"
 
 

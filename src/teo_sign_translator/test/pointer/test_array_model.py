@@ -11,15 +11,14 @@ import torch
 from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
 from threadpoolctl import threadpool_info
 
-from teo_sign_translator.neural import Hypothesis
+from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
-from teo_sign_translator.pointer.batches import WordNumbers, batches
-from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.examples import ExampleReader
-from teo_sign_translator.pointer.network import Network, TensorBatch
-from teo_sign_translator.pointer.one_core import one_core
-from teo_sign_translator.pointer.training import make_lexis
-from teo_sign_translator.pointer.zoo import POINTER, ZOO
+from teo_sign_translator.pointer.config import POINTER, ZOO
+from teo_sign_translator.pointer.decoding import ZooModel, one_core
+from teo_sign_translator.pointer.training.batches import WordNumbers, batches
+from teo_sign_translator.pointer.training.examples import ExampleReader
+from teo_sign_translator.pointer.training.fitting import make_vocabulary
+from teo_sign_translator.pointer.training.network import Network, TensorBatch
 
 
 @pytest.fixture(scope="module")
@@ -46,17 +45,17 @@ def test_plain_arrays_say_what_pytorch_says(name: str) -> None:
     examples = reader.examples(pairs)
     table = reader.table()
     config = dataclasses.replace(small_config(name), layers=2) if name == POINTER else small_config(name)
-    lexis = make_lexis(examples, table, 0, copy=config.copy)
+    vocabulary = make_vocabulary(examples, table, 0, copy=config.copy)
     torch.manual_seed(3)
-    network = Network(config, lexis).eval()
+    network = Network(config, vocabulary).eval()
     with torch.no_grad():
         for parameter in network.parameters():
             parameter += 0.3 * torch.randn_like(parameter)
         network.tag.weight[0] = 0
         network.lemma.weight[0] = 0
-    arrays = ArrayModel(config, lexis, network.weights())
-    numbers = WordNumbers.of(table, lexis, examples)
-    size = len(lexis.glosses)
+    arrays = ArrayModel(config, vocabulary, network.weights())
+    numbers = WordNumbers.of(table, vocabulary, examples)
+    size = len(vocabulary.glosses)
     for place in range(len(pairs)):
         one = examples.take(np.array([place]))
         (batch,) = batches(one, table, numbers, 1, spare=4 if config.layout == "equal_length" else 0)

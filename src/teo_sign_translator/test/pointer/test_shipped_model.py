@@ -4,16 +4,15 @@ from functools import cache, partial
 
 import pytest
 
-from teo_sign_translator.lstm256.store import DEFAULT_MODEL
+from teo_sign_translator.model_files import models_directory
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.neural import load_sentence_model
-from teo_sign_translator.pointer.config import NetworkConfig
+from teo_sign_translator.pipeline.translator import DEFAULT_MODEL
+from teo_sign_translator.pointer import load_sentence_model
+from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
 from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.examples import Reader
-from teo_sign_translator.pointer.memorised_pairs import by_heart_pairs, unknown_by_heart
 from teo_sign_translator.pointer.store import load_sentence_card, sentence_models
-from teo_sign_translator.pointer.zoo import POINTER, ZOO
-from teo_sign_translator.resources import models_directory
+from teo_sign_translator.pointer.training.examples import Reader
+from teo_sign_translator.pointer.training.memorised_pairs import memorised_pairs, not_memorised
 from teo_sign_translator.text.source_words import source_words
 
 
@@ -38,11 +37,11 @@ def test_the_default_model_is_the_pointer_of_the_zoo() -> None:
 
 
 def test_the_papers_pairs_come_out_exactly_however_they_are_typed() -> None:
-    assert unknown_by_heart(model(), read()) == ()
+    assert not_memorised(model(), read()) == ()
 
 
 def test_the_projects_pairs_come_out_exactly() -> None:
-    pairs = by_heart_pairs(read())
+    pairs = memorised_pairs(read())
     wrong = {pair.spanish: _translated(pair.spanish) for pair in pairs}
     wrong = {
         sentence: got for pair in pairs if (got := wrong[sentence := pair.spanish]) != " ".join(pair.glosses)

@@ -12,10 +12,10 @@ import pytest
 from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.neural import load_sentence_model
+from teo_sign_translator.pointer import load_sentence_model
+from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import save_sentence_model, sentence_models
-from teo_sign_translator.pointer.training import Fit
-from teo_sign_translator.pointer.zoo import POINTER
+from teo_sign_translator.pointer.training.fitting import Fit
 
 
 def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> Fit:
@@ -24,7 +24,7 @@ def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> 
         "small",
         directory,
         config=small_config(POINTER),
-        lexis=trained.lexis,
+        vocabulary=trained.vocabulary,
         weights=trained.weights | weights,
         card={},
     )
@@ -92,8 +92,8 @@ def _not_a_number(directory: Path) -> None:
         _card(network={"hidden": 16}),
         _card(network={"width": 16}),
         _card(network=None),
-        _card(lexis={}),
-        _card(lexis=[]),
+        _card(vocabulary={}),
+        _card(vocabulary=[]),
     ],
 )
 def test_a_damaged_model_is_refused(tmp_path: Path, damage: Callable[[Path], None]) -> None:

@@ -4,7 +4,7 @@ import pytest
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.spelling import letters, unsignable
-from teo_sign_translator.text.cleaning import clean, fold, strip_marks
+from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.numerals import match_digits, read_number_words
 from teo_sign_translator.text.reading import read
 from teo_sign_translator.text.sentence_type import SentenceType, is_negated, sentence_type
@@ -37,16 +37,6 @@ def test_cleaning_refuses_lost_characters() -> None:
     with pytest.raises(TranslationError) as error:
         clean("d\udced")
     assert error.value.code == "broken_encoding"
-
-
-def test_folding_keeps_the_letter_ene_but_no_accent() -> None:
-    assert [fold(word) for word in ("CÓMO", "Año", "pingüino", "façade")] == [
-        "como",
-        "año",
-        "pinguino",
-        "facade",
-    ]
-    assert strip_marks("Año") == "ano"
 
 
 def _words(text: str) -> list[list[str]]:

@@ -12,7 +12,7 @@ from rosbags.rosbag1 import Reader as Ros1Reader
 from rosbags.rosbag2 import Reader as Ros2Reader
 from rosbags.typesys import Stores, get_typestore
 
-from teo_skeleton_retriever.bag_salvage import CutOff, RawMessage, salvage
+from teo_skeleton_retriever.bags.bag_salvage import CutOff, RawMessage, salvage
 from teo_skeleton_retriever.errors import BagError
 
 _SUFFIXES = (".mcap", ".db3", ".bag")

@@ -6,9 +6,13 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.camera.camera_topics import CAMERA_INFO, COLOR, DEPTH
-from teo_skeleton_retriever.camera.image_messages import shows_depth
-from teo_skeleton_retriever.errors import BagError
+from teo_skeleton_retriever.camera.image_messages import (
+    CAMERA_INFO_TOPIC,
+    COLOR_TOPIC,
+    DEPTH_TOPIC,
+    shows_depth,
+)
+from teo_skeleton_retriever.errors import BagError, TopicError
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _TRANSPORTS = ("compressed", "compressedDepth")
@@ -34,7 +38,8 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
         camera_info: likewise.
 
     Raises:
-        BagError: one is not there, or several may be meant.
+        TopicError: none or several may be meant.
+        BagError: one that is named is not there.
     """
     names = [topic for topic, kind in bag.kinds.items() if kind in _IMAGES and bag.counts.get(topic)]
     first = {topic: bag.first(topic) for topic in names}
@@ -42,13 +47,13 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
     colors = [topic for topic in names if shows_depth(first[topic]) is False]
     coloured = [topic for topic in colors if getattr(first[topic], "encoding", "") not in _GREY]
     infos = [topic for topic, kind in bag.kinds.items() if kind == "sensor_msgs/msg/CameraInfo"]
-    chosen_color = _choose(bag, "color", color, COLOR, coloured or colors)
+    chosen_color = _choose(bag, "color", color, COLOR_TOPIC, coloured or colors)
     beside = f"{_base(chosen_color).rpartition('/')[0]}/camera_info"
     aligned = [topic for topic in depths if any(word in topic for word in _ALIGNED)]
     return Topics(
         chosen_color,
-        _choose(bag, "depth", depth, DEPTH, aligned or depths),
-        _choose(bag, "camera_info", camera_info, CAMERA_INFO, [beside] if beside in infos else infos),
+        _choose(bag, "depth", depth, DEPTH_TOPIC, aligned or depths),
+        _choose(bag, "camera_info", camera_info, CAMERA_INFO_TOPIC, [beside] if beside in infos else infos),
     )
 
 
@@ -64,16 +69,11 @@ def _choose(bag: Bag, what: str, told: str, usual: str, found: Sequence[str]) ->
     bases = {_base(topic) for topic in found}
     if len(bases) == 1:
         return next(iter(_forms(bases.pop(), found)))
-    option = f"--{what.replace('_', '-')}-topic"
     if not bases:
-        raise BagError(
-            f"no_{what}",
-            f"expected a topic of {what}, got {', '.join(sorted(known)) or 'none'}; see {option}",
-        )
-    raise BagError(
-        f"ambiguous_{what}",
-        f"expected one topic of {what}, got {', '.join(sorted(found))}; name it: {option}",
-    )
+        sentence = f"expected a topic of {what}, got {', '.join(sorted(known)) or 'none'}"
+        raise TopicError(f"no_{what}", sentence, f"{what}_topic")
+    sentence = f"expected one topic of {what}, got {', '.join(sorted(found))}"
+    raise TopicError(f"ambiguous_{what}", sentence, f"{what}_topic")
 
 
 def _forms(base: str, found: Sequence[str]) -> list[str]:

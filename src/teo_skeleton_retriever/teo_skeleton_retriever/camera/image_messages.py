@@ -1,4 +1,7 @@
-"""From the messages of a camera to arrays. Takes those of rclpy and those that are read from bags alike."""
+"""From the messages of a camera to arrays, and the usual names of its topics.
+
+Takes messages of rclpy and those that are read from bags alike.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +14,11 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.camera.color_image import COLOR_ENCODINGS, ColorArray, decode_color
 from teo_skeleton_retriever.camera.compressed_image import decode_compressed_color, decode_compressed_depth
 from teo_skeleton_retriever.camera.depth_image import decode_depth
+
+COLOR_TOPIC = "camera/color/image_raw"
+DEPTH_TOPIC = "camera/aligned_depth_to_color/image_raw"
+CAMERA_INFO_TOPIC = "camera/color/camera_info"
+
 
 _DEPTH_ENCODINGS = ("16UC1", "mono16", "32FC1")
 _NANOSECONDS = 1_000_000_000

@@ -12,6 +12,9 @@ NO_COLOR = "no_color"
 OVERTAKEN = "overtaken"
 """Colour images of before one that was given out already: late, or a second one of the same time."""
 
+# [s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart.
+DEFAULT_SLOP = 0.017
+
 _BACKWARDS = 1_000_000_000  # [ns] A stamp so much earlier is a clock or a bag set back, not a late message.
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
@@ -13,26 +13,22 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
-from std_msgs.msg import Header
 
-from teo_skeleton_retriever.bags.bag_images import BagImage, BagImages
-from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.bags.topic_choice import choose_topics
+from teo_skeleton_retriever.bags.bag_images import BagImage
 from teo_skeleton_retriever.camera.image_files import read_rgbd_image
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS, make_detector
-from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.errors import RetrieverError, TopicError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES, ImageRetriever, Retrieved, make_retriever
+from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.node.node_parameters import (
-    DEFAULT_SLOP,
     detector_options_from,
     parameters_from_words,
 )
-from teo_skeleton_retriever.output.messages import skeleton_array
 from teo_skeleton_retriever.output.overlay import Overlay
 from teo_skeleton_retriever.output.overlay_video import OverlayVideo
-from teo_skeleton_retriever.output.retrieval_summary import RetrievalSummary
-from teo_skeleton_retriever.output.skeleton_bag import SkeletonBag
 from teo_skeleton_retriever.output.skeleton_json import as_json
+from teo_skeleton_retriever.recording import RetrievalReport, retrieve_recording
 
 _out = Console()
 _err = Console(stderr=True)
@@ -110,66 +106,46 @@ def _retrieve(
                 _one(images, color, depth, camera_info, as_lines)
                 return
             assert bag is not None
-            opened = Bag(bag)
-            topics = choose_topics(
-                opened, color=color_topic, depth=depth_topic, camera_info=camera_info_topic
+            film = stack.enter_context(OverlayVideo(video)) if video is not None else None
+            progress = stack.enter_context(_progress())
+            task = progress.add_task("retrieving", total=None)
+            report = retrieve_recording(
+                bag,
+                images,
+                out=out,
+                slop=slop,
+                rectified=rectified,
+                color_topic=color_topic,
+                depth_topic=depth_topic,
+                camera_info_topic=camera_info_topic,
+                on_progress=lambda done, total: progress.update(task, completed=done, total=total),
+                on_image=_shower(film, as_lines),
             )
-            reader = BagImages(opened, topics, slop=round(slop * 1e9), rectified=rectified)
-            total = sum(opened.counts.get(topic, 0) for topic in topics)
-            summary = RetrievalSummary()
-            found = _found(reader, images, summary, stack.enter_context(_progress()), total)
-            _write(found, out, video, as_lines, stack)
     except RetrieverError as error:
-        _complain(f"{error.code}: {error.sentence}")
+        hint = f"; name it: --{error.argument.replace('_', '-')}" if isinstance(error, TopicError) else ""
+        _complain(f"{error.code}: {error.sentence}{hint}")
         raise typer.Exit(1) from None
     except OSError as error:
         _complain(f"cannot write {error.filename}: {error.strerror}")
         raise typer.Exit(1) from None
-    _tell(summary.table(reader), [path for path in (out, video) if path is not None], quiet=as_lines)
-    for reason, sentence in reader.reasons.items():
-        _complain(f"{reader.dropped[reason]} images left out, {reason}: {sentence}")
-    if opened.problem:
-        _complain(f"{bag}: {opened.problem}")
-    if not summary.images:
-        _complain(f"no image of {topics.color} could be used: {dict(reader.dropped) or 'there is none'}")
-    if opened.problem or reader.reasons or not summary.images:
+    _tell(_table(report), [path for path in (out, video) if path is not None], quiet=as_lines)
+    for complaint in report.complaints:
+        _complain(complaint)
+    if report.complaints:
         raise typer.Exit(1)
 
 
-def _found(
-    reader: BagImages, images: ImageRetriever, summary: RetrievalSummary, progress: Progress, total: int
-) -> Iterator[tuple[BagImage, Retrieved]]:
-    """Go through the bag; an image that the detector or the retriever refuses is counted and left out."""
-    task = progress.add_task("retrieving", total=total)
-    for found in reader.images(on_message=lambda: progress.advance(task)):
-        try:
-            result = images.process(found.image)
-        except RetrieverError as error:
-            reader.drop(error)
-            continue
-        summary.add(result)
-        yield found, result
-
-
-def _write(
-    found: Iterator[tuple[BagImage, Retrieved]],
-    out: Path | None,
-    video: Path | None,
-    as_lines: bool,
-    stack: ExitStack,
-) -> None:
-    film = stack.enter_context(OverlayVideo(video)) if video is not None else None
-    skeletons = stack.enter_context(SkeletonBag(out)) if out is not None else None
+def _shower(film: OverlayVideo | None, as_lines: bool) -> Callable[[BagImage, Retrieved], None]:
+    """Make what draws each image to the film and prints it as a line, as far as that is asked for."""
     overlay = Overlay()
-    for bag_image, result in found:
+
+    def show(found: BagImage, retrieved: Retrieved) -> None:
         if film is not None:
-            film.add(overlay.draw(bag_image.image, result), bag_image.image.stamp)
-        if skeletons is not None:
-            header = Header(frame_id=bag_image.frame_id)
-            header.stamp.sec, header.stamp.nanosec = divmod(bag_image.stamp, 1_000_000_000)
-            skeletons.write(skeleton_array(result.skeletons, header), bag_image.time)
+            film.add(overlay.draw(found.image, retrieved), found.image.stamp)
         if as_lines:
-            print(json.dumps(as_json(bag_image.image.stamp, result.skeletons)))
+            print(json.dumps(as_json(found.image.stamp, retrieved.skeletons)))
+
+    return show
 
 
 def _one(images: ImageRetriever, color: Path, depth: Path, camera_info: Path, as_lines: bool) -> None:
@@ -198,6 +174,32 @@ def _progress() -> Progress:
         TimeRemainingColumn(),
         console=_err,
         transient=True,
+    )
+
+
+def _table(report: RetrievalReport) -> Table:
+    """Show the counts, with what was left out."""
+    table = Table(show_header=False)
+    table.add_row("images", str(report.images))
+    for reason, count in sorted(report.left_out.items()):
+        table.add_row(f"left out, {reason}", str(count))
+    table.add_row("with people", str(report.images_with_people))
+    table.add_row("people", str(report.people))
+    for part, counts in report.statuses.items():
+        table.add_row(f"signer's {part}", _shares(counts))
+    if report.images:
+        detector, own = report.detector_time * 1e3, report.own_time * 1e3
+        table.add_row("time per image", f"detector {detector:.1f} ms, own {own:.1f} ms (medians)")
+    return table
+
+
+def _shares(counts: Mapping[int, int]) -> str:
+    total = sum(counts.values())
+    if not total:
+        return "-"
+    order = (KeypointStatus.MEASURED, KeypointStatus.OPTIMISED, KeypointStatus.HELD, KeypointStatus.LOST)
+    return ", ".join(
+        f"{status.name.lower()} {100.0 * counts.get(status, 0) / total:.0f} %" for status in order
     )
 
 

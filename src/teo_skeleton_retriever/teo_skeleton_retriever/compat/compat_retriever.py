@@ -13,11 +13,9 @@ from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
 from teo_skeleton_retriever.compat.skeleton_std import FROM_BODY_25, SKELETON_STD
-from teo_skeleton_retriever.detectors.detection_frame import Frame
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
 from teo_skeleton_retriever.layouts.body_frame import body_frame
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
@@ -47,7 +45,7 @@ class CompatRetriever:
         self._camera: CameraModel | None = None
         self._retriever: OriginalRetriever | None = None
 
-    def process(self, frame: Frame) -> tuple[Skeleton, ...]:
+    def process(self, frame: DetectionFrame) -> tuple[Skeleton, ...]:
         """Take one image. Another camera begins anew, as a restart of the original did."""
         if self._retriever is None or not _same(self._camera, frame.camera):
             self._camera = frame.camera

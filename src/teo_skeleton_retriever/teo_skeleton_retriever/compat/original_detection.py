@@ -10,8 +10,8 @@ from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
 from teo_skeleton_retriever.compat.skeleton_std import FALLBACKS, FROM_BODY_25, MIDPOINTS, SKELETON_STD
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.coco_18 import COCO_18, body_25_from_coco_18
+from teo_skeleton_retriever.layouts.body_conversion import body_25_from_coco_18
+from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 

@@ -1,10 +1,14 @@
-"""The original's parameters with the defaults of its code."""
+"""The original's parameters: with the defaults of its code, or by the names of its configuration file."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from teo_skeleton_retriever.compat.contour_dilation import ContourDilation
+from teo_skeleton_retriever.errors import ParameterError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,3 +38,80 @@ class OriginalParameters:
     filter_keypoint_order: int = 3
     filter_limblength_order: int = 40
     optimize_limblength: bool = True
+
+
+def _switch(text: str) -> bool:
+    if text.lower() not in ("true", "false", "on", "off"):
+        raise ValueError("expected true or false")
+    return text.lower() in ("true", "on")
+
+
+class _Option(NamedTuple):
+    """Which argument of ours it is, how its text is read, and its least value."""
+
+    argument: str
+    read: Callable[[str], float]
+    least: float = 0
+
+
+_OPTIONS = {
+    "skeleton::keys-recognition-confidence": _Option("keys_recognition_confidence", float),
+    "skeleton::keys-recognition-percentage": _Option("keys_recognition_percentage", float),
+    "skeleton::keys-acceptable-misses": _Option("keys_acceptable_misses", int),
+    "skeleton::min-acceptable-path": _Option("min_acceptable_path", float),
+    "skeleton::tracking-threshold": _Option("tracking_threshold", float),
+    "skeleton::time-to-live": _Option("time_to_live", float),
+    "filtering::filter-keypoint-order": _Option("filter_keypoint_order", int),
+    "filtering::filter-limblength-order": _Option("filter_limblength_order", int),
+    "filtering::optimize-limblength": _Option("optimize_limblength", _switch),
+}
+_DEPTH_OPTIONS = {
+    "depth::kernel-size": _Option("kernel_size", int, 1),
+    "depth::iterations": _Option("iterations", int),
+    "depth::min-distance": _Option("min_distance", float),
+    "depth::max-distance": _Option("max_distance", float),
+}
+_ENABLE = "depth::enable"
+COMPAT_OPTIONS = (*_OPTIONS, _ENABLE, *_DEPTH_OPTIONS)
+"""The names that are known; those of the original's camera and ports have no meaning here."""
+
+
+def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
+    """Give the original's parameters.
+
+    Args:
+        words: `group::name=value` each; empty ones do not matter. What is not named has the default of the
+            original's code.
+
+    Raises:
+        ParameterError: a name is not known, or a value is none.
+    """
+    chosen: dict[str, dict[str, object]] = {"general": {}, "depth": {}}
+    enabled = True
+    for word in filter(None, words):
+        name, _, text = (part.strip() for part in word.partition("="))
+        if name == _ENABLE:
+            enabled = bool(_value(name, text, _Option("", _switch)))
+        elif name in _DEPTH_OPTIONS:
+            option = _DEPTH_OPTIONS[name]
+            chosen["depth"][option.argument] = _value(name, text, option)
+        elif name in _OPTIONS:
+            option = _OPTIONS[name]
+            chosen["general"][option.argument] = _value(name, text, option)
+        else:
+            raise ParameterError(
+                "unknown_compat_option",
+                f"expected NAME=VALUE with a name of {', '.join(COMPAT_OPTIONS)}; got {word!r:.80}",
+            )
+    depth_filter = ContourDilation(**chosen["depth"]) if enabled else None  # type: ignore[arg-type]
+    return OriginalParameters(depth_filter=depth_filter, **chosen["general"])  # type: ignore[arg-type]
+
+
+def _value(name: str, text: str, option: _Option) -> float:
+    try:
+        value = option.read(text)
+    except ValueError as error:
+        raise ParameterError("wrong_type", f"{name}: got {text!r:.40}: {error}") from None
+    if not (math.isfinite(value) and value >= option.least):
+        raise ParameterError("out_of_range", f"{name}: expected {option.least} or more, got {text}")
+    return value

@@ -1,20 +1,83 @@
-"""One person over time: keypoints held, filtered, limbs calibrated and optimised, as the original does it."""
+"""One person over time as in the original: keypoints held and filtered, limbs calibrated and optimised."""
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Protocol
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.body_planes import body_planes
-from teo_skeleton_retriever.compat.original_limb_length import OriginalLimbLength
-from teo_skeleton_retriever.compat.original_median import OriginalMedian
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
-from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
+from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton, body_planes
 from teo_skeleton_retriever.compat.skeleton_std import CHAINS, LIMBS, PARENTS, SKELETON_STD
 from teo_skeleton_retriever.depth.limb_chain import LimbChain, LimbSolution
+
+
+class OriginalMedian:
+    """Median of the last `order + 1` samples, axis by axis; until so many came, the start value.
+
+    With order 3 the first three images after a keypoint appears show its first place: so the original does.
+    Source: `MedianFilter` of iCub's control library.
+    """
+
+    def __init__(self, order: int, start: FloatArray) -> None:
+        """Build a filter.
+
+        Args:
+            order: number of past samples.
+            start: output until the filter is full. Shape (k,).
+        """
+        self._samples: deque[FloatArray] = deque(maxlen=order + 1)
+        self._output = np.array(start, dtype=np.float64)
+
+    def restart(self, start: FloatArray) -> None:
+        """Forget all samples and show this value until the filter is full again. Shape (k,)."""
+        self._samples.clear()
+        self._output = np.array(start, dtype=np.float64)
+
+    def step(self, sample: FloatArray) -> FloatArray:
+        """Take a sample and give the output. Shape (k,) each."""
+        self._samples.append(np.array(sample, dtype=np.float64))
+        if len(self._samples) == self._samples.maxlen:
+            self._output = np.median(np.array(self._samples), axis=0)
+        return self._output.copy()
+
+    @property
+    def output(self) -> FloatArray:
+        """The last output. Shape (k,)."""
+        return self._output.copy()
+
+
+DEFAULT_ORDER = 40
+TOO_LONG = 2.0
+"""A limb this many times as long as calibrated loses its far end for that image; fixed in the original."""
+
+
+class OriginalLimbLength:
+    """Locked after `order + 1` lengths; one that starts badly stays bad, which is why `LimbLength` exists."""
+
+    def __init__(self, order: int = DEFAULT_ORDER) -> None:
+        self._order = order
+        self._count = 0
+        self._median = OriginalMedian(order, np.zeros(1))
+
+    def step(self, length: float) -> None:
+        """Take a measured length [m]."""
+        if self._count <= self._order:
+            self._median.step(np.array([length]))
+            self._count += 1
+
+    @property
+    def value(self) -> float | None:
+        """The calibrated length [m]; None until then."""
+        return float(self._median.output[0]) if self._count > self._order else None
+
+    def too_long(self, length: float) -> bool:
+        """Tell whether a measured length [m] is beyond belief; never before the calibration."""
+        return self.value is not None and length > TOO_LONG * self.value
+
 
 _INDEX = SKELETON_STD.index
 

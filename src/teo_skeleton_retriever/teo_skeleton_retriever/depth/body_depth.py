@@ -12,9 +12,9 @@ from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.depth.filtered_keypoints import points_of
 from teo_skeleton_retriever.depth.skin import BODY_CAPS, BODY_DEPTHS, along_ray
-from teo_skeleton_retriever.depth.viewing_rays import Detected
-from teo_skeleton_retriever.detectors.mediapipe.calibration import across_by_confidence
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
+from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_layout import ARMS, ROW
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.body_size import BodySize
@@ -89,7 +89,7 @@ class BodyDepth:
 
     def find(
         self,
-        seen: Detected,
+        seen: ViewingRays,
         surfaces: Surfaces,
         before: FilterOutput,
         size: BodySize,
@@ -108,7 +108,7 @@ class BodyDepth:
         depth, sigma = self._measure(surfaces, before, size)
         rays, across = seen.rays.copy(), _ACROSS.copy()
         if self._parameters.detector == "mediapipe":
-            across = across_by_confidence(across, seen.confidence)
+            across = body_sigma(across, seen.confidence)
             # Beside the joint is another depth than at it.
             sigma = np.hypot(sigma, _SLOPE * np.maximum(across - _ACROSS, 0.0))
         for side, wrist in wrists.items():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
-from teo_skeleton_retriever.depth.viewing_rays import Detected
+from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus
 from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
 
@@ -18,7 +18,7 @@ def points_of(output: FilterOutput) -> FloatArray:
 
 def keypoints_of(
     output: FilterOutput,
-    seen: Detected,
+    seen: ViewingRays,
     *,
     optimised: BoolArray,
     bias: FloatArray,

@@ -27,18 +27,7 @@ from teo_skeleton_retriever.depth.hand_shape import (
     turned,
 )
 from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
-
-BONES: FloatArray = np.array(
-    [
-        *(0.040, 0.042, 0.032, 0.026),  # thumb
-        *(0.091, 0.041, 0.025, 0.020),
-        *(0.088, 0.045, 0.028, 0.021),
-        *(0.082, 0.042, 0.027, 0.021),
-        *(0.078, 0.033, 0.020, 0.018),
-    ]
-)
-"""[m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
-the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""
+from teo_skeleton_retriever.layouts.person_layout import HAND_BONES
 
 _BONE_SIGMA = 0.008  # [m] people's proportions differ, and a pixel is 2 to 3 mm
 _STEP_SIGMA = np.where(PALM_BONES, 0.010, 0.012)
@@ -93,7 +82,7 @@ class HandFit(NamedTuple):
         return int(self.measured.sum()) >= _CERTAIN
 
 
-def fit_hands(hands: list[HandView], scale: float, bones: FloatArray = BONES) -> list[HandFit | None]:
+def fit_hands(hands: list[HandView], scale: float, bones: FloatArray = HAND_BONES) -> list[HandFit | None]:
     """Find the depths of hands, all at once for the time it takes.
 
     Args:

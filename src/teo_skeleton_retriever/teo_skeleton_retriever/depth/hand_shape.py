@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.layout import HAND_21
 
 N = len(HAND_21)
 CHILD = np.arange(1, N)

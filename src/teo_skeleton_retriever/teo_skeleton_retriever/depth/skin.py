@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 
 BODY_DEPTH: dict[str, float] = {
     "Nose": -0.012,

@@ -10,7 +10,7 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 
 
-class Detected(NamedTuple):
+class ViewingRays(NamedTuple):
     """Keypoints in one image; NaN and 0 where not seen."""
 
     pixels: FloatArray
@@ -22,21 +22,21 @@ class Detected(NamedTuple):
     seen: BoolArray
     """Shape (n,)"""
 
-    def only(self, believed: BoolArray) -> Detected:
+    def only(self, believed: BoolArray) -> ViewingRays:
         """Forget the keypoints that are not believed."""
-        return Detected(
+        return ViewingRays(
             np.where(believed[:, None], self.pixels, np.nan),
             np.where(believed[:, None], self.rays, np.nan),
             np.where(believed, self.confidence, 0.0),
             self.seen & believed,
         )
 
-    def part(self, rows: slice) -> Detected:
+    def part(self, rows: slice) -> ViewingRays:
         """Keep some of the keypoints."""
-        return Detected(self.pixels[rows], self.rays[rows], self.confidence[rows], self.seen[rows])
+        return ViewingRays(self.pixels[rows], self.rays[rows], self.confidence[rows], self.seen[rows])
 
 
-def detected(keypoints: FloatArray, camera: CameraModel, min_confidence: float) -> Detected:
+def viewing_rays(keypoints: FloatArray, camera: CameraModel, min_confidence: float) -> ViewingRays:
     """Keep the keypoints that are in the image and that the detector is sure of.
 
     Args:
@@ -50,4 +50,4 @@ def detected(keypoints: FloatArray, camera: CameraModel, min_confidence: float) 
     rays[seen] = camera.rays(pixels[seen])[:, :2]
     seen &= np.isfinite(rays).all(axis=1)  # a lens may image nothing there
     confidence = np.where(seen, np.clip(keypoints[:, 2], 0.0, 1.0), 0.0)
-    return Detected(pixels, rays, confidence, seen)
+    return ViewingRays(pixels, rays, confidence, seen)

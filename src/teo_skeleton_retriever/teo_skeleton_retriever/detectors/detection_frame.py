@@ -12,7 +12,7 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class DetectionFrame:
     """One image: who was seen in it, and its depth.
 
     Attributes:

@@ -10,7 +10,7 @@ from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
 from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
 from teo_skeleton_retriever.detectors.openpose.stamp_table import StampTable
 from teo_skeleton_retriever.errors import DetectorError
-from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 

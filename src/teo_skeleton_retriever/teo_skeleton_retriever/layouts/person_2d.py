@@ -8,8 +8,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.layout import FACE_70, HAND_21
 
 BODY_SIZES = {25: "BODY_25", 18: "COCO", 15: "MPI"}
 """Keypoints of the body layouts that OpenPose writes."""

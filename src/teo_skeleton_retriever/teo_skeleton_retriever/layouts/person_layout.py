@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
+from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
 
 BODY = slice(0, len(BODY_25))
 LEFT_HAND = slice(BODY.stop, BODY.stop + len(HAND_21))
@@ -53,3 +51,14 @@ JUMP = _each(0.015, 0.012, 0.01)
 BIAS: FloatArray = np.column_stack([_each(0.015, 0.009, 0.006), _each(0.015, 0.012, 0.008)])
 """[m] Standard deviations across the ray and along it of what no averaging removes: how detector and skin
 differ from person to person and from pose to pose."""
+HAND_BONES: FloatArray = np.array(
+    [
+        *(0.040, 0.042, 0.032, 0.026),  # thumb
+        *(0.091, 0.041, 0.025, 0.020),
+        *(0.088, 0.045, 0.028, 0.021),
+        *(0.082, 0.042, 0.027, 0.021),
+        *(0.078, 0.033, 0.020, 0.018),
+    ]
+)
+"""[m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
+the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""

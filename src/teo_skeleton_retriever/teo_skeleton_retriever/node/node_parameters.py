@@ -6,13 +6,12 @@ import json
 from collections.abc import Mapping, Sequence
 
 from teo_common.parameters import ParameterRow, Value
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
 
-DEFAULT_SLOP = 0.017
-"""[s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart."""
 _DETECTOR = "detector"
 TRANSPORTS_COLOR = ("auto", "raw", "compressed")
 TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")

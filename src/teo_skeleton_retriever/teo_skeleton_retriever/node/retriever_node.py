@@ -23,14 +23,21 @@ from visualization_msgs.msg import MarkerArray
 
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
-from teo_skeleton_retriever.camera.camera_topics import CAMERA_INFO, COLOR, DEPTH
-from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, stamp_of
+from teo_skeleton_retriever.camera.image_messages import (
+    CAMERA_INFO_TOPIC,
+    COLOR_TOPIC,
+    DEPTH_TOPIC,
+    camera_of,
+    color_of,
+    depth_of,
+    stamp_of,
+)
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.camera.synchroniser import Pair, Synchroniser
 from teo_skeleton_retriever.detectors import Detector, make_detector
 from teo_skeleton_retriever.errors import FrameError, RetrieverError
 from teo_skeleton_retriever.image_retriever import (
-    Detected,
+    Detection,
     FrameRetriever,
     ImageRetriever,
     Retrieved,
@@ -38,8 +45,7 @@ from teo_skeleton_retriever.image_retriever import (
 )
 from teo_skeleton_retriever.node.diagnostics_publisher import DiagnosticsPublisher
 from teo_skeleton_retriever.node.image_subscription import ImageSubscription
-from teo_skeleton_retriever.node.interpreter_tuning import tune_interpreter
-from teo_skeleton_retriever.node.latest_frame_pipeline import NewestPipeline
+from teo_skeleton_retriever.node.latest_frame_pipeline import LatestFramePipeline, tune_interpreter
 from teo_skeleton_retriever.node.node_parameters import (
     PARAMETERS,
     check_choices,
@@ -74,7 +80,7 @@ class _Job(NamedTuple):
 class _Followed(NamedTuple):
     job: _Job
     header: Header
-    detected: Detected
+    detected: Detection
 
 
 class RetrieverNode(Node):
@@ -112,16 +118,18 @@ class RetrieverNode(Node):
         self._skeletons = self.create_publisher(SkeletonArray, "skeletons", 10)
         self._markers = self.create_publisher(MarkerArray, "skeleton_markers", 10)
         self._pictures = self.create_publisher(Image, "overlay/image", 1)
-        self._pipeline = NewestPipeline(self._detect, self._follow, at_once=detector.images_at_once)
+        self._pipeline = LatestFramePipeline(self._detect, self._follow, at_once=detector.images_at_once)
         images = partial(ImageSubscription, self, qos=_SENSOR)
         color, depth = values["color_transport"], values["depth_transport"]
         self._images = {
-            "color": images(topic=COLOR, compressed="compressed", transport=color, callback=self._on_color),
+            "color": images(
+                topic=COLOR_TOPIC, compressed="compressed", transport=color, callback=self._on_color
+            ),
             "depth": images(
-                topic=DEPTH, compressed="compressedDepth", transport=depth, callback=self._on_depth
+                topic=DEPTH_TOPIC, compressed="compressedDepth", transport=depth, callback=self._on_depth
             ),
         }
-        info = self.create_subscription(CameraInfo, CAMERA_INFO, self._on_camera_info, _SENSOR)
+        info = self.create_subscription(CameraInfo, CAMERA_INFO_TOPIC, self._on_camera_info, _SENSOR)
         self._topics = {name: stream.topic for name, stream in self._images.items()}
         self._topics["camera_info"] = info.topic_name
         self._diagnostics = DiagnosticsPublisher(self, self._stats, self._topics)

@@ -15,11 +15,8 @@ from teo_sign_msgs.msg import Keypoint3D, Skeleton3D, SkeletonArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.color_image import ColorArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
-from teo_skeleton_retriever.layouts.layout import Layout
+from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, Skeleton
 
 PARTS: dict[str, Layout] = {"body": BODY_25, "left_hand": HAND_21, "right_hand": HAND_21, "face": FACE_70}

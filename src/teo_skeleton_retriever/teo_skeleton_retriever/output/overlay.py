@@ -13,10 +13,7 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.camera.color_image import ColorArray
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.image_retriever import Retrieved
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
-from teo_skeleton_retriever.layouts.layout import Layout
+from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 
 Rgb = tuple[int, int, int]

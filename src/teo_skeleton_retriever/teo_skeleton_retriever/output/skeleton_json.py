@@ -6,11 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
-from teo_skeleton_retriever.layouts.layout import Layout
+from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 
 _LAYOUTS = {"body": BODY_25, "left_hand": HAND_21, "right_hand": HAND_21, "face": FACE_70}

@@ -15,7 +15,7 @@ from rosbags.highlevel import AnyReader
 from typer.testing import CliRunner
 
 from teo_skeleton_retriever.cli.retrieve_cli import _app
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 
 IMAGES = 10
 WRIST = BODY_25.index["RWrist"]

@@ -16,8 +16,7 @@ from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
 from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.coco_18 import COCO_18
+from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 CAMERA = CameraModel.from_field_of_view(width=320, height=240, horizontal=math.radians(55))

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
-from teo_skeleton_retriever.detectors.detection_frame import Frame
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
@@ -14,8 +14,8 @@ from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 WRIST = BODY_25.index["RWrist"]
 
 
-def frame(time: float, *people: Person2D, scale: int = 1) -> Frame:
-    return Frame(stamp=time, people=people, depth=take.depth(scale), camera=take.camera(scale))
+def frame(time: float, *people: Person2D, scale: int = 1) -> DetectionFrame:
+    return DetectionFrame(stamp=time, people=people, depth=take.depth(scale), camera=take.camera(scale))
 
 
 def test_a_keypoint_is_one_pixel_of_the_skin_seen_by_a_centred_camera():

@@ -24,10 +24,9 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.body_planes import body_planes
 from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
-from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
+from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton, body_planes
 from teo_skeleton_retriever.compat.original_track import OriginalTrack
 from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
 from teo_skeleton_retriever.depth.limb_chain import LimbChain

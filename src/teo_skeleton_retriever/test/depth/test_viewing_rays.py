@@ -3,30 +3,30 @@ from __future__ import annotations
 import numpy as np
 from capsule_person import CAMERA
 
-from teo_skeleton_retriever.depth.viewing_rays import detected
+from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.body_conversion import as_body_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 
 
 def test_keypoints_that_are_unsure_absent_or_outside_the_image_are_not_seen() -> None:
     keypoints = np.array([[10.0, 10.0, 0.9], [10.0, 10.0, 0.2], [0.0, 0.0, 0.0], [-5.0, 10.0, 0.9]])
-    seen = detected(keypoints, CAMERA, 0.3)
+    seen = viewing_rays(keypoints, CAMERA, 0.3)
     assert seen.seen.tolist() == [True, False, False, False]
     assert np.isnan(seen.rays[1:]).all()
     assert seen.confidence.tolist() == [0.9, 0.0, 0.0, 0.0]
 
 
 def test_absent_keypoints_are_not_seen_whatever_is_asked() -> None:
-    assert not detected(np.zeros((3, 3)), CAMERA, 0.0).seen.any()
+    assert not viewing_rays(np.zeros((3, 3)), CAMERA, 0.0).seen.any()
 
 
 def test_logits_for_confidences_stay_within_0_and_1() -> None:
-    assert detected(np.array([[10.0, 10.0, 8.3]]), CAMERA, 0.3).confidence.tolist() == [1.0]
+    assert viewing_rays(np.array([[10.0, 10.0, 8.3]]), CAMERA, 0.3).confidence.tolist() == [1.0]
 
 
 def test_keypoints_that_are_not_believed_are_as_not_seen() -> None:
-    seen = detected(np.tile([10.0, 10.0, 0.9], (2, 1)), CAMERA, 0.3).only(np.array([True, False]))
+    seen = viewing_rays(np.tile([10.0, 10.0, 0.9], (2, 1)), CAMERA, 0.3).only(np.array([True, False]))
     assert seen.seen.tolist() == [True, False]
     assert np.isnan(seen.pixels[1]).all()
 

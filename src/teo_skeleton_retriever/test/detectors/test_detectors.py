@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from openpose_writer import frame_path, write_frame
 
 from teo_skeleton_retriever.detectors import DETECTORS, Detector, make_detector
-from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_writer import frame_path, write_frame
+from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 

@@ -11,11 +11,7 @@ from teo_skeleton_retriever.compat.skeleton_std import (
     PARENTS,
     SKELETON_STD,
 )
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.coco_18 import COCO_18
-from teo_skeleton_retriever.layouts.face_70 import FACE_70
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
-from teo_skeleton_retriever.layouts.layout import Layout
+from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_70, HAND_21, Layout
 
 SIZES = {BODY_25: 25, COCO_18: 18, HAND_21: 21, FACE_70: 70, SKELETON_STD: 17}
 

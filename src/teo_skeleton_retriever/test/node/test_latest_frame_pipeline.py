@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from teo_skeleton_retriever.node.latest_frame_pipeline import NewestPipeline
+from teo_skeleton_retriever.node.latest_frame_pipeline import LatestFramePipeline
 
 
 class Gate:
@@ -42,7 +42,7 @@ class Done:
 
 def test_the_newest_job_takes_the_place_of_one_that_waits():
     first, done = Gate(), Done()
-    pipeline = NewestPipeline(first, done)
+    pipeline = LatestFramePipeline(first, done)
     assert pipeline.submit(1) is None
     first.wait()
     assert [pipeline.submit(job) for job in (2, 3, 4)] == [None, 2, 3]
@@ -55,7 +55,7 @@ def test_the_newest_job_takes_the_place_of_one_that_waits():
 
 def test_the_second_stage_of_one_runs_beside_the_first_of_the_next():
     first, second = Gate(), Gate()
-    pipeline = NewestPipeline(first, second)
+    pipeline = LatestFramePipeline(first, second)
     pipeline.submit(1)
     first.wait()
     first.go_on.release()
@@ -72,7 +72,7 @@ def test_the_second_stage_of_one_runs_beside_the_first_of_the_next():
 def test_a_slow_second_stage_holds_the_first_back():
     first, second = Gate(), Gate()
     first.go_on.release(10)
-    pipeline = NewestPipeline(first, second)
+    pipeline = LatestFramePipeline(first, second)
     pipeline.submit(1)
     second.wait()
     first.wait()
@@ -96,7 +96,7 @@ def test_several_first_stages_run_at_once_and_the_order_stays():
         assert release[job].wait(timeout=10)
         return job
 
-    pipeline = NewestPipeline(first, done, at_once=2)
+    pipeline = LatestFramePipeline(first, done, at_once=2)
     for job in (0, 1):
         pipeline.submit(job)
         assert begun.acquire(timeout=10)
@@ -118,7 +118,7 @@ def test_what_the_first_stage_leaves_out_does_not_reach_the_second():
             return None
         return job
 
-    pipeline = NewestPipeline(first, done)
+    pipeline = LatestFramePipeline(first, done)
     pipeline.submit(1)
     assert left_out.wait(timeout=10)
     pipeline.submit(2)
@@ -129,14 +129,14 @@ def test_what_the_first_stage_leaves_out_does_not_reach_the_second():
 
 @pytest.mark.parametrize("at_once", [1, 3])
 def test_closing_waits_for_what_is_at_hand_and_a_pipeline_without_work_can_be_closed(at_once):
-    NewestPipeline(print, print, at_once=at_once).close()
+    LatestFramePipeline(print, print, at_once=at_once).close()
     finished = []
 
     def slow(job: int) -> None:
         time.sleep(0.05)
         finished.append(job)
 
-    pipeline = NewestPipeline(slow, print, at_once=at_once)
+    pipeline = LatestFramePipeline(slow, print, at_once=at_once)
     pipeline.submit(1)
     deadline = time.monotonic() + 10
     while pipeline._waiting is not None and time.monotonic() < deadline:
@@ -147,7 +147,7 @@ def test_closing_waits_for_what_is_at_hand_and_a_pipeline_without_work_can_be_cl
 
 def test_two_are_begun_and_one_waits_whose_place_a_newer_one_takes():
     first, done = Gate(), Done()
-    pipeline = NewestPipeline(first, done, at_once=2)
+    pipeline = LatestFramePipeline(first, done, at_once=2)
     for job in (1, 2):
         assert pipeline.submit(job) is None
         first.wait()

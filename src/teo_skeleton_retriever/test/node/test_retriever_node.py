@@ -15,7 +15,7 @@ from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.appearance import Dress
 from teo_synthetic_signer.body.body_data import load_body_data, load_target
 from teo_synthetic_signer.body.body_shapes import body_shape

@@ -21,9 +21,8 @@ from rich.table import Table
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.hand_21 import HAND_21
-from teo_skeleton_retriever.retriever import Frame, Retriever, RetrieverParameters
+from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
+from teo_skeleton_retriever.retriever import DetectionFrame, Retriever, RetrieverParameters
 from teo_synthetic_signer import SyntheticFrame
 from teo_synthetic_signer.camera.sensors import SENSORS, Sensor
 from teo_synthetic_signer.take.take import Take, TakeOptions
@@ -87,7 +86,7 @@ def study(name: str, distance: float, frames: int) -> Study:
                 image = take.frame(index)
                 space = signing_space_seen(image, sensor) if math.isnan(space) else space
                 people = detector.detect(image.color, image.stamp)
-                found = retriever.process(Frame(image.stamp, people, image.depth, image.camera))
+                found = retriever.process(DetectionFrame(image.stamp, people, image.depth, image.camera))
                 body, tips = np.full((25, 3), math.nan), np.full((10, 3), math.nan)
                 if found:
                     body = found[0].body.points

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.body.hand_shapes import HAND_SHAPES, hand_shape
 from teo_synthetic_signer.body.phenotype import Phenotype, target_weights

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer import SyntheticFrame, Take, TakeOptions, render_take
 from teo_synthetic_signer.body.ray_caster import RayCaster
 from teo_synthetic_signer.errors import SyntheticError

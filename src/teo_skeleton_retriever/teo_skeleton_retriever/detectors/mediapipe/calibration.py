@@ -1,47 +1,153 @@
-"""How far MediaPipe's elbows, wrists and hands are from the joints, by how sure it is of them.
+"""How MediaPipe's keypoints differ from the centres of the joints: constant offsets, and standard deviations.
 
-It guesses what it does not see and says so, if one listens closely: an elbow of which it is sure to 0.999 was
-off by 18 mm, to 0.99 by 30 mm, to 0.95 by 71 mm and below by 108 mm (root mean square, on rendered people).
-The points of a hand that is there for sure were off by 6 mm, to 0.9 by 8 mm, to 0.7 by 15 mm, below by 19 mm
-(medians of 3,200 rendered hands).
+Calibrated on rendered people (`bench/accuracy_tuning.py`); other bodies and motions are tested.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
+from teo_skeleton_retriever.layouts.person_layout import HAND_BONES
+
+
+class Shift(NamedTuple):
+    """Moves a keypoint by a share of the vector from one keypoint to another."""
+
+    keypoint: str
+    start: str
+    end: str
+    share: float
+
+
+# MediaPipe puts shoulders too high and too far in, elbows and wrists short of the joint. A shift is a share
+# of a vector between two keypoints, so that it shrinks with distance and when the person turns, as the shift
+# in space does. The shares are of 0.36 m between the shoulders, 0.48 m of trunk, 0.27 m of upper arm, 0.25 m
+# of forearm.
+BODY_SHIFTS: tuple[Shift, ...] = (
+    Shift("RShoulder", "LShoulder", "RShoulder", 0.04),
+    Shift("LShoulder", "RShoulder", "LShoulder", 0.04),
+    Shift("RShoulder", "Neck", "MidHip", 0.036),
+    Shift("LShoulder", "Neck", "MidHip", 0.036),
+    Shift("Neck", "Neck", "MidHip", 0.036),
+    Shift("RElbow", "RShoulder", "RElbow", 0.045),
+    Shift("LElbow", "LShoulder", "LElbow", 0.045),
+    Shift("RWrist", "RElbow", "RWrist", 0.03),
+    Shift("LWrist", "LElbow", "LWrist", 0.03),
+)
+
+
+def corrected_body(body: FloatArray, shifts: tuple[Shift, ...]) -> FloatArray:
+    """Move keypoints to the joints' centres; those for which a keypoint of the vector is absent stay.
+
+    Args:
+        body: x, y [px], confidence, in BODY_25; absent keypoints are zero. Shape (25, 3).
+        shifts: of the detector.
+    """
+    moved = body.copy()
+    row = BODY_25.index
+    for shift in shifts:
+        ends = body[[row[shift.start], row[shift.end]]]
+        if (ends[:, 2] > 0.0).all():
+            moved[row[shift.keypoint], :2] += shift.share * (ends[1, :2] - ends[0, :2])
+    return moved
+
+
+# MediaPipe's wrist is at the crease, its knuckles are at the web between the fingers, the base of its thumb
+# is in the ball. Shares of the palm's length, wrist to middle knuckle: towards the fingers, towards the
+# thumb, out of the back of the hand.
+_HAND_SHIFTS: dict[str, tuple[float, float, float]] = {
+    "Wrist": (0.165, 0.0, 0.05),
+    "ThumbCMC": (0.08, 0.08, -0.05),
+    "ThumbMCP": (0.06, 0.04, -0.025),
+    "ThumbIP": (0.01, -0.03, 0.02),
+    "IndexMCP": (0.09, 0.02, 0.0),
+    "MiddleMCP": (0.08, 0.025, 0.0),
+    "RingMCP": (0.075, 0.045, 0.02),
+    "PinkyMCP": (0.02, 0.04, 0.03),
+}
+
+# [m] Lengths between MediaPipe's keypoints, of an average adult; the shares were measured on 968 rendered
+# hands. Shape (20,).
+MEDIAPIPE_HAND_BONES: FloatArray = HAND_BONES * np.array(
+    [
+        *(1.08, 0.93, 0.80, 1.03),  # thumb
+        *(0.95, 0.92, 0.95, 0.89),
+        *(0.955, 0.88, 0.905, 0.95),
+        *(0.93, 0.93, 0.94, 0.92),
+        *(0.88, 0.94, 1.06, 1.075),
+    ]
+)
+
+_OFFSETS: FloatArray = np.array([_HAND_SHIFTS.get(name, (0.0, 0.0, 0.0)) for name in HAND_21.keypoints])
+_WRIST, _INDEX, _MIDDLE, _PINKY = (
+    HAND_21.index[name] for name in ("Wrist", "IndexMCP", "MiddleMCP", "PinkyMCP")
+)
+_LEAST_SPREAD = 0.01  # [m] between the knuckles across the palm; less makes no frame
+
+
+def corrected_hand(hand: FloatArray, *, left: bool) -> FloatArray:
+    """Move MediaPipe's keypoints to the joints' centres.
+
+    Args:
+        hand: in space [m]. Shape (21, 3).
+        left: whether it is a left hand.
+
+    Returns:
+        [m]; unmoved if the palm makes no frame. Shape (21, 3).
+    """
+    along = hand[_MIDDLE] - hand[_WRIST]
+    length = float(np.sqrt(along @ along))
+    if length < _LEAST_SPREAD:
+        return hand
+    x = along / length
+    across = hand[_INDEX] - hand[_PINKY]
+    across = across - x * (x @ across)
+    spread = float(np.sqrt(across @ across))
+    if spread < _LEAST_SPREAD:
+        return hand
+    y = across / spread
+    back = np.array([x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]])
+    frame = np.stack([x, y, -back if left else back])
+    moved: FloatArray = hand - length * (_OFFSETS @ frame)
+    return moved
+
 
 _ELBOWS = [BODY_25.index[f"{side}Elbow"] for side in "RL"]
 _WRISTS = [BODY_25.index[f"{side}Wrist"] for side in "RL"]
+# Standard deviations [m] of elbows and wrists across the ray, by 1 - confidence. An elbow with a confidence
+# of 0.999 was off by 18 mm, of 0.99 by 30 mm, of 0.95 by 71 mm and below by 108 mm (root mean square,
+# rendered people).
 _DOUBTS = (0.001, 0.005, 0.01, 0.02, 0.04, 0.1)
-"""What is missing from certainty, and the standard deviations across the ray there [m]:"""
-_ELBOW = (0.02, 0.02, 0.02, 0.025, 0.035, 0.05)
-_WRIST = (0.015, 0.015, 0.015, 0.016, 0.018, 0.035)
+_ELBOW_SIGMA = (0.02, 0.02, 0.02, 0.025, 0.035, 0.05)
+_WRIST_SIGMA = (0.015, 0.015, 0.015, 0.016, 0.018, 0.035)
+# What is added to the standard deviation [m] of hand keypoints, by the hand's presence. They were off by 6 mm
+# at a presence of 1, by 8 mm at 0.9, by 15 mm at 0.7 and below by 19 mm (medians of 3,200 rendered hands).
 _PRESENCES = (0.65, 0.75, 0.82, 0.88, 0.93, 0.97)
-_HAND = (0.018, 0.015, 0.011, 0.008, 0.006, 0.0)
-"""[m] What the points of a hand are farther off by, at which presence."""
+_HAND_SIGMA = (0.018, 0.015, 0.011, 0.008, 0.006, 0.0)
 
 
-def hand_doubt(presence: FloatArray) -> FloatArray:
-    """Give how much farther than those of a hand in plain view points of hands are across the ray [m].
+def extra_hand_sigma(presence: FloatArray) -> FloatArray:
+    """Extra lateral standard deviation of hand keypoints [m]. Shape (n,).
 
     Args:
-        presence: of the hand, by the detector, 0 to 1, one of each point. Shape (n,).
+        presence: Confidence of the detector that the hand is there, for each keypoint, 0 to 1. Shape (n,).
     """
-    return np.asarray(np.interp(presence, _PRESENCES, _HAND))
+    return np.asarray(np.interp(presence, _PRESENCES, _HAND_SIGMA))
 
 
-def across_by_confidence(across: FloatArray, confidence: FloatArray) -> FloatArray:
-    """Give the standard deviations of a body's keypoints across the ray [m]. Shape (25,).
+def body_sigma(across: FloatArray, confidence: FloatArray) -> FloatArray:
+    """Lateral standard deviation of a body's keypoints [m]. Shape (25,).
 
     Args:
-        across: those of keypoints of which the detector is sure [m]. Shape (25,).
-        confidence: of the detector, 0 to 1. Shape (25,).
+        across: That of keypoints with a confidence of 1 [m]. Shape (25,).
+        confidence: Of the detector, 0 to 1. Shape (25,).
     """
     told = across.copy()
     doubt = np.log(np.clip(1.0 - confidence, 1e-6, 1.0))
-    for rows, sigmas in ((_ELBOWS, _ELBOW), (_WRISTS, _WRIST)):
+    for rows, sigmas in ((_ELBOWS, _ELBOW_SIGMA), (_WRISTS, _WRIST_SIGMA)):
         told[rows] = np.interp(doubt[rows], np.log(_DOUBTS), sigmas)
     return told

@@ -21,8 +21,7 @@ from mediapipe.modules.holistic_landmark.calculators.roi_tracking_calculator_pb2
 )
 from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resource_util
 
-from teo_skeleton_retriever.detectors.mediapipe.graph_pruning import only_for
-from teo_skeleton_retriever.detectors.mediapipe.network_pruning import without_output
+from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for, without_output
 
 LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
 """Input streams beside that of images: whether to look at a hand in this image."""

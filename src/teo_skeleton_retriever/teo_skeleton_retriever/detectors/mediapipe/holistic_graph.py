@@ -8,9 +8,11 @@ streams of the graph; naming them is enough to get them.
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,9 +22,29 @@ from mediapipe.python import CalculatorGraph, ImageFormat, Packet, packet_creato
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray
 from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import LOOKS, holistic_configuration
-from teo_skeleton_retriever.detectors.mediapipe.native_output import silenced
 from teo_skeleton_retriever.detectors.mediapipe.resting_hands import HANDS, RestingHands
 from teo_skeleton_retriever.errors import DetectorError
+
+
+@contextmanager
+def _silenced() -> Iterator[None]:
+    """Throw away what native code writes to standard error meanwhile, from whichever thread.
+
+    For a moment only: what others write to it in the meantime is lost as well.
+    """
+    sys.stderr.flush()
+    kept = os.dup(2)
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        try:
+            os.dup2(nowhere, 2)
+        finally:
+            os.close(nowhere)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+
 
 _LEFT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_1__handlandmarkcpu__"
 _RIGHT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_2__handlandmarkcpu__"
@@ -150,7 +172,7 @@ class HolisticGraph:
         for stream in _STREAMS:
             # With bounds, a stream also says that it has nothing for an image.
             self._graph.observe_output_stream(stream, self._results.on_packet, True)
-        with silenced():  # each model announces itself as it is loaded
+        with _silenced():  # each model announces itself as it is loaded
             self._graph.start_run(side_packets)
             self._graph.wait_until_idle()
 

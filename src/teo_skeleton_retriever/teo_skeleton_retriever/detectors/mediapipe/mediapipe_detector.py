@@ -10,10 +10,9 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
-from teo_skeleton_retriever.detectors.mediapipe.double_hands import without_doubles
+from teo_skeleton_retriever.detectors.mediapipe.hand_sides import own_hands, without_doubles
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
 from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import person_from_holistic
-from teo_skeleton_retriever.detectors.mediapipe.own_hands import own_hands
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 

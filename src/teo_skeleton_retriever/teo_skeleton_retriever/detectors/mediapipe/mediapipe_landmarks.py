@@ -12,8 +12,8 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.midpoint import midpoint
+from teo_skeleton_retriever.layouts.body_conversion import midpoint
+from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 POSE_LANDMARKS = 33

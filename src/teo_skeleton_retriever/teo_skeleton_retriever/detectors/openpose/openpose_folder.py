@@ -8,8 +8,7 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
-from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_reader import read_frame
+from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, read_frame
 from teo_skeleton_retriever.errors import DetectorError, OpenPoseFormatError
 
 _NAME = re.compile(r"(?:^|.*?)(\d+)_keypoints\.json")

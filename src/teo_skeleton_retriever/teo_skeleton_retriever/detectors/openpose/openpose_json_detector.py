@@ -9,8 +9,8 @@ from typing import TypeVar
 
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
 from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointScale
+from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
 from teo_skeleton_retriever.detectors.openpose.openpose_folder import PERIOD, OpenPoseFolder
-from teo_skeleton_retriever.detectors.openpose.openpose_frame import OpenPoseFrame
 from teo_skeleton_retriever.detectors.openpose.stamp_table import StampTable
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.layouts.person_2d import Person2D

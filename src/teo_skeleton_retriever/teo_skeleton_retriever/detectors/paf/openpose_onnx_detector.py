@@ -10,13 +10,16 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
-from teo_skeleton_retriever.detectors.paf.paf_limbs import find_limbs
-from teo_skeleton_retriever.detectors.paf.paf_peaks import find_peaks
-from teo_skeleton_retriever.detectors.paf.paf_people import assemble
-from teo_skeleton_retriever.detectors.paf.paf_thresholds import CAREFUL, GENEROUS
+from teo_skeleton_retriever.detectors.paf.part_affinity import (
+    CAREFUL,
+    GENEROUS,
+    assemble,
+    find_limbs,
+    find_peaks,
+)
 from teo_skeleton_retriever.detectors.paf.pose_network import Maps, PoseNetwork
 from teo_skeleton_retriever.errors import DetectorError
-from teo_skeleton_retriever.layouts.body_layouts import as_body_25
+from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 MULTIPLE = 16

@@ -9,9 +9,8 @@ from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import (
     person_from_holistic,
 )
 from teo_skeleton_retriever.errors import KeypointError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
-from teo_skeleton_retriever.layouts.coco_18 import COCO_18, body_25_from_coco_18
-from teo_skeleton_retriever.layouts.face_70 import PARTS
+from teo_skeleton_retriever.layouts.body_conversion import body_25_from_coco_18
+from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_PARTS
 
 # MediaPipe's pose landmarks: odd is left from the ears on.
 LEFT_OF_POSE = {2, 7, *range(11, 33, 2)}
@@ -64,7 +63,7 @@ def test_hands_keep_their_order_and_side() -> None:
 
 def test_every_face_part_has_its_number_of_different_landmarks() -> None:
     assert {part: len(found) for part, found in FACE_70_FROM_MESH.items()} == {
-        part: len(indices) for part, indices in PARTS.items()
+        part: len(indices) for part, indices in FACE_PARTS.items()
     }
     chosen = [i for part in FACE_70_FROM_MESH.values() for i in part]
     assert len(set(chosen)) == 70

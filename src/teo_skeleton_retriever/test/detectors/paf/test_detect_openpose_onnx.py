@@ -14,9 +14,9 @@ from drawn_maps import STRIDE, draw, person
 from onnx import TensorProto, helper, numpy_helper
 
 from teo_skeleton_retriever.detectors.paf.openpose_onnx_detector import OpenPoseOnnxDetector
-from teo_skeleton_retriever.detectors.paf.paf_model import BODY_25_MODEL, COCO_18_MODEL, PafModel
+from teo_skeleton_retriever.detectors.paf.pose_network import BODY_25_MODEL, COCO_18_MODEL, PafModel
 from teo_skeleton_retriever.errors import DetectorError
-from teo_skeleton_retriever.layouts.body_25 import BODY_25
+from teo_skeleton_retriever.layouts.layout import BODY_25
 
 NET = (320, 240)
 

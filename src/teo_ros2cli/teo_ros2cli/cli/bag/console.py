@@ -1,0 +1,31 @@
+"""How the `ros2 bag` verbs speak of what is wrong, and how a signal ends them."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from types import FrameType
+
+from teo_ros2cli.errors import Ros2CliError
+
+
+def warn(sentence: str) -> None:
+    """Print a warning."""
+    print(f"[WARN] [ros2bag]: {sentence}", file=sys.stderr)
+
+
+def as_bag_error(error: Ros2CliError) -> Ros2CliError:
+    """Return an error whose text says that it comes from the bag tool."""
+    return Ros2CliError(error.code, f"[ERROR] [ros2bag]: {error}")
+
+
+class StopSignals:
+    """Notes from its making on that SIGINT or SIGTERM came, instead of letting it end the process."""
+
+    def __init__(self) -> None:
+        self.came = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._note)
+
+    def _note(self, _number: int, _frame: FrameType | None) -> None:
+        self.came = True

@@ -1,0 +1,246 @@
+"""`ros2 bag play`: publishes what a bag holds."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from teo_ros2cli.bags.bag import Bag, open_bag
+from teo_ros2cli.bags.qos_record import read_overrides
+from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
+from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
+from teo_ros2cli.errors import Ros2CliError
+
+if TYPE_CHECKING:
+    from teo_ros2cli.graph.player import Player
+
+# Rate of `/clock` if none is given [1/s].
+_DEFAULT_CLOCK = 40.0
+_RATE_STEP = 1.1
+# Time that reliable subscriptions get to receive the last messages before the publishers leave [s].
+_ACKNOWLEDGEMENT = 1.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's arguments."""
+    parser.add_argument("bag_path", type=Path, help="Bag to open: its directory or a file of it")
+    parser.add_argument(
+        "-s", "--storage", default="mcap", choices=("mcap",), help="Storage identifier of the bag"
+    )
+    parser.add_argument(
+        "--read-ahead-queue-size",
+        type=positive_int,
+        default=1000,
+        help="Size of message queue that is read ahead of playing. Default: 1000.",
+    )
+    parser.add_argument(
+        "-r",
+        "--rate",
+        type=positive_float,
+        default=1.0,
+        help="Rate at which to play back messages. Valid range > 0.0.",
+    )
+    parser.add_argument(
+        "--topics", nargs="+", default=[], metavar="Topic", help="Topics to replay. Default: all."
+    )
+    parser.add_argument(
+        "-e", "--regex", default="", help="Play only topics containing provided regular expression."
+    )
+    parser.add_argument(
+        "--exclude-topics", nargs="+", default=[], metavar="Topic", help="Topics not being played."
+    )
+    parser.add_argument(
+        "-x", "--exclude-regex", default="", help="Exclude topics containing provided regular expression."
+    )
+    parser.add_argument(
+        "--qos-profile-overrides-path",
+        type=Path,
+        help="Path to a yaml file defining overrides of the QoS profile for specific topics.",
+    )
+    parser.add_argument(
+        "-l",
+        "--loop",
+        action="store_true",
+        help="Start again at the beginning on reaching the end, indefinitely.",
+    )
+    parser.add_argument(
+        "--remap",
+        "-m",
+        nargs="+",
+        default=[],
+        metavar="OLD:=NEW",
+        help='Topics to be remapped: "old_topic:=new_topic".',
+    )
+    parser.add_argument(
+        "--clock",
+        metavar="HZ",
+        type=positive_float,
+        nargs="?",
+        const=_DEFAULT_CLOCK,
+        default=0.0,
+        help=f"Publish to /clock at a specific frequency in Hz ({_DEFAULT_CLOCK:g} if none is given). "
+        f"Default: not.",
+    )
+    parser.add_argument(
+        "-d",
+        "--delay",
+        type=non_negative_float,
+        default=0.0,
+        help="Sleep duration before play (each loop), in seconds.",
+    )
+    parser.add_argument(
+        "--playback-duration", type=float, default=-1.0, help="Playback duration, in seconds. Negative: all."
+    )
+    until = parser.add_mutually_exclusive_group()
+    until.add_argument(
+        "--playback-until-sec", type=float, help="Playback until timestamp, in seconds since the epoch."
+    )
+    until.add_argument(
+        "--playback-until-nsec", type=int, help="Playback until timestamp, in nanoseconds since the epoch."
+    )
+    parser.add_argument(
+        "--start-offset", type=non_negative_float, default=0.0, help="Start this many seconds into the bag."
+    )
+    parser.add_argument(
+        "--wait-for-all-acked",
+        type=non_negative_float,
+        metavar="TIMEOUT",
+        help="Wait at the end until all published messages are acknowledged, for so many milliseconds; 0 for "
+        "ever. Default: 1000.",
+    )
+    parser.add_argument(
+        "--disable-keyboard-controls", action="store_true", help="Disables keyboard controls for playback"
+    )
+    parser.add_argument("-p", "--start-paused", action="store_true", help="Start the playback player paused.")
+    parser.add_argument(
+        "--disable-loan-message", action="store_true", help="Accepted; messages are never loaned."
+    )
+    parser.add_argument("--node-name", default="rosbag2_player", help="Name of the player node.")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Play the bag until its end, or until SIGINT or SIGTERM comes.
+
+    Raises:
+        Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_bag`.
+    """
+    stop = StopSignals()
+    try:
+        return _play(options, stop)
+    except Ros2CliError as error:
+        raise as_bag_error(error) from error
+
+
+def _play(options: argparse.Namespace, stop: StopSignals) -> int:
+    selects = _selector(options)
+    remap = dict(map(_remapping, options.remap))
+    overrides = read_overrides(options.qos_profile_overrides_path)
+    bag = open_bag(options.bag_path)
+    for problem in bag.problems:
+        warn(problem)
+    _check_selected(options, bag)
+
+    from teo_ros2cli.graph.cli_node import cli_node
+    from teo_ros2cli.graph.keyboard import keys
+    from teo_ros2cli.graph.player import Player, PlayerSettings
+
+    until = options.playback_until_nsec
+    if options.playback_until_sec is not None and options.playback_until_sec >= 0:
+        until = round(options.playback_until_sec * 1e9)
+    settings = PlayerSettings(
+        selects=selects,
+        remap=remap,
+        rate=options.rate,
+        start_offset=options.start_offset,
+        duration=options.playback_duration if options.playback_duration >= 0 else None,
+        until=until if until is not None and until >= 0 else None,
+        delay=options.delay,
+        loop=options.loop,
+        clock=options.clock,
+        start_paused=options.start_paused,
+        overrides=overrides,
+        read_ahead=options.read_ahead_queue_size,
+        wait_acknowledged=_acknowledgement_time(options.wait_for_all_acked),
+    )
+    with (
+        cli_node(options.node_name, own_signals=True) as node,
+        keys(not options.disable_keyboard_controls) as pressed,
+    ):
+        log = node.get_logger()
+        log.info(f"Set rate to {settings.rate:g}")
+        player = Player(node, bag, settings, stopped=lambda: stop.came, command=_key_action(pressed))
+        if pressed is not None:
+            _explain_keys(log.info)
+        if not player.topics:
+            log.warning("There is no topic to play.")
+        log.info(f"Playback until timestamp: {-1 if settings.until is None else settings.until}")
+        player.play()
+        log.info(f"Played {player.played} messages.")
+    return 0
+
+
+def _acknowledgement_time(milliseconds: float | None) -> float:
+    """Return how long to wait for acknowledgements at the end [s]."""
+    if milliseconds is None:
+        return _ACKNOWLEDGEMENT
+    return milliseconds * 1e-3 if milliseconds > 0 else math.inf
+
+
+def _key_action(pressed: Callable[[], str] | None) -> Callable[[Player], None]:
+    from teo_ros2cli.graph import keyboard
+
+    def act(player: Player) -> None:
+        key = pressed() if pressed is not None else ""
+        if key == keyboard.SPACE:
+            player.toggle_paused()
+        elif key == keyboard.RIGHT:
+            player.play_next()
+        elif key == keyboard.UP:
+            player.change_rate(_RATE_STEP)
+        elif key == keyboard.DOWN:
+            player.change_rate(1 / _RATE_STEP)
+
+    return act
+
+
+def _explain_keys(tell: Callable[[str], object]) -> None:
+    tell("Press SPACE for Pause/Resume")
+    tell("Press CURSOR_RIGHT for Play Next Message")
+    tell("Press CURSOR_UP for Increase Rate 10%")
+    tell("Press CURSOR_DOWN for Decrease Rate 10%")
+
+
+def _selector(options: argparse.Namespace) -> Callable[[str], bool]:
+    names = frozenset(map(full_name, options.topics))
+    excluded = frozenset(map(full_name, options.exclude_topics))
+    included_pattern, excluded_pattern = pattern(options.regex), pattern(options.exclude_regex)
+
+    def selects(topic: str) -> bool:
+        if topic in excluded or (excluded_pattern is not None and excluded_pattern.search(topic)):
+            return False
+        if not names and included_pattern is None:
+            return True
+        return topic in names or (included_pattern is not None and included_pattern.search(topic) is not None)
+
+    return selects
+
+
+def _check_selected(options: argparse.Namespace, bag: Bag) -> None:
+    known = {topic.name for topic, _ in bag.metadata.topics}
+    for name in map(full_name, options.topics):
+        if name not in known:
+            warn(f"Topic '{name}' is not in the bag; it holds {', '.join(sorted(known)) or 'none'}")
+
+
+_REMAP = re.compile(r"(?P<old>[^:=]+):=(?P<new>[^:=]+)")
+
+
+def _remapping(rule: str) -> tuple[str, str]:
+    match = _REMAP.fullmatch(rule)
+    if match is None:
+        raise Ros2CliError("invalid_remap", f"Remapping {rule!r} is not of the form old_topic:=new_topic")
+    return full_name(match["old"]), full_name(match["new"])

@@ -1,0 +1,24 @@
+"""The verbs of `ros2 topic`: a module each, loaded when called."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from teo_ros2cli.cli.dispatch import Entry, choose
+
+VERBS = {
+    "bw": Entry(f"{__name__}.bw", "Display bandwidth used by topic"),
+    "delay": Entry(f"{__name__}.delay", "Display delay of topic from timestamp in header"),
+    "echo": Entry(f"{__name__}.echo", "Output messages from a topic"),
+    "find": Entry(f"{__name__}.listing", "Output a list of available topics of a given type", "find"),
+    "hz": Entry(f"{__name__}.hz", "Print the average receiving rate to screen"),
+    "info": Entry(f"{__name__}.info", "Print information about a topic"),
+    "list": Entry(f"{__name__}.listing", "Output a list of available topics"),
+    "pub": Entry(f"{__name__}.pub", "Publish a message to a topic"),
+    "type": Entry(f"{__name__}.listing", "Print a topic's type", "type"),
+}
+
+
+def run_words(words: Sequence[str]) -> int:
+    """Run the verb that the words name."""
+    return choose("ros2 topic", "Various topic related sub-commands", "verb", VERBS, words)

@@ -1,0 +1,57 @@
+"""The package's data files: where they are, and reading those with columns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from teo_common.package_files import package_path
+from teo_sign_translator.errors import TranslationError
+
+PACKAGE = "teo_sign_translator"
+
+
+def data_file(name: str) -> Path:
+    """Path of a file or folder of the package's `data` folder; it need not be there."""
+    return package_path(PACKAGE, "data") / name
+
+
+def read_rows(path: Path, columns: int) -> Iterator[tuple[int, list[str]]]:
+    """Yield line number (from 1) and columns of a tab-separated UTF-8 file; blank and `#` lines are skipped.
+
+    Args:
+        path: The file.
+        columns: How many each line must have, none of them empty.
+
+    Raises:
+        TranslationError: "invalid_data" if the file cannot be read or a line has another number of columns.
+    """
+    for number, line in read_lines(path):
+        fields = line.split("\t")
+        if len(fields) != columns or not all(field.strip() for field in fields):
+            raise TranslationError(
+                "invalid_data",
+                f"{path}, line {number}: expected {columns} columns separated by tabs, none empty, got "
+                f"{len(fields)}",
+            )
+        yield number, [field.strip() for field in fields]
+
+
+def read_lines(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield line number (from 1) and text of a UTF-8 file; blank and `#` lines are skipped.
+
+    Raises:
+        TranslationError: "invalid_data" if the file cannot be read.
+    """
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise TranslationError("invalid_data", f"{path}: expected a readable UTF-8 file: {error}") from error
+    for number, line in enumerate(lines, start=1):
+        if line.strip() and not line.startswith("#"):
+            yield number, line
+
+
+def words_of(text: str) -> tuple[str, ...]:
+    """The words of a list that is written as one string."""
+    return tuple(text.split())

@@ -1,0 +1,62 @@
+"""The pairs of a corpus folder, by split."""
+
+from __future__ import annotations
+
+import hashlib
+import random
+from collections.abc import Iterable
+from pathlib import Path
+
+from teo_sign_translator.corpus import SPLITS, Pair, read_pairs
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.pointer.training.memorised_pairs import key
+
+
+def corpus_files(corpus: Path) -> tuple[Path, ...]:
+    """The files of a corpus: itself, or the `.tsv` files of the folder.
+
+    Raises:
+        TranslationError: "invalid_data" if there is none.
+    """
+    files = (corpus,) if corpus.is_file() else tuple(sorted(corpus.glob("*.tsv")))
+    if not files:
+        raise TranslationError(
+            "invalid_data",
+            f"expected a corpus file, or a folder with .tsv files, got {corpus}: make one with "
+            "`ros2 run teo_sign_translator generate_corpus`",
+        )
+    return files
+
+
+def read_splits(corpus: Path) -> dict[str, list[Pair]]:
+    """All pairs by split; a split may be empty.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    splits: dict[str, list[Pair]] = {split: [] for split in SPLITS}
+    for path in corpus_files(corpus):
+        for pair in read_pairs(path):
+            splits[pair.split].append(pair)
+    return splits
+
+
+def corpus_hash(corpus: Path) -> str:
+    """SHA-256 over the files of a corpus in the order of their names, hexadecimal."""
+    digest = hashlib.sha256()
+    for path in corpus_files(corpus):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def sample(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
+    """So many pairs, chosen at random but always the same; all of them if there are no more."""
+    if count is None or count >= len(pairs):
+        return pairs
+    return random.Random(seed).sample(pairs, count)
+
+
+def without(pairs: list[Pair], sentences: Iterable[str]) -> list[Pair]:
+    """The pairs whose Spanish, however typed, is none of the sentences."""
+    keys = {key(sentence) for sentence in sentences}
+    return [pair for pair in pairs if key(pair.spanish) not in keys]

@@ -1,0 +1,121 @@
+"""The paper's and the project's own pairs as training pairs: every model has to know them by heart."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from teo_common.text_folding import fold, without_accents
+from teo_sign_translator.corpus.paper_pairs import (
+    NAME,
+    NUMBER,
+    AlignedPair,
+    gloss_name,
+    paper_pairs,
+    training_pairs,
+)
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.pointer.sentence_model import SentenceModel
+from teo_sign_translator.pointer.training.examples import Reader
+
+if TYPE_CHECKING:
+    from teo_sign_translator.text.source_words import SourceWord
+
+#: What fills the slots. A few are enough: the corpus shows hundreds of names and numbers in other sentences.
+_NAMES = ("Ana", "Pedro", "Lucía", "Juan", "María", "Carlos")
+_NUMBERS = ("7", "siete", "12", "treinta y cinco", "40", "veintitrés")
+
+_NOT_LETTERS = re.compile(r"[¿?¡!.,:;…]+")
+
+
+@dataclass(frozen=True, slots=True)
+class MemorisedPair:
+    """A sentence that must be known, an `AlignedSentence`."""
+
+    spanish: str
+    glosses: tuple[str, ...]
+    alignment: tuple[tuple[int, ...], ...]
+
+
+def memorised_pairs(read: Reader) -> tuple[MemorisedPair, ...]:
+    """All of `training_pairs`, their slots filled in several ways, with and without a full stop.
+
+    Args:
+        read: How sentences become words.
+
+    Raises:
+        TranslationError: "invalid_data" if a gloss stands for a word that is not read from its sentence.
+    """
+    return tuple(
+        dict.fromkeys(
+            _filled(pair, name, number, stop, read)
+            for pair in training_pairs()
+            for name, number in zip(_NAMES, _NUMBERS, strict=True)
+            for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
+        )
+    )
+
+
+def key(sentence: str) -> str:
+    """What all ways of typing a sentence have in common: its words, folded, without marks."""
+    return " ".join(fold(_NOT_LETTERS.sub(" ", sentence)).split())
+
+
+def ways_of_typing(sentence: str) -> tuple[str, ...]:
+    """As given, without accents, without marks, and with nothing but lower case letters."""
+    bare = " ".join(_NOT_LETTERS.sub(" ", sentence).split())
+    return tuple(dict.fromkeys([sentence, without_accents(sentence), bare, without_accents(bare).lower()]))
+
+
+def not_memorised(model: SentenceModel, read: Reader) -> tuple[str, ...]:
+    """The paper's sentences, in all `ways_of_typing`, that a model does not translate as published.
+
+    Returns:
+        `sentence -> glosses that came out`, none if all are right.
+    """
+    wrong: list[str] = []
+    for pair in paper_pairs():
+        expected = tuple("7" if gloss == "X" else gloss_name(gloss) for gloss in pair.glosses)
+        for sentence in ways_of_typing(pair.sentence.replace(" X ", " 7 ")):
+            got = tuple(gloss.gloss for gloss in model.translate(read(sentence))[0].glosses)
+            if got != expected:
+                wrong.append(f"{sentence} -> {' '.join(got)}")
+    return tuple(wrong)
+
+
+def _filled(pair: AlignedPair, name: str, number: str, stop: str, read: Reader) -> MemorisedPair:
+    sentence = pair.sentence.replace(NAME, name).replace(NUMBER, number) + stop
+    words = read(sentence)
+    glosses: list[str] = []
+    alignment: list[tuple[int, ...]] = []
+    for gloss, sources in zip(pair.glosses, pair.sources, strict=True):
+        if gloss in (NAME, NUMBER):
+            place = _slot_place(words, name if gloss == NAME else number, sentence)
+            glosses.append(name.upper() if gloss == NAME else words[place].form)
+            alignment.append((place,))
+        else:
+            glosses.append(gloss_name(gloss))
+            alignment.append(tuple(sorted(_place(words, source, sentence) for source in sources)))
+    return MemorisedPair(sentence, tuple(glosses), tuple(alignment))
+
+
+def _place(words: Sequence[SourceWord], source: str, sentence: str) -> int:
+    """The last word with a form: "Ana, ¿quién es Ana?" asks about the second one."""
+    places = [place for place, word in enumerate(words) if fold(word.form) == fold(source)]
+    # Words that are read as one, such as "por favor", stand in one place.
+    places = places or [place for place, word in enumerate(words) if fold(source) in fold(word.form).split()]
+    if not places:
+        raise TranslationError(
+            "invalid_data",
+            f"expected '{source}' among the words of '{sentence}', got {[word.form for word in words]}",
+        )
+    return places[-1]
+
+
+def _slot_place(words: Sequence[SourceWord], filler: str, sentence: str) -> int:
+    for place, word in enumerate(words):
+        if word.text == filler or word.form == filler.lower():
+            return place
+    raise TranslationError("invalid_data", f"expected '{filler}' to be one word of '{sentence}'")

@@ -1,0 +1,62 @@
+"""A network without one of its outputs gives the others as before."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import mediapipe
+import pytest
+from mediapipe.tasks.metadata import schema_py_generated as schema
+
+from teo_skeleton_retriever.detectors.mediapipe.pruning import without_output
+from teo_skeleton_retriever.errors import DetectorError
+
+OUTLINE = (1, 256, 256, 1)
+
+
+@pytest.fixture(scope="module")
+def pose() -> bytes:
+    return (Path(mediapipe.__file__).parent / "modules/pose_landmark/pose_landmark_full.tflite").read_bytes()
+
+
+def outputs(network: bytes) -> list[tuple[int, ...]]:
+    graph = schema.Model.GetRootAs(network, 0).Subgraphs(0)
+    return [tuple(graph.Tensors(graph.Outputs(i)).ShapeAsNumpy()) for i in range(graph.OutputsLength())]
+
+
+def test_the_other_outputs_stay_in_order_and_only_layers_that_they_need(pose: bytes) -> None:
+    pruned = without_output(pose, OUTLINE)
+    assert outputs(pruned) == [shape for shape in outputs(pose) if shape != OUTLINE]
+    assert outputs(pruned) == [(1, 195), (1, 1), (1, 64, 64, 39), (1, 117)]
+    graph = schema.Model.GetRootAs(pruned, 0).Subgraphs(0)
+    known = {graph.Inputs(0)}
+    read = {graph.Outputs(i) for i in range(graph.OutputsLength())}
+    for i in range(graph.OperatorsLength()):
+        layer = graph.Operators(i)
+        inputs = {int(tensor) for tensor in layer.InputsAsNumpy() if tensor >= 0}
+        constant = {tensor for tensor in inputs if has_data(pruned, tensor)}
+        assert inputs - constant <= known  # made before it is read
+        known |= {int(tensor) for tensor in layer.OutputsAsNumpy()}
+        read |= inputs
+    assert known <= read  # nothing is made for nobody
+
+
+def has_data(network: bytes, tensor: int) -> bool:
+    model = schema.Model.GetRootAs(network, 0)
+    return bool(model.Buffers(model.Subgraphs(0).Tensors(tensor).Buffer()).DataLength())
+
+
+def test_an_output_that_is_not_there_or_not_the_only_one_is_refused(pose: bytes) -> None:
+    for shape in ((1, 2, 3), ()):
+        with pytest.raises(DetectorError, match="195"):
+            without_output(pose, shape)
+    hand = (Path(mediapipe.__file__).parent / "modules/hand_landmark/hand_landmark_full.tflite").read_bytes()
+    with pytest.raises(DetectorError, match="63"):
+        without_output(hand, (1, 63))  # landmarks in the image and in space
+
+
+@pytest.mark.parametrize("content", [b"", b"TFL3", b"\0" * 100])
+def test_what_is_no_network_is_refused(content: bytes) -> None:
+    with pytest.raises(DetectorError) as caught:
+        without_output(content, OUTLINE)
+    assert caught.value.code == "bad_network"

@@ -1,0 +1,189 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from openpose_writer import format_frame, frame_path, write_frame
+
+from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, parse_frame, read_frame
+from teo_skeleton_retriever.errors import KeypointError, OpenPoseFormatError
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+# As OpenPose 1.7 writes one person without hands and face.
+WRITTEN_BY_OPENPOSE = """{"version":1.3,"people":[{"person_id":[-1],"pose_keypoints_2d":[BODY],
+"face_keypoints_2d":[],"hand_left_keypoints_2d":[],"hand_right_keypoints_2d":[],"pose_keypoints_3d":[],
+"face_keypoints_3d":[],"hand_left_keypoints_3d":[],"hand_right_keypoints_3d":[]}]}""".replace(
+    "BODY", ",".join(["582.349,507.866,0.845918"] + ["0,0,0"] * 24)
+)
+
+coordinate = st.floats(-1e4, 1e4).map(lambda value: float(f"{value:.6g}"))
+
+
+def table(rows: int, columns: int) -> st.SearchStrategy[np.ndarray]:
+    full = st.lists(coordinate, min_size=rows * columns, max_size=rows * columns)
+    return st.one_of(st.just(np.zeros((0, columns))), full.map(lambda v: np.reshape(v, (rows, columns))))
+
+
+people = st.builds(
+    Person2D,
+    body=table(25, 3),
+    left_hand=table(21, 3),
+    face_3d=table(70, 4),
+    person_id=st.integers(-1, 99),
+)
+
+
+def person(**parts: Any) -> str:
+    return json.dumps({"version": 1.3, "people": [parts]})
+
+
+def code_of(content: bytes | str) -> str:
+    with pytest.raises(OpenPoseFormatError) as caught:
+        parse_frame(content)
+    assert caught.value.sentence
+    return caught.value.code
+
+
+def test_reads_what_openpose_writes() -> None:
+    frame = parse_frame(WRITTEN_BY_OPENPOSE)
+    assert frame.version == 1.3
+    assert len(frame.people) == 1
+    assert frame.people[0].body[0].tolist() == [582.349, 507.866, 0.845918]
+    assert frame.people[0].person_id == -1
+    assert len(frame.people[0].face) == len(frame.people[0].left_hand) == 0
+
+
+@pytest.mark.parametrize(
+    ("version", "body", "hand"),
+    [
+        (0.1, "body_parts", None),
+        (0.1, "pose_keypoints", None),
+        (1.0, "pose_keypoints", "hand_left_keypoints"),
+        (1.1, "pose_keypoints", "hand_left_keypoints"),
+        (1.2, "pose_keypoints_2d", "hand_left_keypoints_2d"),
+        (1.3, "pose_keypoints_2d", "hand_left_keypoints_2d"),
+    ],
+)
+def test_reads_every_version_by_its_own_names(version: float, body: str, hand: str | None) -> None:
+    entry: dict[str, Any] = {body: [1, 2, 0.5] * 18}
+    if hand:
+        entry[hand] = [3, 4, 0.5] * 21
+    frame = parse_frame(json.dumps({"version": version, "people": [entry, entry]}))
+    assert frame.version == version
+    assert len(frame.people) == 2
+    assert frame.people[1].body.shape == (18, 3)
+    assert len(frame.people[1].left_hand) == (21 if hand else 0)
+
+
+def test_no_people_is_a_frame_without_people() -> None:
+    assert parse_frame('{"version":1.3,"people":[]}').people == ()
+
+
+def test_a_byte_order_mark_and_line_ends_of_windows_are_read() -> None:
+    content = WRITTEN_BY_OPENPOSE.replace("\n", "\r\n").encode("utf-8-sig")
+    assert len(parse_frame(content).people) == 1
+
+
+def test_candidates_are_read_by_body_part() -> None:
+    frame = parse_frame('{"version":1.1,"people":[],"part_candidates":[{"0":[1,2,0.5,3,4,0.6],"1":[]}]}')
+    assert frame.part_candidates[0].tolist() == [[1, 2, 0.5], [3, 4, 0.6]]
+    assert frame.part_candidates[1].shape == (0, 3)
+
+
+@given(st.lists(people, max_size=4))
+@settings(max_examples=30, deadline=None)
+def test_what_is_written_is_read_back(written: list[Person2D]) -> None:
+    read = parse_frame(format_frame(OpenPoseFrame(tuple(written), {3: np.array([[1.0, 2.0, 0.5]])})))
+    assert len(read.people) == len(written)
+    for before, after in zip(written, read.people, strict=True):
+        for part in ("body", "left_hand", "right_hand", "face", "body_3d", "face_3d"):
+            np.testing.assert_array_equal(getattr(after, part), getattr(before, part))
+        assert after.person_id == before.person_id
+    assert read.part_candidates[3].tolist() == [[1.0, 2.0, 0.5]]
+
+
+def test_keys_are_written_in_openposes_order_and_numbers_briefly() -> None:
+    frame = OpenPoseFrame((Person2D(body=np.tile([582.34912, 0.0, 0.8459181], (25, 1))),))
+    text = format_frame(frame)
+    assert text.startswith(
+        '{"version":1.3,"people":[{"person_id":[-1],"pose_keypoints_2d":[582.349,0,0.845918,582.349'
+    )
+    assert list(json.loads(text)["people"][0]) == list(json.loads(WRITTEN_BY_OPENPOSE)["people"][0])
+
+
+@given(st.integers(0, len(WRITTEN_BY_OPENPOSE) - 1))
+@settings(max_examples=60, deadline=None)
+def test_a_file_cut_anywhere_is_refused(length: int) -> None:
+    assert code_of(WRITTEN_BY_OPENPOSE[:length]) == "not_json"
+
+
+@given(st.binary(max_size=200))
+@settings(max_examples=60, deadline=None)
+def test_noise_is_refused_and_never_another_exception(noise: bytes) -> None:
+    assert code_of(noise) in {"not_text", "not_json", "not_an_object", "no_people"}
+
+
+@pytest.mark.parametrize(
+    ("content", "code"),
+    [
+        ("", "not_json"),
+        ("[" * 100_000, "not_json"),
+        ("[]", "not_an_object"),
+        ("{}", "no_people"),
+        ('{"version":1.3,"people":{}}', "no_people"),
+        ('{"version":2.0,"people":[]}', "unknown_version"),
+        ('{"version":true,"people":[]}', "unknown_version"),
+        ('{"version":1.3,"people":[7]}', "not_a_person"),
+        ('{"version":1.3,"people":[],"part_candidates":3}', "bad_candidates"),
+        ('{"version":1.3,"people":[],"part_candidates":[{"x":[]}]}', "bad_candidates"),
+        (person(pose_keypoints_2d="1,2,3"), "not_a_list"),
+        (person(pose_keypoints_2d=None), "not_a_list"),
+        (person(pose_keypoints_2d=[1, 2, "3"]), "not_numbers"),
+        (person(pose_keypoints_2d=[1, 2]), "wrong_length"),
+        (person(pose_keypoints_2d=[1, 2, 3] * 24), "wrong_shape"),
+        (person(hand_left_keypoints_2d=[1, 2, 3] * 20), "wrong_shape"),
+        (person(pose_keypoints_2d=[float("nan"), 2, 3] * 25), "not_finite"),
+        (person(pose_keypoints_2d=[10**400, 2, 3] * 25), "not_finite"),
+        (person(person_id=[1, 2]), "bad_person_id"),
+        (person(person_id=["a"]), "bad_person_id"),
+    ],
+)
+def test_what_openpose_does_not_write_is_refused_with_its_reason(content: str, code: str) -> None:
+    assert code_of(content) == code
+
+
+def test_errors_name_the_file_and_the_place(tmp_path: Path) -> None:
+    path = tmp_path / "7_keypoints.json"
+    path.write_text(person(face_keypoints_2d=[1, 2]))
+    with pytest.raises(OpenPoseFormatError, match=r"7_keypoints\.json: people\[0\]\.face_keypoints_2d"):
+        read_frame(path)
+
+
+def test_a_missing_file_is_said_to_be_unreadable(tmp_path: Path) -> None:
+    with pytest.raises(OpenPoseFormatError) as caught:
+        read_frame(tmp_path / "none.json")
+    assert caught.value.code == "unreadable"
+
+
+def test_a_folder_holds_whole_files_only(tmp_path: Path) -> None:
+    path = frame_path(tmp_path, "clip_000000000012")
+    write_frame(path, OpenPoseFrame((Person2D(),)))
+    write_frame(path, OpenPoseFrame((Person2D(), Person2D())))
+    assert [file.name for file in tmp_path.iterdir()] == ["clip_000000000012_keypoints.json"]
+    assert len(read_frame(path).people) == 2
+
+
+def test_a_person_of_another_shape_cannot_be_made() -> None:
+    with pytest.raises(KeypointError) as caught:
+        Person2D(body=np.zeros((17, 3)))
+    assert caught.value.code == "wrong_shape"
+
+
+def test_the_arrays_of_a_person_cannot_be_written_to() -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        Person2D(body=np.zeros((25, 3))).body[0] = 1.0

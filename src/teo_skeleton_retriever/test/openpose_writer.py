@@ -1,0 +1,56 @@
+"""Writes people as OpenPose's `--write_json` does, version 1.3."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from pathlib import Path
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.detectors.openpose.openpose_files import PARTS, VERSION, OpenPoseFrame
+from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+DIGITS = 6
+"""Significant digits of a number, as OpenPose's own stream writes them: 1e-3 px at 1000 px."""
+
+
+def frame_path(folder: Path, name: str) -> Path:
+    """Tell where OpenPose puts the keypoints of an image of this name (without its suffix)."""
+    return folder / f"{name}_keypoints.json"
+
+
+def format_frame(frame: OpenPoseFrame) -> str:
+    """Write people as the text of one file; it is always of the present version."""
+    data: dict[str, object] = {"version": VERSION, "people": [_person(person) for person in frame.people]}
+    if frame.part_candidates:
+        data["part_candidates"] = [
+            {str(i): _numbers(table) for i, table in sorted(frame.part_candidates.items())}
+        ]
+    return json.dumps(data, separators=(",", ":"))
+
+
+def write_frame(path: Path, frame: OpenPoseFrame) -> None:
+    """Write one file so that a program that watches the folder never sees half of it.
+
+    Raises:
+        OSError: the folder is missing or not writable.
+    """
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            file.write(format_frame(frame))
+        Path(temporary).replace(path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _person(person: Person2D) -> dict[str, object]:
+    parts = {part.keys[0]: _numbers(getattr(person, part.attribute)) for part in PARTS}
+    return {"person_id": [person.person_id], **parts}
+
+
+def _numbers(table: FloatArray) -> list[float]:
+    rounded = [float(f"{number:.{DIGITS}g}") for number in table.ravel()]
+    return [int(number) if number.is_integer() and abs(number) < 1e15 else number for number in rounded]

@@ -1,0 +1,133 @@
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+from typing import Any
+
+import bag_take
+import camera_take as take
+import pytest
+from mcap_ros2.reader import read_ros2_messages
+
+from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.errors import BagError, OutputError, RetrieverError, TopicError
+from teo_skeleton_retriever.image_retriever import ImageRetriever
+from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
+from teo_skeleton_retriever.recording import RetrievalReport, retrieve_recording
+from teo_skeleton_retriever.retriever import Retriever, RetrieverParameters
+
+IMAGES = 10
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    return bag_take.write_ros2(tmp_path / "take", list(bag_take.messages(IMAGES)))
+
+
+@pytest.fixture
+def keypoints(tmp_path: Path) -> Path:
+    return bag_take.write_keypoints(tmp_path / "keypoints", IMAGES)
+
+
+def retrieve(bag: Path, keypoints: Path, **options: Any) -> RetrievalReport:
+    """Retrieve with keypoints that are known, so that no network runs."""
+    images = ImageRetriever(make_detector("replay", folder=str(keypoints)), Retriever(RetrieverParameters()))
+    return retrieve_recording(bag, images, **options)
+
+
+def test_a_recording_becomes_a_bag_of_skeletons_and_a_report(bag, keypoints, tmp_path):
+    report = retrieve(bag, keypoints, out=tmp_path / "out.mcap")
+    assert len(list(read_ros2_messages(tmp_path / "out.mcap"))) == IMAGES
+    assert (report.images, report.people, report.left_out, report.complaints) == (IMAGES, 1, {}, ())
+    assert report.images_with_people == IMAGES - (RetrieverParameters().newcomer_images - 1)
+    assert report.topics.color == bag_take.COLOR
+    assert report.statuses["body"][KeypointStatus.MEASURED] > 0
+    assert report.own_time > 0.0
+
+
+@pytest.mark.parametrize("form", ["ros1", "file"])
+def test_ros_1_bags_and_single_files_are_recordings_too(bag, keypoints, form, tmp_path):
+    path = bag / "take.mcap"
+    if form == "ros1":
+        path = bag_take.write_ros1(tmp_path / "take.bag", list(bag_take.messages(IMAGES)))
+    assert retrieve(path, keypoints).images == IMAGES
+
+
+def test_progress_counts_every_message(bag, keypoints):
+    told: list[tuple[int, int]] = []
+    retrieve(bag, keypoints, on_progress=lambda *progress: told.append(progress))
+    assert told == [(i + 1, 3 * IMAGES) for i in range(3 * IMAGES)]
+
+
+def test_each_image_is_given_with_its_people(bag, keypoints):
+    stamps, people = [], []
+
+    def look(found, retrieved):
+        stamps.append(found.stamp)
+        people.append(len(retrieved.skeletons))
+
+    retrieve(bag, keypoints, on_image=look)
+    assert stamps == [take.START + i * take.PERIOD for i in range(IMAGES)]
+    assert people == [0, 0] + [1] * (IMAGES - 2)
+
+
+def test_a_recording_that_was_cut_off_gives_what_is_there_and_says_so(bag, keypoints):
+    path = bag_take.cut(bag / "take.mcap", 0.7)
+    report = retrieve(path, keypoints)
+    assert 3 <= report.images < IMAGES
+    (complaint,) = report.complaints
+    assert complaint.startswith(f"{path}: cut off")
+
+
+def test_images_that_are_refused_are_counted_with_the_reason(bag):
+    class Refusing:
+        def detect(self, *_):
+            raise RetrieverError("bad_image", "expected another image")
+
+        def close(self):
+            pass
+
+    report = retrieve_recording(bag, ImageRetriever(Refusing(), Retriever(RetrieverParameters())))
+    assert (report.images, report.left_out) == (0, {"bad_image": IMAGES})
+    assert report.reasons == {"bad_image": "expected another image"}
+    refused, nothing = report.complaints
+    assert refused == f"{IMAGES} images left out, bad_image: expected another image"
+    assert nothing.startswith(f"no image of {bag_take.COLOR} could be used")
+
+
+def test_a_missing_topic_is_named_by_the_argument_that_would_name_it(tmp_path, keypoints):
+    stored = [one for one in bag_take.messages(IMAGES) if one[0] != bag_take.DEPTH]
+    with pytest.raises(TopicError, match="expected a topic of depth") as caught:
+        retrieve(bag_take.write_ros2(tmp_path / "no_depth", stored), keypoints)
+    assert (caught.value.code, caught.value.argument) == ("no_depth", "depth_topic")
+
+
+def test_several_topics_that_may_be_meant_are_refused_until_one_is_named(tmp_path, keypoints):
+    stored = [(f"/{side}{topic}", *rest) for topic, *rest in bag_take.messages(IMAGES) for side in "ab"]
+    bag = bag_take.write_ros2(tmp_path / "two", stored)
+    with pytest.raises(TopicError) as caught:
+        retrieve(bag, keypoints)
+    assert (caught.value.code, caught.value.argument) == ("ambiguous_color", "color_topic")
+    named = {
+        "color_topic": f"/b{bag_take.COLOR}",
+        "depth_topic": f"/b{bag_take.DEPTH}",
+        "camera_info_topic": f"/b{bag_take.INFO}",
+    }
+    report = retrieve(bag, keypoints, **named)
+    assert (report.images, tuple(report.topics)) == (IMAGES, tuple(named.values()))
+
+
+def test_what_cannot_be_read_or_written_is_refused(bag, keypoints, tmp_path):
+    with pytest.raises(BagError, match="missing_bag"):
+        retrieve(tmp_path / "none.mcap", keypoints)
+    with pytest.raises(OutputError, match="bad_name"):
+        retrieve(bag, keypoints, out=tmp_path / "x.bag")
+    with pytest.raises(OutputError, match="missing_folder"):
+        retrieve(bag, keypoints, out=tmp_path / "none" / "x.mcap")
+
+
+def test_errors_pass_from_one_process_to_another():
+    error = pickle.loads(pickle.dumps(TopicError("no_depth", "expected a topic", "depth_topic")))
+    assert (type(error), error.code, error.sentence) == (TopicError, "no_depth", "expected a topic")
+    assert error.argument == "depth_topic"
+    assert str(pickle.loads(pickle.dumps(OutputError("bad_name", "other")))) == "bad_name: other"

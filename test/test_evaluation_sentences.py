@@ -1,0 +1,125 @@
+"""The sentences that the translator is measured on are in nothing that it was made from."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from teo_common.text_folding import folded
+from teo_sign_translator.corpus.accepted_translations import accepted
+
+ROOT = Path(__file__).parents[1]
+SENTENCES = Path("test") / "data"
+LANGUAGE = Path("src") / "teo_sign_translator" / "data"
+# Between the sentences of a text, and round what it quotes.
+PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
+# Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the
+# others were written more generously.
+MOST_ACCEPTED = {"blind": 6, "known": 200}
+
+
+def lines(root: Path, name: str) -> list[str]:
+    return (root / SENTENCES / name).read_text(encoding="utf-8").splitlines()
+
+
+def sentences(root: Path) -> dict[str, str]:
+    """Every evaluation sentence by file and line, `known:7`."""
+    return {
+        f"{path.stem}:{number}": line
+        for path in sorted((root / SENTENCES).glob("*.txt"))
+        for number, line in enumerate(lines(root, path.name), start=1)
+    }
+
+
+def texts(root: Path) -> Iterator[tuple[str, str]]:
+    """All that the translator was made or mended with, with the file's name: tables, grammar, tests, code."""
+    for path in sorted((root / LANGUAGE).rglob("*.yaml")):
+        text = path.read_text(encoding="utf-8")
+        for string in strings(yaml.load(text, Loader=yaml.CSafeLoader)):
+            yield path.name, string
+        for comment in re.findall("#(.*)", text):
+            yield path.name, comment
+    for path in sorted((root / LANGUAGE).rglob("*.tsv")):
+        for line in path.read_text(encoding="utf-8").splitlines():
+            for cell in line.split("\t"):
+                yield path.name, cell
+                yield from ((path.name, entry) for entry in cell.split(","))
+    for folder in ("src", "test", "bench"):
+        for path in sorted((root / folder).rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    yield path.name, node.value
+
+
+def strings(node: Any) -> Iterator[str]:
+    """All strings of a YAML file, its rules' templates among them."""
+    if isinstance(node, str):
+        yield node
+    elif isinstance(node, Mapping):
+        for value in node.values():
+            yield from strings(value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from strings(value)
+
+
+def leaks(root: Path) -> list[str]:
+    """Evaluation sentences that stand elsewhere too, however they are typed."""
+    places: defaultdict[str, list[str]] = defaultdict(list)
+    for name, sentence in sentences(root).items():
+        places[folded(sentence)].append(name)
+    found = [f"{' and '.join(names)} are the same" for names in places.values() if len(names) > 1]
+    found += [
+        f"{places[folded(part)][0]} is in {name}: {part.strip()}"
+        for name, text in texts(root)
+        for part in (text, *text.splitlines(), *PARTS.split(text))
+        if folded(part) in places
+    ]
+    return sorted(set(found))
+
+
+def test_no_evaluation_sentence_is_in_what_the_translator_was_made_from() -> None:
+    assert len(sentences(ROOT)) > 600
+    assert leaks(ROOT) == []
+
+
+@pytest.mark.parametrize(
+    ("path", "content", "named"),
+    [
+        (LANGUAGE / "grammar" / "new.yaml", 'rule: {example: {es: "¿Vendrá Inés al túnel?"}}', "new.yaml"),
+        (LANGUAGE / "grammar" / "new.yaml", 'rule: {es: "¿ vendrá Inés a el túnel ?"}', None),
+        (LANGUAGE / "grammar" / "new.yaml", 'rule: {es: "¿ vendrá Inés al túnel ?"}', "new.yaml"),
+        (LANGUAGE / "grammar" / "new.yaml", "rule: x # ¿Vendrá Inés al túnel?", "new.yaml"),
+        (LANGUAGE / "lexicon" / "new.tsv", "hola\tvendrá inés  al túnel\n", "new.tsv"),
+        (LANGUAGE / "project_pairs.tsv", "¿Vendrá Inés al tunel?\tInés/túnel\n", "project_pairs.tsv"),
+        (Path("src") / "any" / "test" / "test_new.py", 'SAID = "VENDRA INES AL TUNEL"', "test_new.py"),
+        (Path("bench") / "new.py", '"""Hola. ¿Vendrá Inés al túnel? Sí."""', "new.py"),
+        (SENTENCES / "other.txt", "vendra ines al tunel\n", "other:1"),
+        (SENTENCES / "other.txt", "vendra ines por el tunel\n", None),
+    ],
+)
+def test_a_leak_is_found_wherever_it_is(tmp_path: Path, path: Path, content: str, named: str | None) -> None:
+    for file, text in (
+        (SENTENCES / "blind.txt", "¿Qué tubería gotea?\n¿Vendrá Inés al túnel?\n"),
+        (path, content),
+    ):
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    found = leaks(tmp_path)
+    assert [line for line in found if "blind:2" in line] == found
+    assert (named in found[0]) if named else not found
+
+
+@pytest.mark.parametrize("name", MOST_ACCEPTED)
+def test_each_sentence_has_translations_but_not_too_many(name: str) -> None:
+    counts = [len(accepted(pattern)) for pattern in lines(ROOT, f"{name}.glosses")]
+    assert len(counts) == len(lines(ROOT, f"{name}.txt"))
+    assert min(counts) >= 1
+    assert max(counts) <= MOST_ACCEPTED[name]
