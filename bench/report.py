@@ -28,5 +28,5 @@ def share(count: int, total: int) -> str:
     part = count / total
     middle = part + z * z / (2 * total)
     spread = z * math.sqrt(part * (1 - part) / total + z * z / (4 * total * total))
-    low, high = ((middle + side) / (1 + z * z / total) for side in (-spread, spread))
+    low, high = (abs(middle + side) / (1 + z * z / total) for side in (-spread, spread))
     return f"{count} ({100 * part:.0f} %, {100 * low:.0f} to {100 * high:.0f} %)"

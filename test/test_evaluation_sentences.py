@@ -13,7 +13,9 @@ import pytest
 import yaml
 
 from teo_common.text_folding import folded
-from teo_sign_translator.corpus.accepted_translations import accepted
+from teo_sign_translator.corpus.accepted_translations import accepted, accepts
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.pipeline.translator import Translator
 
 ROOT = Path(__file__).parents[1]
 SENTENCES = Path("test") / "data"
@@ -23,6 +25,9 @@ PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the
 # others were written more generously.
 MOST_ACCEPTED = {"blind": 6, "known": 200}
+# Known sentences that must come out as accepted. The shipped translator has 419 of the 465: a mend of one
+# sentence may cost another one or two, what costs more is a loss.
+FLOOR = 416
 
 
 def lines(root: Path, name: str) -> list[str]:
@@ -123,3 +128,13 @@ def test_each_sentence_has_translations_but_not_too_many(name: str) -> None:
     assert len(counts) == len(lines(ROOT, f"{name}.txt"))
     assert min(counts) >= 1
     assert max(counts) <= MOST_ACCEPTED[name]
+
+
+def test_the_known_sentences_are_translated_as_well_as_ever() -> None:
+    patterns = lines(ROOT, "known.glosses")
+    answers = Translator.load().translate_all(lines(ROOT, "known.txt"))
+    right = sum(
+        not isinstance(answer, TranslationError) and accepts(pattern, str(answer).split())
+        for pattern, answer in zip(patterns, answers, strict=True)
+    )
+    assert right >= FLOOR

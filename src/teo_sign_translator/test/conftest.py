@@ -5,6 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from teo_sign_translator.corpus import Pair
+from teo_sign_translator.corpus.generator import Generator
+from teo_sign_translator.data_files import data_file
+from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
 
 # What several tests here need stands beside them.
@@ -15,3 +19,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 def translator() -> Translator:
     """The published model with the shipped data; it keeps nothing between texts."""
     return Translator.load("lstm256")
+
+
+@pytest.fixture(scope="session")
+def generated_pairs() -> list[Pair]:
+    """A small corpus of the shipped grammar, all its splits."""
+    return list(Generator.load(data_file("grammar"), Morphology.load()).pairs(5000, seed=7))
