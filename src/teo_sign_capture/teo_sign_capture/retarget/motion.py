@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
-from teo_description.hand_table import dextra_table
+from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem

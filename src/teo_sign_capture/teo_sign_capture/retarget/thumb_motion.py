@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description.hand_table import DextraTable
+from teo_description.hand_geometry import DextraTable
 from teo_sign_capture.tracks.body_axes import smoothed
 from teo_sign_capture.viterbi import cheapest_way
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, track_of
 
-from teo_description.hand_table import DextraTable
+from teo_description.hand_geometry import DextraTable
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
 from teo_sign_capture.retarget.body_map import BodyMap
