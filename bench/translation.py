@@ -56,7 +56,7 @@ def measure() -> list[Figure]:
         *_taught(every),
         *_known(every),
         *_held_out(every),
-        *_constructions(),
+        *constructions(),
         *blind_sentences.figures(),
         *_signed(every),
         *_speed(),
@@ -91,7 +91,8 @@ def _held_out(systems: Mapping[str, System]) -> Iterable[Figure]:
         yield from _exact(part, pairs, systems)
 
 
-def _constructions() -> Iterable[Figure]:
+def constructions() -> Iterable[Figure]:
+    """Of a model that was trained without them, if there is one."""
     what = f"generated, {_PARTS['test_constructions']}"
     if not (_WITHOUT_CONSTRUCTIONS / "pointer.safetensors").is_file():
         yield Figure(what, "not measured: train that model first, see the translator's README")
