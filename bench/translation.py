@@ -31,7 +31,7 @@ from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.pointer.training.metrics import overlap, score
+from teo_sign_translator.training.metrics import overlap, score
 
 HELD_OUT = 1000
 """Most sentences of each held-out part."""
