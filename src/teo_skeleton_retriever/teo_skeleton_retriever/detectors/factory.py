@@ -13,7 +13,7 @@ _CLASSES = {
     "mediapipe": "mediapipe.mediapipe_detector.MediaPipeDetector",
     "openpose_json": "openpose.openpose_json_detector.OpenPoseJsonDetector",
     "openpose_onnx": "paf.openpose_onnx_detector.OpenPoseOnnxDetector",
-    "replay": "replay_detector.ReplayDetector",
+    "replay": "openpose.replay_detector.ReplayDetector",
 }
 DETECTORS = tuple(_CLASSES)
 """The names that `make_detector` knows."""
