@@ -21,7 +21,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import COMMANDED_JOINTS, HOME, joint_limits
 from teo_sim_driver.joint_follower import Activity, JointFollower
-from teo_sim_driver.plain_message import SECOND, PlainTrajectory, plain_trajectory
+from teo_sim_driver.message import SECOND, PlainTrajectory, plain_trajectory
 
 PERIOD = 0.01  # [s]
 WATCHED = 20.0  # [s] of the node in motion

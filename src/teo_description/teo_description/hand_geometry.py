@@ -1,13 +1,18 @@
-"""TEO's right hand as points and rods, in the axes of its palm."""
+"""TEO's right hand as points and rods, in the axes of its palm: one handshape (`DextraHand`) or many at once.
+
+A finger's points depend on its one flexion, the thumb's on abductor and flexion: `DextraTable` works both out
+once by forward kinematics on a fine grid and interpolates.
+"""
 
 from __future__ import annotations
 
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import RIGHT_HAND
+from teo_description import RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
 
 Array = NDArray[np.float64]
@@ -23,6 +28,9 @@ _PALM_FRONT = 0.009 - 0.003
 """[m] Height of a thumb's axis over the palm's frame at which its surface touches the palm's box."""
 _PALM_FROM, _PALM_TO, _PALM_HALF_WIDTH = -0.075, 0.032, 0.047
 """[m] The palm's box along and across the hand, the thumb's radius added at its sides."""
+
+# Step of the table [rad]: between its points it is off by (finger length) * step^2 / 8 < 0.1 mm.
+_STEP = np.radians(2.0)
 
 
 class HandPoints(NamedTuple):
@@ -100,3 +108,76 @@ def segment_distances(start: Array, end: Array, starts: Array, ends: Array) -> A
     s = np.clip((b * t - c) / a, 0.0, 1.0)
     distances: Array = np.linalg.norm(between + s[:, None] * one - t[:, None] * others, axis=1)
     return distances
+
+
+class DextraTable:
+    """Joints and tips of the right hand in palm axes (along, to the little finger's side, out of the palm).
+
+    Attributes:
+        flexions: At which the fingers are tabled [rad]. Shape (f,).
+        fingers: Knuckle, middle joint, last joint and tip of index ... little finger [m]. Shape (f, 4, 4, 3).
+        abductors, thumb_flexions: At which the thumb is tabled [rad]. Shapes (a,) and (t,).
+        thumb: Knuckle, joint and tip [m]. Shape (a, t, 3, 3).
+    """
+
+    def __init__(self, robot: Robot) -> None:
+        hand, limits = DextraHand(robot), joint_limits(RIGHT_HAND)
+        self.abductors, self.thumb_flexions, self.flexions = (
+            np.linspace(low, high, int(np.ceil((high - low) / _STEP)) + 1)
+            for low, high in zip(limits.lower[:3], limits.upper[:3], strict=True)
+        )
+        straight = limits.lower[2:]
+        self.fingers = np.stack(
+            [hand.points(np.concatenate([[0.0, 0.0], np.full(4, bend)])).fingers for bend in self.flexions]
+        )
+        self.thumb = np.stack(
+            [
+                [
+                    hand.points(np.concatenate([[abductor, bend], straight])).thumb
+                    for bend in self.thumb_flexions
+                ]
+                for abductor in self.abductors
+            ]
+        )
+
+    def finger_points(self, flexions: Array) -> Array:
+        """Knuckle, middle joint, last joint and tip of four fingers [m].
+
+        Args:
+            flexions: Of index, middle, ring and little finger [rad]. Shape (n, 4).
+
+        Returns:
+            Shape (n, 4, 4, 3).
+        """
+        below, share = _between(self.flexions, flexions)
+        finger = np.arange(4)
+        low, high = self.fingers[below, finger], self.fingers[below + 1, finger]
+        points: Array = low + share[..., None, None] * (high - low)
+        return points
+
+    def thumb_points(self, abductors: Array, flexions: Array) -> Array:
+        """Knuckle, joint and tip of the thumb [m]; arguments and result of shapes (n,) and (n, 3, 3)."""
+        row, down = _between(self.abductors, abductors)
+        column, right = _between(self.thumb_flexions, flexions)
+        down, right = down[..., None, None], right[..., None, None]
+        points: Array = (1.0 - down) * (
+            (1.0 - right) * self.thumb[row, column] + right * self.thumb[row, column + 1]
+        ) + down * ((1.0 - right) * self.thumb[row + 1, column] + right * self.thumb[row + 1, column + 1])
+        return points
+
+
+_tables: WeakKeyDictionary[Robot, DextraTable] = WeakKeyDictionary()
+
+
+def dextra_table(robot: Robot) -> DextraTable:
+    """The table of a robot, worked out once: it takes longer than bringing a second onto TEO."""
+    if robot not in _tables:
+        _tables[robot] = DextraTable(robot)
+    return _tables[robot]
+
+
+def _between(grid: Array, values: Array) -> tuple[NDArray[np.intp], Array]:
+    """Index of the grid's point below each value, and the share of the way to the next."""
+    place = (values - grid[0]) / (grid[1] - grid[0])
+    below = np.clip(place.astype(np.intp), 0, len(grid) - 2)
+    return below, place - below

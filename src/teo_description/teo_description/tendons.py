@@ -10,7 +10,11 @@ and with all of it wound: 7 to 85 deg for a finger, -90 (standing out) to 90 deg
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from teo_description.errors import DescriptionError
 from teo_description.joints import LEFT_HAND, RIGHT_HAND
@@ -92,3 +96,28 @@ LEFT_AXES = tuple(_axis(joint) for joint in LEFT_HAND)
 
 RIGHT_AXES = tuple(_axis(joint) for joint in RIGHT_HAND)
 """The right device's axes, in the same order."""
+
+# Both devices' axes, in the order of `hand_setpoints`.
+HAND_AXES = LEFT_AXES + RIGHT_AXES
+
+
+def hand_setpoints(names: Sequence[str], positions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What both hands' devices are told for these joint positions.
+
+    Args:
+        names: Joint names, the twelve hand axes among them.
+        positions: Of the joints [rad]. Shape (joints,).
+
+    Returns:
+        Set-points [deg] and [mm], in the order of `HAND_AXES`. Shape (12,).
+
+    Raises:
+        DescriptionError: ``outside_hand_range``, or ``missing_hand_joint``.
+    """
+    index = {name: i for i, name in enumerate(names)}
+    missing = [axis.joint for axis in HAND_AXES if axis.joint not in index]
+    if missing:
+        raise DescriptionError(
+            "missing_hand_joint", f"expected all twelve hand axes, missing: {', '.join(missing)}"
+        )
+    return np.array([axis.setpoint(float(positions[index[axis.joint]])) for axis in HAND_AXES])

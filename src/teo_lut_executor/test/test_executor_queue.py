@@ -12,13 +12,13 @@ from teo_lut_executor.execution.events import (
     Finished,
     Outcome,
     PlanWanted,
+    QueueSettings,
     ReturnWanted,
     Sentence,
     Status,
     TrajectoryReady,
 )
 from teo_lut_executor.execution.queue import ExecutionQueue
-from teo_lut_executor.execution.settings import QueueSettings
 from teo_motion.planner import Planner
 from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan

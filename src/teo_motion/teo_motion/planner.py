@@ -1,7 +1,7 @@
 """Plans sentences: tokens in, motion out.
 
 One walk: `Lexicon` finds the signs, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle
-limbs, has the waypoints timed (`SentenceTiming`) and leads the motion around the robot's body, `HeadMotion`
+limbs, has the waypoints timed (`SentenceTiming`) and leads the motion around the robot's body, `HeadOverlay`
 lays the head's gestures over it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
 """
 
@@ -12,9 +12,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from teo_description.robot import Robot
-from teo_motion.collision.clearance_check import SelfCollision
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
-from teo_motion.head.overlay import HeadMotion
+from teo_motion.collision.motion_clearance import MotionClearance
+from teo_motion.head.overlay import HeadOverlay
 from teo_motion.sentence.composition import REST, compose
 from teo_motion.sentence.head_gestures import head_gestures
 from teo_motion.sentence.plan import Plan
@@ -83,16 +83,16 @@ class Planner:
         self.style = SigningStyle() if style is None else style
         self._bounds = self.limits.for_points(period)
         self._lexicon = Lexicon(signs, least_standing)
-        collision_model = None if robot is None else SelfCollision(robot)
+        motion_clearance = None if robot is None else MotionClearance(robot)
         self._avoidance = CollisionAvoidance(
             SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
-            collision_model,
+            motion_clearance,
             limits=self.limits,
             least_clearance=least_clearance,
             arm_rest=self.style.arm_rest,
         )
-        self._head = HeadMotion(
-            collision_model,
+        self._head = HeadOverlay(
+            motion_clearance,
             limits=self.limits,
             bounds=self._bounds,
             least_clearance=least_clearance,
@@ -117,7 +117,7 @@ class Planner:
         begin = self._checked(start)
         composition = compose(signed, start=begin, limits=self.limits, style=self.style.for_form(form))
         plan = self._avoidance.plan(composition)
-        return self._head.shown(plan, signed, head_gestures([item.token for item in signed], form))
+        return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
 
     def plan_to_rest(self, start: State) -> Plan:
         """Plan the way to rest from any state, moving ones included.

@@ -9,7 +9,7 @@ import pytest
 
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_motion.collision.clearance_check import SelfCollision
+from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.planner import Planner
 from teo_motion.sentence.composition import REST
 from teo_sign_capture.retarget.arm_bounds import mirrored
@@ -44,7 +44,7 @@ def arms(lut: Lut, gloss: str, knot: int) -> tuple[np.ndarray, np.ndarray]:
 def without_looking(signs: dict[str, Sign], glosses: str, robot: Robot) -> float:
     """How near parts come if nobody looks [m]."""
     plan = Planner(signs).plan([Token(gloss=gloss) for gloss in glosses.split()])
-    return SelfCollision(robot).nearest(plan.samples).distance
+    return MotionClearance(robot).nearest(plan.samples).distance
 
 
 def test_an_idle_left_hand_in_the_way_goes_to_rest_first(make_sign: MakeSign, lut: Lut, robot: Robot) -> None:
@@ -57,7 +57,7 @@ def test_an_idle_left_hand_in_the_way_goes_to_rest_first(make_sign: MakeSign, lu
     sentence = "TWO ONE TWO"
     assert without_looking(signs, sentence, robot) < -0.005
     plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in sentence.split()])
-    assert SelfCollision(robot).nearest(plan.samples).distance >= 0.0
+    assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
     one = plan.timings[1]
     position, _, _ = plan.at(one.start + one.duration / 2.0)
     shown = dict(zip(plan.names, position - REST, strict=True))
@@ -73,7 +73,7 @@ def test_two_hands_pass_each_other(make_sign: MakeSign, lut: Lut, robot: Robot) 
     sentence = "OVER UNDER OVER"
     assert without_looking(signs, sentence, robot) < -0.005
     plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in sentence.split()])
-    assert SelfCollision(robot).nearest(plan.samples).distance >= 0.0
+    assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
     for timing in plan.timings:
         sign = signs[timing.token.gloss]
         shown = dict(zip(plan.names, plan.at(timing.start)[0], strict=True))
@@ -84,7 +84,7 @@ def test_two_hands_pass_each_other(make_sign: MakeSign, lut: Lut, robot: Robot) 
 def test_nearly_every_random_sentence_of_the_table_has_a_way(lut: Lut, robot: Robot) -> None:
     words = [gloss for gloss in lut.glosses() if lut[gloss].kind == "lexical"]
     planner = Planner(lut, robot=robot, least_standing="sketched")
-    looking = SelfCollision(robot)
+    looking = MotionClearance(robot)
     random = np.random.default_rng(5)
     refused: list[str] = []
     for _ in range(60):

@@ -43,7 +43,7 @@ def test_a_sentence_goes_from_rest_through_every_knot_to_rest(table: Mapping[str
     np.testing.assert_allclose(composition.nominal[1:3], np.diff(sign.times))
 
 
-def test_between_signs_there_is_no_station(table: Mapping[str, Sign]) -> None:
+def test_between_signs_there_is_no_waypoint(table: Mapping[str, Sign]) -> None:
     composition = composed(table, "TÚ CASA")
     first, second = composition.spans
     assert second.first == first.last + 1
@@ -53,7 +53,7 @@ def test_between_signs_there_is_no_station(table: Mapping[str, Sign]) -> None:
 def test_the_arm_stays_up_between_letters(table: Mapping[str, Sign]) -> None:
     composition = composed(table, "A-N-C")
     arm = composition.targets[1:-1, RIGHT_ARM_COLUMNS[:6]]
-    assert not np.isnan(arm).any(), "the arm is fixed at every station of a word"
+    assert not np.isnan(arm).any(), "the arm is fixed at every waypoint of a word"
     assert (arm[:, 3] < -1.0).all(), "and bent at each of them"
 
 

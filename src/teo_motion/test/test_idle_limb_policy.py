@@ -13,7 +13,7 @@ from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import Bounds, Mover, State
+from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 
@@ -97,6 +97,6 @@ def test_least_times_are_those_that_ruckig_finds(
         jerk=limits.jerk,
     )
     states = [State(position=p * one, velocity=0 * one, acceleration=0 * one) for p in (0.0, way)]
-    move = Mover(1).move(*states, bounds, duration=0.0)
-    assert move is not None
-    assert limits.least_times(way * one, [0])[0] == pytest.approx(move.duration, rel=1e-5)
+    segment = RuckigSolver(1).segment(*states, bounds, duration=0.0)
+    assert segment is not None
+    assert limits.least_times(way * one, [0])[0] == pytest.approx(segment.duration, rel=1e-5)

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from teo_motion.head.neck_paths import Room, hold_ways, nod_ways, shake_ways
+from teo_motion.head.neck_paths import GestureWindow, hold_paths, nod_paths, shake_paths
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder
 from teo_motion.trajectory.limits import MotionLimits
 
@@ -25,7 +25,7 @@ def standing(*positions: float) -> JointMotion:
     return builder.build(10.0 * len(positions))
 
 
-def room(
+def window(
     begin: float,
     first: float,
     last: float,
@@ -33,8 +33,8 @@ def room(
     *,
     motion: JointMotion | None = None,
     joined: tuple[bool, bool] = (False, False),
-) -> Room:
-    return Room(
+) -> GestureWindow:
+    return GestureWindow(
         begin=begin,
         first=first,
         last=last,
@@ -47,39 +47,39 @@ def room(
 
 
 def test_a_shake_goes_from_side_to_side_from_begin_to_end() -> None:
-    way = next(shake_ways(1.0, room(0.0, 5.0, 9.0, 20.0)))
-    turns = [math.degrees(knot.position) for knot in way.knots]
+    path = next(shake_paths(1.0, window(0.0, 5.0, 9.0, 20.0)))
+    turns = [math.degrees(point.position) for point in path.points]
     assert turns[:3] == pytest.approx([-12.0, 12.0, -12.0])
-    assert way.knots[0].time == pytest.approx(5.0)
-    assert way.knots[-1].time == pytest.approx(9.0, abs=0.35), "half a swing"
-    assert way.begin < 5.0 and way.end > way.knots[-1].time
-    for earlier, later in pairwise(way.knots):
+    assert path.points[0].time == pytest.approx(5.0)
+    assert path.points[-1].time == pytest.approx(9.0, abs=0.35), "half a swing"
+    assert path.begin < 5.0 and path.end > path.points[-1].time
+    for earlier, later in pairwise(path.points):
         assert least_time(math.radians(24.0)) <= later.time - earlier.time < 0.75
 
 
 def test_a_short_sign_is_shaken_at_beyond_its_ends() -> None:
-    way = next(shake_ways(1.0, room(0.0, 5.0, 5.3, 20.0)))
-    assert len(way.knots) == 3
+    path = next(shake_paths(1.0, window(0.0, 5.0, 5.3, 20.0)))
+    assert len(path.points) == 3
 
 
 def test_a_shake_without_room_for_both_sides_is_none() -> None:
-    assert list(shake_ways(1.0, room(5.0, 5.2, 5.5, 6.5))) == []
+    assert list(shake_paths(1.0, window(5.0, 5.2, 5.5, 6.5))) == []
 
 
 @pytest.mark.parametrize("end", [6.0, 7.0, 7.5, 8.0, 8.5])
 @pytest.mark.parametrize("behind", [-12.0, 12.0])
 def test_a_shake_goes_on_into_a_sign_that_shakes(end: float, behind: float) -> None:
     motion = standing(0.0, behind)
-    ways = list(
-        shake_ways(
+    paths = list(
+        shake_paths(
             1.0,
-            room(10.0 - end, 10.0 - end + 1.0, 10.0, 10.0, motion=motion)._replace(goes_on_into_sign=True),
+            window(10.0 - end, 10.0 - end + 1.0, 10.0, 10.0, motion=motion)._replace(goes_on_into_sign=True),
         )
     )
-    assert ways
-    for way in ways:
-        assert way.begin >= 10.0 - end - 1e-9 and way.end == pytest.approx(10.0)
-        assert math.copysign(1.0, way.knots[-1].position) == -math.copysign(1.0, behind)
+    assert paths
+    for path in paths:
+        assert path.begin >= 10.0 - end - 1e-9 and path.end == pytest.approx(10.0)
+        assert math.copysign(1.0, path.points[-1].position) == -math.copysign(1.0, behind)
 
 
 @pytest.mark.parametrize("before", [-12.0, 12.0])
@@ -89,35 +89,35 @@ def test_a_shake_between_two_signs_that_shake_alternates(before: float, behind: 
     builder = JointMotionBuilder()
     for start, position in ((0.0, before), (5.0, 0.0), (5.0 + length, behind)):
         builder.hold(start, math.radians(position))
-    between = room(5.0, 5.0, 5.0 + length, 5.0 + length, motion=builder.build(20.0), joined=(True, True))
-    for way in shake_ways(1.0, between):
-        turns = [before, *(math.degrees(knot.position) for knot in way.knots), behind]
+    between = window(5.0, 5.0, 5.0 + length, 5.0 + length, motion=builder.build(20.0), joined=(True, True))
+    for path in shake_paths(1.0, between):
+        turns = [before, *(math.degrees(point.position) for point in path.points), behind]
         assert all(one * other < 0.0 for one, other in pairwise(turns))
-        assert (way.begin, way.end) == pytest.approx((5.0, 5.0 + length))
+        assert (path.begin, path.end) == pytest.approx((5.0, 5.0 + length))
 
 
 def test_less_strength_shakes_less_far_but_no_faster() -> None:
-    full, half = (next(shake_ways(strength, room(0.0, 5.0, 9.0, 20.0))) for strength in (1.0, 0.5))
-    assert half.knots[0].position == pytest.approx(full.knots[0].position / 2.0)
-    assert [knot.time for knot in half.knots] == pytest.approx([knot.time for knot in full.knots])
+    full, half = (next(shake_paths(strength, window(0.0, 5.0, 9.0, 20.0))) for strength in (1.0, 0.5))
+    assert half.points[0].position == pytest.approx(full.points[0].position / 2.0)
+    assert [point.time for point in half.points] == pytest.approx([point.time for point in full.points])
 
 
 def test_a_position_is_kept_as_long_as_there_is_room() -> None:
-    way = next(hold_ways(0.15, room(0.0, 5.0, 9.0, 20.0)))
-    assert [(knot.time, knot.position) for knot in way.knots] == [(5.0, 0.15), (9.0, 0.15)]
-    narrow = next(hold_ways(0.15, room(5.0, 5.0, 9.0, 9.0)))
+    path = next(hold_paths(0.15, window(0.0, 5.0, 9.0, 20.0)))
+    assert [(point.time, point.position) for point in path.points] == [(5.0, 0.15), (9.0, 0.15)]
+    narrow = next(hold_paths(0.15, window(5.0, 5.0, 9.0, 9.0)))
     assert narrow.begin >= 5.0 - 1e-9 and narrow.end <= 9.0 + 1e-9
-    assert list(hold_ways(0.15, room(5.0, 5.0, 5.9, 5.9))) == [], "not seen to be kept"
+    assert list(hold_paths(0.15, window(5.0, 5.0, 5.9, 5.9))) == [], "not seen to be kept"
 
 
 def test_a_nod_is_lowest_in_the_middle_of_its_sign() -> None:
-    way = next(nod_ways(1.0, room(0.0, 5.0, 6.0, 20.0)))
-    up, down = way.knots
+    path = next(nod_paths(1.0, window(0.0, 5.0, 6.0, 20.0)))
+    up, down = path.points
     assert math.degrees(up.position) == pytest.approx(-5.0)
     assert math.degrees(down.position) == pytest.approx(9.0) and down.time == pytest.approx(5.5)
 
 
 def test_a_nod_with_little_room_is_a_bow() -> None:
-    ways = list(nod_ways(1.0, room(5.0, 5.0, 6.0, 6.0)))
-    assert ways and all(len(way.knots) == 1 for way in ways)
-    assert all(way.begin >= 5.0 and way.end <= 6.0 for way in ways)
+    paths = list(nod_paths(1.0, window(5.0, 5.0, 6.0, 6.0)))
+    assert paths and all(len(path.points) == 1 for path in paths)
+    assert all(path.begin >= 5.0 and path.end <= 6.0 for path in paths)

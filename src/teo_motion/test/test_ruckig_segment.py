@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_motion.trajectory.ruckig_segment import Bounds, Move, Mover, State
-from teo_motion.trajectory.waypoint_states import knot_states
+from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, RuckigSolver, State
+from teo_motion.trajectory.waypoint_states import waypoint_states
 from teo_signs.errors import PlanError
 
 numbers = st.floats(-1.0, 1.0)
@@ -26,9 +26,11 @@ def bounds(velocity: float = 0.87, acceleration: float = 5.0, jerk: float = 52.0
     )
 
 
-def moved(start: tuple[float, float, float], end: tuple[float, float, float], duration: float) -> Move | None:
+def moved(
+    start: tuple[float, float, float], end: tuple[float, float, float], duration: float
+) -> RuckigSegment | None:
     states = [State(position=one(p), velocity=one(v), acceleration=one(a)) for p, v, a in (start, end)]
-    return Mover(1).move(*states, bounds(), duration=duration)
+    return RuckigSolver(1).segment(*states, bounds(), duration=duration)
 
 
 @settings(max_examples=300)
@@ -37,24 +39,24 @@ def test_the_range_of_a_move_is_exact(
     p: float, q: float, v: float, w: float, a: float, b: float, duration: float
 ) -> None:
     # The solver's own extremes miss joints that turn at constant acceleration.
-    move = moved((p, 0.5 * v, 3.0 * a), (q, 0.5 * w, 3.0 * b), duration)
-    if move is None:
+    segment = moved((p, 0.5 * v, 3.0 * a), (q, 0.5 * w, 3.0 * b), duration)
+    if segment is None:
         return
-    (lengths,) = move.pieces.lengths
+    (lengths,) = segment.pieces.lengths
     if not lengths.any():  # a time may be so short that its parts are nothing
         return
     times = np.linspace(0.0, 1.0, 400)[:, None] * lengths
-    dense = move.pieces.after(times[:, None, :])[0][:, :, lengths > 0.0]
-    least, greatest = move.pieces.range()
+    dense = segment.pieces.after(times[:, None, :])[0][:, :, lengths > 0.0]
+    least, greatest = segment.pieces.range()
     assert least[0] <= dense.min() + 1e-12 and greatest[0] >= dense.max() - 1e-12
     step = 1.0 / 400 * float(lengths.max())
     assert least[0] >= dense.min() - 0.87 * step and greatest[0] <= dense.max() + 0.87 * step
 
 
 def test_a_move_longer_than_needed_takes_the_time_it_is_given() -> None:
-    move = moved((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), 2.0)
-    assert move is not None
-    assert move.duration == pytest.approx(2.0)
+    segment = moved((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), 2.0)
+    assert segment is not None
+    assert segment.duration == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf])
@@ -70,13 +72,13 @@ def test_the_solver_is_not_given_lists_of_the_wrong_length() -> None:
         lower=-np.ones(2), upper=np.ones(2), velocity=np.ones(2), acceleration=np.ones(2), jerk=np.ones(2)
     )
     with pytest.raises(PlanError, match="expected 2 numbers"):
-        Mover(2).move(short, short, two, duration=1.0)
+        RuckigSolver(2).segment(short, short, two, duration=1.0)
 
 
 def test_the_solver_is_not_given_limits_of_zero() -> None:
     still = State(position=one(0.0), velocity=one(0.0), acceleration=one(0.0))
     with pytest.raises(PlanError, match="above 0"):
-        Mover(1).move(still, still, bounds(velocity=0.0), duration=1.0)
+        RuckigSolver(1).segment(still, still, bounds(velocity=0.0), duration=1.0)
 
 
 knot_lists = st.integers(2, 8).flatmap(
@@ -91,7 +93,7 @@ knot_lists = st.integers(2, 8).flatmap(
 def test_knots_are_passed_the_way_the_joint_goes(knots: tuple[list[float], list[float]]) -> None:
     times = np.concatenate([[0.0], np.cumsum(knots[0])])
     positions = np.array(knots[1])[:, None]
-    velocities, accelerations = knot_states(times, positions, np.ones_like(positions), swing=0.0)
+    velocities, accelerations = waypoint_states(times, positions, np.ones_like(positions), swing=0.0)
     chords = np.diff(positions[:, 0]) / np.diff(times)
     assert velocities[0] == velocities[-1] == accelerations[0] == accelerations[-1] == 0.0
     for i in range(1, len(times) - 1):
@@ -105,7 +107,7 @@ def test_knots_are_passed_the_way_the_joint_goes(knots: tuple[list[float], list[
 def test_dense_knots_of_a_smooth_motion_are_passed_as_it_does() -> None:
     times = np.arange(0.0, 2.0, 0.05)
     positions = np.sin(3.0 * times)[:, None]
-    velocities, accelerations = knot_states(times, positions, np.ones_like(positions), swing=0.02)
+    velocities, accelerations = waypoint_states(times, positions, np.ones_like(positions), swing=0.02)
     middle = slice(8, -8)
     np.testing.assert_allclose(velocities[middle, 0], 3.0 * np.cos(3.0 * times[middle]), atol=0.01)
     np.testing.assert_allclose(accelerations[middle, 0], -9.0 * np.sin(3.0 * times[middle]), atol=0.3)
@@ -114,8 +116,8 @@ def test_dense_knots_of_a_smooth_motion_are_passed_as_it_does() -> None:
 def test_a_brake_slows_a_knot() -> None:
     times = np.array([0.0, 1.0, 2.0])
     positions = np.array([[0.0], [1.0], [2.0]])
-    free, _ = knot_states(times, positions, np.ones((3, 1)), swing=0.0)
-    braked, _ = knot_states(times, positions, np.array([[1.0], [0.1], [1.0]]), swing=0.0)
-    stopped, acceleration = knot_states(times, positions, np.array([[1.0], [0.0], [1.0]]), swing=0.0)
+    free, _ = waypoint_states(times, positions, np.ones((3, 1)), swing=0.0)
+    braked, _ = waypoint_states(times, positions, np.array([[1.0], [0.1], [1.0]]), swing=0.0)
+    stopped, acceleration = waypoint_states(times, positions, np.array([[1.0], [0.0], [1.0]]), swing=0.0)
     assert 0.0 < braked[1, 0] < free[1, 0]
     assert stopped[1, 0] == acceleration[1, 0] == 0.0

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
-from teo_motion.trajectory.ruckig_segment import Bounds, Mover, State
-from teo_motion.trajectory.splice import Knot, Splicer, position_at, rest_after, shifted
+from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
+from teo_motion.trajectory.splice import Splicer, StandPoint, position_at, rest_after, shifted
 
 BOUNDS = Bounds(
     lower=np.array([-0.5]),
@@ -20,14 +20,14 @@ BOUNDS = Bounds(
 
 def there_and_back(angle: float = 0.3) -> JointMotion:
     """At 0 for 1 s, to an angle in 1 s, there for 1 s, back in 1 s, and 1 s more at 0."""
-    builder, mover = JointMotionBuilder(), Mover(1)
+    builder, solver = JointMotionBuilder(), RuckigSolver(1)
     zero = np.zeros(1)
     at = [State(position=np.array([turn]), velocity=zero, acceleration=zero) for turn in (0.0, angle)]
     for start, first, second in ((1.0, 0, 1), (3.0, 1, 0)):
         builder.hold(start - 1.0, float(at[first].position[0]))
-        move = mover.move(at[first], at[second], BOUNDS, duration=1.0)
-        assert move is not None
-        builder.add(start, take(move.pieces, 0))
+        segment = solver.segment(at[first], at[second], BOUNDS, duration=1.0)
+        assert segment is not None
+        builder.add(start, take(segment.pieces, 0))
     builder.hold(4.0, 0.0)
     return builder.build(5.0)
 
@@ -49,14 +49,14 @@ def jumps(motion: JointMotion) -> float:
 def test_another_way_is_left_and_met_smoothly(begin: float, length: float, position: float) -> None:
     motion = there_and_back()
     end = begin + length
-    knot = Knot((begin + end) / 2.0, position)
-    changed = Splicer(BOUNDS).spliced(motion, begin, [knot], end)
+    point = StandPoint((begin + end) / 2.0, position)
+    changed = Splicer(BOUNDS).spliced(motion, begin, [point], end)
     if changed is None:  # the joint may have too far to go
         assert abs(position - 0.3) > 0.3
         return
     assert jumps(changed) < 1e-6
     assert changed.duration == motion.duration
-    at, speed, _ = changed.at(np.array([knot.time]))
+    at, speed, _ = changed.at(np.array([point.time]))
     assert at[0] == pytest.approx(position, abs=1e-6) and speed[0] == pytest.approx(0.0, abs=1e-6)
     outside = np.linspace(0.0, 5.0, 501)
     outside = outside[(outside < begin) | (outside > end)]
@@ -68,8 +68,8 @@ def test_another_way_is_left_and_met_smoothly(begin: float, length: float, posit
 
 def test_a_way_that_the_joint_cannot_make_is_none() -> None:
     splicer, motion = Splicer(BOUNDS), there_and_back()
-    assert splicer.spliced(motion, 2.2, [Knot(2.3, -0.3)], 2.9) is None, "too fast"
-    assert splicer.spliced(motion, 2.0, [Knot(2.5, 0.6)], 3.0) is None, "outside the limits"
+    assert splicer.spliced(motion, 2.2, [StandPoint(2.3, -0.3)], 2.9) is None, "too fast"
+    assert splicer.spliced(motion, 2.0, [StandPoint(2.5, 0.6)], 3.0) is None, "outside the limits"
 
 
 def test_a_way_without_knots_goes_straight() -> None:

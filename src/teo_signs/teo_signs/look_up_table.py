@@ -32,7 +32,7 @@ class Lut(Mapping[str, Sign]):
     """Signs by gloss. Opening lists names only; an entry is read and checked when it is first asked for.
 
     A gloss is found whatever the Unicode form in which it is written, and with a space for "_". Signs are
-    kept once read; a table that changed on disk is seen again with `reload`.
+    kept once read; what changed on disk since is seen with `refresh` or `reload`.
     """
 
     def __init__(self, directory: Path) -> None:
@@ -40,6 +40,7 @@ class Lut(Mapping[str, Sign]):
         self._directory = directory
         self._paths: dict[str, Path] = {}
         self._signs: dict[str, Sign] = {}
+        self._modified = 0  # of the directory, when it was listed [ns]
         self.reload()
 
     @classmethod
@@ -63,6 +64,7 @@ class Lut(Mapping[str, Sign]):
         """List the directory again and forget what was read."""
         paths: dict[str, Path] = {}
         try:
+            modified = self._directory.stat().st_mtime_ns
             entries = sorted(entry.name for entry in os.scandir(self._directory))
         except OSError as error:
             raise LutError(
@@ -78,7 +80,22 @@ class Lut(Mapping[str, Sign]):
                 message = f"{self._directory}: expected one file for {gloss!r}, got {both}"
                 raise LutError("duplicate_gloss", message)
             paths[gloss] = self._directory / name
-        self._paths, self._signs = paths, {}
+        self._paths, self._signs, self._modified = paths, {}, modified
+
+    def refresh(self) -> str:
+        """Reload the table if a sign was saved or removed since it was listed; else it costs one `stat`.
+
+        Returns:
+            Why the table could not be read, in which case it stays as it was; else empty.
+        """
+        try:
+            if self._directory.stat().st_mtime_ns != self._modified:
+                self.reload()
+        except OSError as error:
+            return f"{self._directory}: expected a directory of signs, got: {error.strerror}"
+        except LutError as error:
+            return str(error)
+        return ""
 
     def glosses(self) -> tuple[str, ...]:
         """Every gloss of the table, sorted."""

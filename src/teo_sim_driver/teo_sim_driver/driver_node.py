@@ -8,7 +8,6 @@ from array import array
 from typing import Any
 
 import numpy as np
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -17,25 +16,23 @@ from std_msgs.msg import Float64MultiArray, MultiArrayDimension, MultiArrayLayou
 from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectory
 
+from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher, RateMeter
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
-from teo_sim_driver import dextra
+from teo_description.tendons import HAND_AXES, hand_setpoints
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.health import assess
+from teo_sim_driver.health import RefusalLog, assess
 from teo_sim_driver.joint_follower import FollowerReport, JointFollower
 from teo_sim_driver.parameters import PARAMETERS
-from teo_sim_driver.rate_meter import RateMeter
-from teo_sim_driver.refusal_log import RefusalLog
 from teo_sim_driver.rules import Rules
 from teo_sim_driver.trajectory import MotionState
 
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_HAND_EVERY = (
-    2  # steps between hand set-points: 50 Hz at the usual rate, as often as TEO's CAN bus is synchronised
-)
-_DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
+
+# Steps between hand set-points [1]: 50 Hz at the usual rate, as often as TEO's CAN bus is synchronised.
+_HAND_EVERY = 2
 
 
 class DriverNode(Node):
@@ -69,11 +66,11 @@ class DriverNode(Node):
         self._description = self.create_publisher(String, "robot_description", _LATCHED)
         self._description.publish(String(data=urdf_text()))
         self._hand_setpoints = self.create_publisher(Float64MultiArray, "dextra_setpoints", _LATCHED)
-        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
+        self._diagnostics = DiagnosticsPublisher(self, "joints")
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
         self.create_service(Trigger, "stop", self._on_stop)
         self.create_timer(1.0 / self._rate, self._on_step)
-        self.create_timer(_DIAGNOSTICS_PERIOD, self._on_diagnostics)
+        self.create_timer(DIAGNOSTICS_PERIOD, self._on_diagnostics)
 
     def _on_trajectory(self, message: JointTrajectory) -> None:
         try:
@@ -125,7 +122,7 @@ class DriverNode(Node):
         if self._hands is not None and np.array_equal(hands, self._hands):
             return
         self._hands = hands
-        setpoints = dextra.setpoints(_HAND_JOINTS, hands)
+        setpoints = hand_setpoints(_HAND_JOINTS, hands)
         self._hand_setpoints.publish(Float64MultiArray(layout=_HAND_LAYOUT, data=_doubles(setpoints)))
 
     def _on_diagnostics(self) -> None:
@@ -139,16 +136,7 @@ class DriverNode(Node):
         if report.limited_steps > self._limited_steps:
             self._limited_steps = report.limited_steps
             self.get_logger().error(f"{health.message}: {report.limited_steps} steps since the start")
-        status = DiagnosticStatus(
-            level=bytes([health.level]),
-            name=f"{self.get_name()}: joints",
-            message=health.message,
-            hardware_id="none",
-            values=[KeyValue(key=key, value=value) for key, value in health.values.items()],
-        )
-        message = DiagnosticArray(status=[status])
-        message.header.stamp = self.get_clock().now().to_msg()
-        self._diagnostics.publish(message)
+        self._diagnostics.publish(health)
 
     def _on_parameters_set(self, _: list[Parameter]) -> None:
         self._apply_parameters()
@@ -160,7 +148,7 @@ class DriverNode(Node):
         self._follower.rules = Rules(**values)
 
 
-_HAND_JOINTS = tuple(axis.joint for axis in dextra.AXES)
+_HAND_JOINTS = tuple(axis.joint for axis in HAND_AXES)
 _HANDS = len(_HAND_JOINTS)
 if COMMANDED_JOINTS[-_HANDS:] != _HAND_JOINTS:
     raise RuntimeError(

@@ -1,36 +1,21 @@
-"""What the driver says about itself."""
+"""What the driver says about itself: its diagnosis, and a line for refusals."""
 
 from __future__ import annotations
 
-from enum import IntEnum
-from typing import NamedTuple
-
+from teo_common.diagnostics import Diagnosis, Level, RateReport
+from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.joint_follower import FollowerReport
-from teo_sim_driver.rate_meter import RateReport
 
 # A tenth below the nominal rate: beyond the jitter of a busy machine.
 _SLOW = 0.9
 
-
-class Level(IntEnum):
-    """Levels of diagnostic_msgs/DiagnosticStatus."""
-
-    OK = 0
-    WARN = 1
-    ERROR = 2
-
-
-class Health(NamedTuple):
-    """One line for people, and the values."""
-
-    level: Level
-    message: str
-    values: dict[str, str]
+# After a refusal was logged, those of the same code are only counted for this long [s].
+_QUIET = 1.0
 
 
 def assess(
     report: FollowerReport, rate: RateReport, *, nominal_rate: float, before: FollowerReport | None = None
-) -> Health:
+) -> Diagnosis:
     """Judge the driver's state.
 
     Args:
@@ -47,7 +32,7 @@ def assess(
         level, message = Level.WARN, f"{rate.rate:.1f} steps per second instead of {nominal_rate:g}"
     if report.limited_steps > (before.limited_steps if before else 0):
         level, message = Level.ERROR, f"steps limited: {', '.join(report.limited_joints)}"
-    return Health(level, message, _values(report, rate, refused))
+    return Diagnosis(level, message, _values(report, rate, refused))
 
 
 def _values(report: FollowerReport, rate: RateReport, refused: int) -> dict[str, str]:
@@ -69,3 +54,27 @@ def _values(report: FollowerReport, rate: RateReport, refused: int) -> dict[str,
     }
     values.update({f"refused {code}": str(count) for code, count in sorted(report.refused.items())})
     return values
+
+
+class RefusalLog:
+    """Decides which refusals are logged, so that a sender that goes wrong often does not fill the disk."""
+
+    def __init__(self) -> None:
+        self._logged_at: dict[str, float] = {}
+        self._unlogged: dict[str, int] = {}
+
+    def line(self, refusal: TrajectoryError, now: float) -> str | None:
+        """Line to log, or None to be quiet.
+
+        Args:
+            refusal: what happened.
+            now: on a clock that nobody sets [s].
+        """
+        logged_at = self._logged_at.get(refusal.code)
+        if logged_at is not None and now - logged_at < _QUIET:
+            self._unlogged[refusal.code] = self._unlogged.get(refusal.code, 0) + 1
+            return None
+        self._logged_at[refusal.code] = now
+        more = self._unlogged.pop(refusal.code, 0)
+        line = f"trajectory refused ({refusal.code}): {refusal.sentence}"
+        return f"{line} [{more} more of this code since the last line]" if more else line

@@ -13,8 +13,7 @@ from teo_description import JointLimits
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.message import TrajectoryLike
-from teo_sim_driver.path_clock import PathClock
-from teo_sim_driver.path_stop import PathStop
+from teo_sim_driver.path_time import PathClock, PathStop
 from teo_sim_driver.rules import Rules
 from teo_sim_driver.step_guard import StepGuard
 from teo_sim_driver.trajectory import MotionState, Trajectory

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.message import PointLike, TimeLike, TrajectoryLike
-from teo_sim_driver.plain_message import SECOND
+from teo_sim_driver.message import SECOND, PointLike, TimeLike, TrajectoryLike
 from teo_sim_driver.rules import Rules
 
 

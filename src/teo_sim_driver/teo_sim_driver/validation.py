@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from teo_description import JointLimits
 from teo_sim_driver.bezier import FloatArray, first_excess
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.message import TrajectoryLike
-from teo_sim_driver.plain_message import SECOND
+from teo_sim_driver.message import SECOND, TrajectoryLike
 from teo_sim_driver.reading import Points, listed, read
 from teo_sim_driver.rules import POSITION_TOLERANCE, REST_VELOCITY, VELOCITY_TOLERANCE, Rules
 from teo_sim_driver.trajectory import MotionState, Trajectory

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, JointLimits, joint_limits
 from teo_sim_driver.joint_follower import JointFollower
-from teo_sim_driver.plain_message import PlainTrajectory, plain_trajectory
+from teo_sim_driver.message import PlainTrajectory, plain_trajectory
 
 PERIOD = 0.01  # [s]
 START = 1_700_000_000_000_000_000  # a time of day as ROS counts it [ns]

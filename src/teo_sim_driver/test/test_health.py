@@ -2,11 +2,14 @@ from dataclasses import replace
 
 import pytest
 
+from teo_common.diagnostics import Level, RateMeter, RateReport
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.health import Level, assess
-from teo_sim_driver.rate_meter import RateMeter, RateReport
+from teo_sim_driver.health import RefusalLog, assess
 
 GOOD_RATE = RateReport(99.9, 0.011, 0.0005)
+
+NAN = TrajectoryError(Refusal.NOT_FINITE, "point 0: expected a finite number")
+LATE = TrajectoryError(Refusal.ENDS_IN_THE_PAST, "the last point was due 3 s ago")
 
 
 def judge(report, rate=GOOD_RATE, before=None):
@@ -53,11 +56,21 @@ def test_a_step_that_was_limited_is_an_error(report):
     assert "AxialNeck" in health.message
 
 
-def test_the_rate_is_counted_between_reports():
-    meter = RateMeter()
-    for i in range(11):
-        meter.step(i * 0.01, i * 0.01 + 0.002)
-    assert meter.report() == pytest.approx((100.0, 0.01, 0.002))
-    meter.step(0.13, 0.131)
-    assert meter.report() == pytest.approx((1.0 / 0.03, 0.03, 0.001))
-    assert meter.report() == (0.0, 0.0, 0.0)
+def test_a_refusal_is_logged_with_its_code_and_reason():
+    assert RefusalLog().line(NAN, 5.0) == (
+        "trajectory refused (not_finite): point 0: expected a finite number"
+    )
+
+
+def test_a_flood_is_counted_and_its_size_is_told():
+    log = RefusalLog()
+    lines = [log.line(NAN, i * 0.001) for i in range(2001)]
+    told = [line for line in lines if line]
+    assert len(told) == 3
+    assert told[1].endswith("[999 more of this code since the last line]")
+
+
+def test_another_reason_is_logged_at_once():
+    log = RefusalLog()
+    assert log.line(NAN, 0.0)
+    assert log.line(LATE, 0.001)

@@ -3,7 +3,7 @@ import pytest
 
 from teo_sim_driver.errors import DriverError, TrajectoryError
 from teo_sim_driver.joint_follower import Activity
-from teo_sim_driver.plain_message import SECOND, plain_trajectory
+from teo_sim_driver.message import SECOND, plain_trajectory
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000

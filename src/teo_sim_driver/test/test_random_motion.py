@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.joint_follower import Activity
-from teo_sim_driver.plain_message import SECOND, PlainTime, plain_trajectory
+from teo_sim_driver.message import SECOND, PlainTime, plain_trajectory
 
 START = 1_700_000_000 * SECOND
 FRACTIONS = np.linspace(0.0, 1.0, 401)

@@ -7,7 +7,7 @@ import pytest
 
 from teo_description import LEG_JOINTS
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.plain_message import PlainTime, plain_trajectory
+from teo_sim_driver.message import PlainTime, plain_trajectory
 from teo_sim_driver.rules import Rules
 from teo_sim_driver.trajectory import MotionState
 from teo_sim_driver.validation import validate

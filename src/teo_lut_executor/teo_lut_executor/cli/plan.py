@@ -3,28 +3,35 @@
 from __future__ import annotations
 
 import enum
+import math
 import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from teo_common.atomic_files import write_atomically
 from teo_description import DescriptionError
 from teo_description.robot import Robot
-from teo_lut_executor.cli.plan_csv import write_csv
-from teo_lut_executor.cli.plan_film import frames, write_film, write_strip
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.plan import Plan, sample_at
 from teo_motion.sentence.sentence_form import SentenceType, printed_form, without_marks
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.mirroring import MirroredSigns
 from teo_signs.tokens import parse_printed
+
+# Rows of a CSV a second [Hz], as TEO's own state is published.
+_RATE = 100
+
+# A nanoradian: what is written stays within the limits that it stands on.
+_DECIMALS = 9
 
 
 class _Type(enum.Enum):
@@ -132,8 +139,12 @@ def _summary(plan: Plan) -> str:
 
 def _write(plan: Plan, csv: Path | None, mp4: Path | None, strip: Path | None) -> None:
     if csv is not None:
-        rows = write_csv(csv, plan)
+        rows = _write_csv(csv, plan)
         _out.print(f"wrote {csv} ({rows} rows)", highlight=False, markup=False)
+    if strip is None and mp4 is None:
+        return
+    from teo_lut_executor.cli.plan_film import frames, write_film, write_strip  # drawing is an extra
+
     if strip is not None:
         write_strip(strip, plan)
         _out.print(f"wrote {strip}", highlight=False, markup=False)
@@ -141,6 +152,31 @@ def _write(plan: Plan, csv: Path | None, mp4: Path | None, strip: Path | None) -
         shown = track(frames(plan), description="drawing", console=_err, transient=True)
         write_film(mp4, plan, shown)
         _out.print(f"wrote {mp4}", highlight=False, markup=False)
+
+
+def _write_csv(path: Path, plan: Plan) -> int:
+    """Write a plan as CSV, whole or not at all: time [s], then positions [rad] of each joint.
+
+    Args:
+        path: File to write; its folder exists.
+        plan: What to write, from 0 s to the first row at rest.
+
+    Returns:
+        Number of rows below the header.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    rows = math.ceil(plan.duration * _RATE) + 1
+    times = np.arange(rows) / _RATE
+    positions = sample_at(plan.motions, times).positions
+    lines = [",".join(("time", *plan.names))]
+    lines += [
+        f"{time:.2f}," + ",".join(f"{value:.{_DECIMALS}f}" for value in row)
+        for time, row in zip(times.tolist(), positions.tolist(), strict=True)
+    ]
+    write_atomically(path, ("\n".join(lines) + "\n").encode())
+    return rows
 
 
 def _complain(sentence: str) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from teo_lut_executor.execution.events import QueueSettings
 from teo_lut_executor.execution.robot_state import RobotState
-from teo_lut_executor.execution.settings import QueueSettings
 from teo_motion.sentence.plan import Plan
 from teo_signs.errors import PlanError
 
 
 @dataclass(kw_only=True, eq=False)
-class MotionWatch:
+class PathMonitor:
     """Compares a motion that was sent with the joint states.
 
     Attributes:

@@ -18,14 +18,14 @@ from teo_lut_executor.execution.events import (
     Outcome,
     PlanWanted,
     Progress,
+    QueueSettings,
     ReturnWanted,
     Sentence,
     Status,
     TrajectoryReady,
 )
-from teo_lut_executor.execution.path_monitor import MotionWatch
+from teo_lut_executor.execution.path_monitor import PathMonitor
 from teo_lut_executor.execution.robot_state import RobotState
-from teo_lut_executor.execution.settings import QueueSettings
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.stopping import stop
@@ -48,7 +48,7 @@ class _Current:
     ticket: int
     sentence: Sentence
     plan: Plan | None = None
-    watch: MotionWatch | None = None  # of the plan, or of the way back to rest
+    monitor: PathMonitor | None = None  # of the plan, or of the way back to rest
     canceled: bool = False
     returns: int = 0  # ways back that were asked for
     lead: float = 0.0  # time in which the robot is to reach the start of its way back [s]
@@ -105,7 +105,7 @@ class ExecutionQueue:
         """
         self._tick(now)
         self._listening = listening
-        events = [] if self._current is None else self._watch(self._current, now)
+        events = [] if self._current is None else self._follow(self._current, now)
         return events + self._start_next(now)
 
     def cancel(self, ticket: int, now: float) -> list[Event]:
@@ -130,7 +130,7 @@ class ExecutionQueue:
         if current.canceled:
             return self._finish(current, Outcome.CANCELED, now, message="canceled before it began")
         current.plan = plan
-        current.watch = MotionWatch(motion=plan, started=now, settings=self.settings)
+        current.monitor = PathMonitor(motion=plan, started=now, settings=self.settings)
         signing = Status(
             activity=Activity.SIGNING,
             stamp=now,
@@ -158,19 +158,15 @@ class ExecutionQueue:
         settings = self.settings
         if current.returns < _MOST_RETURNS:
             settings = replace(settings, path_tolerance=_RETURN_TOLERANCE, path_time=_RETURN_TIME)
-        current.watch = MotionWatch(motion=plan, started=now + current.lead, settings=settings)
+        current.monitor = PathMonitor(motion=plan, started=now + current.lead, settings=settings)
         return [TrajectoryReady(plan=plan, lead=current.lead)]
-
-    def return_not_planned(self) -> list[Event]:
-        """Answer `ReturnWanted` with that there is no way: the sentence goes on to its end, at rest."""
-        return []
 
     def progress(self, now: float) -> Progress | None:
         """How far the current sentence is; None while none is signed."""
         current = self._current
-        if current is None or current.plan is None or current.watch is None or current.canceled:
+        if current is None or current.plan is None or current.monitor is None or current.canceled:
             return None
-        plan, elapsed = current.plan, current.watch.elapsed(now)
+        plan, elapsed = current.plan, current.monitor.elapsed(now)
         signed = plan.token_at(elapsed)
         following = next((i for i, timing in enumerate(plan.timings) if timing.start > elapsed), None)
         return Progress(
@@ -186,8 +182,8 @@ class ExecutionQueue:
         back = now - self._now
         if back < 0.0:
             self._robot.shift_clock(back)
-            if self._current is not None and self._current.watch is not None:
-                self._current.watch.shift_clock(back)
+            if self._current is not None and self._current.monitor is not None:
+                self._current.monitor.shift_clock(back)
         self._now = now
 
     def _start_next(self, now: float) -> list[Event]:
@@ -228,16 +224,16 @@ class ExecutionQueue:
             return f"waiting for joint_states of {', '.join(names[:3])}{more}"
         return "" if self._listening else "waiting for a driver to take joint_trajectory"
 
-    def _watch(self, current: _Current, now: float) -> list[Event]:
+    def _follow(self, current: _Current, now: float) -> list[Event]:
         """See whether the robot follows, and whether it is at the end."""
-        if current.watch is None:
+        if current.monitor is None:
             return []
-        if current.watch.is_reached(self._robot):
+        if current.monitor.is_reached(self._robot):
             if current.canceled:
                 message = "stopped on request, at rest again"
                 return self._finish(current, Outcome.CANCELED, now, message=message)
             return self._finish(current, Outcome.SUCCESS, now)
-        problem = current.watch.problem(self._robot, now)
+        problem = current.monitor.problem(self._robot, now)
         if problem is None:
             return []
         if problem.code == "not_followed" and 0 < current.returns < _MOST_RETURNS:
@@ -246,15 +242,15 @@ class ExecutionQueue:
 
     def _turn_back(self, current: _Current, now: float) -> list[Event]:
         """Ask for a way back to rest, unless there is nothing to turn back from."""
-        plan, watch = current.plan, current.watch
-        if plan is None or watch is None:
+        plan, monitor = current.plan, current.monitor
+        if plan is None or monitor is None:
             return []  # `planned` will see that it was canceled
-        elapsed = watch.elapsed(now)
+        elapsed = monitor.elapsed(now)
         last = plan.timings[-1]
         if not current.returns and elapsed >= last.start + last.duration:
             return []  # on its way to rest already
         current.returns += 1
-        moving = replace(self._robot.state(), acceleration=watch.motion.at(elapsed)[2])
+        moving = replace(self._robot.state(), acceleration=monitor.motion.at(elapsed)[2])
         end, current.lead = stop(moving, self.limits)
         return [ReturnWanted(start=end)]
 

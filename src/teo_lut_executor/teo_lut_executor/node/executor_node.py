@@ -52,7 +52,6 @@ from teo_lut_executor.node.sign_services import get_sign, list_signs
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_signs.errors import LutError, PlanError
-from teo_signs.live_table import LiveLut
 from teo_signs.look_up_table import Lut
 from teo_signs.mirroring import MirroredSigns
 
@@ -74,7 +73,7 @@ class ExecutorNode(Node):
 
         Args:
             context: The ROS context; the default one if None.
-            parameter_overrides: Values in place of the defaults of `executor_parameters.PARAMETERS`.
+            parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
 
         Raises:
             LutError: The look-up table cannot be opened.
@@ -82,7 +81,7 @@ class ExecutorNode(Node):
         """
         super().__init__("executor", context=context, parameter_overrides=list(parameter_overrides))
         declare_parameters(self, PARAMETERS)
-        self._live_lut = LiveLut(Lut.open(self._value("lut_directory") or None))
+        self._lut = Lut.open(self._value("lut_directory") or None)
         self._robot = Robot.load()
         self._planner = self._make_planner(self._values())
         self._queue = ExecutionQueue(self._planner.limits, queue_settings_from(self._values()))
@@ -121,7 +120,7 @@ class ExecutorNode(Node):
         )
         self.create_timer(1.0 / _STEP_RATE, self._step)
         self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback)
-        lut = self._live_lut.lut
+        lut = self._lut
         self.get_logger().info(f"ready with {len(lut)} signs of {lut.directory}")
         self._step()
 
@@ -187,7 +186,7 @@ class ExecutorNode(Node):
             plan: Plan = self._planner.plan_to_rest(wanted.start)
         except PlanError as error:
             self.get_logger().warning(f"cannot turn back, the sentence goes on to its end: {error}")
-            return self._queue.return_not_planned()
+            return []
         return self._queue.return_planned(plan, self._now())
 
     def _publish(self, status: Status) -> None:
@@ -212,10 +211,10 @@ class ExecutorNode(Node):
         return response
 
     def _fresh_lut(self) -> Lut:
-        problem = self._live_lut.refresh()
+        problem = self._lut.refresh()
         if problem:
             self.get_logger().error(f"look-up table not read again: {problem}", throttle_duration_sec=5.0)
-        return self._live_lut.lut
+        return self._lut
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         try:
@@ -230,7 +229,7 @@ class ExecutorNode(Node):
         self._queue.limits, self._queue.settings = self._planner.limits, queue_settings_from(values)
 
     def _make_planner(self, values: dict[str, Value]) -> Planner:
-        signs = self._live_lut.lut
+        signs = self._lut
         return Planner(
             MirroredSigns(signs, self._robot) if left_handed_from(values) else signs,
             limits=limits_from(values),

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 
 from teo_common.parameters import ParameterRow
-from teo_lut_executor.execution.settings import QueueSettings
+from teo_lut_executor.execution.events import QueueSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits

@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_motion.collision.clearance_check import SelfCollision
 from teo_motion.collision.detour import detours, with_detour
+from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import ARMS, Composition
 from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
 from teo_motion.sentence.plan import Plan, sample_at
@@ -24,11 +24,11 @@ Array = NDArray[np.float64]
 # A sentence may be led around the robot's body by so many postures for each of its signs.
 _DETOURS_PER_TOKEN = 2
 
-# Looks at a straight way between two postures before its motion is timed.
-_LOOKS = 9
+# Postures that are looked at on a straight line between two others, before its motion is timed [1].
+_LINE_SAMPLES = 9
 
 
-class _InTheWayError(Exception):
+class _CollisionError(Exception):
     """The robot touches itself where no detour helps.
 
     Attributes:
@@ -48,7 +48,7 @@ class CollisionAvoidance:
     def __init__(
         self,
         timing: SentenceTiming,
-        collision_model: SelfCollision | None,
+        motion_clearance: MotionClearance | None,
         *,
         limits: MotionLimits,
         least_clearance: float,
@@ -58,13 +58,13 @@ class CollisionAvoidance:
 
         Args:
             timing: Times the waypoints of a route.
-            collision_model: Distances between parts of the robot; None looks at none.
+            motion_clearance: Distances between parts of the robot; None looks at none.
             limits: Limits of the joints, which detours keep.
             least_clearance: Distance that parts of the robot keep [m].
             arm_rest: Least time at rest for which an idle arm goes there and back [s].
         """
         self._timing = timing
-        self._collision_model = collision_model
+        self._motion_clearance = motion_clearance
         self._limits = limits
         self._least_clearance = least_clearance
         self._arm_rest = arm_rest
@@ -83,7 +83,7 @@ class CollisionAvoidance:
             )
             try:
                 return self._led_around(self._timed(route))
-            except _InTheWayError as collision:
+            except _CollisionError as collision:
                 more = _idle_arms(composition, collision) - cleared
                 if not more:
                     raise collision.error from None
@@ -92,16 +92,16 @@ class CollisionAvoidance:
     def _timed(self, route: Route) -> TimedRoute:
         """A route with its motion, and the closest that parts come in it."""
         timed = self._timing.timed(route)
-        if self._collision_model is None:
+        if self._motion_clearance is None:
             return timed
-        nearest = self._collision_model.nearest(timed.plan.samples)
+        nearest = self._motion_clearance.nearest(timed.plan.samples)
         return timed._replace(plan=dataclasses.replace(timed.plan, nearest=nearest))
 
     def _led_around(self, timed: TimedRoute) -> Plan:
         """The motion of a route, its transitions led around the body.
 
         Raises:
-            _InTheWayError: That is not enough.
+            _CollisionError: That is not enough.
         """
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):
@@ -109,7 +109,7 @@ class CollisionAvoidance:
             timed = self._with_worst_avoided(timed)
         if self._is_clear(timed.plan):
             return timed.plan
-        raise self._in_the_way(timed)
+        raise self._collision(timed)
 
     def _with_worst_avoided(self, timed: TimedRoute) -> TimedRoute:
         """Lead the transition with the worst collision around the body."""
@@ -126,10 +126,10 @@ class CollisionAvoidance:
                 round_here = range(step, step + len(postures) + 1)
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
-        raise self._in_the_way(timed)
+        raise self._collision(timed)
 
-    def _in_the_way(self, timed: TimedRoute) -> _InTheWayError:
-        """What touches, and where: in a sign if one of its postures does, else on the way between two."""
+    def _collision(self, timed: TimedRoute) -> _CollisionError:
+        """What touches, and where: in a sign if one of its postures does, else between two waypoints."""
         route, plan, times = timed
         near, step = plan.nearest, _nearest_step(timed)
         assert near is not None
@@ -145,39 +145,39 @@ class CollisionAvoidance:
             f"{where}, at {near.time:.2f} s: expected {near.first} and {near.second} to stay "
             f"{self._least_clearance * 1000:.0f} mm apart, got {near.distance * 1000:.1f} mm",
         )
-        station = step + 1 if guilty is None else guilty
+        waypoint = step + 1 if guilty is None else guilty
         token = next(
-            (index for index, span in enumerate(route.spans) if station <= span.last), len(route.spans)
+            (index for index, span in enumerate(route.spans) if waypoint <= span.last), len(route.spans)
         )
-        return _InTheWayError(error, token)
+        return _CollisionError(error, token)
 
     def _free_first(
-        self, ways: Iterable[Sequence[Array]], first: Array, second: Array
+        self, paths: Iterable[Sequence[Array]], first: Array, second: Array
     ) -> Iterator[Sequence[Array]]:
-        """Ways round, those first that are free in straight lines: that is seen in no time."""
+        """Detours, those first that are free along straight lines, which is known before any is timed."""
         touching = []
-        for way in ways:
-            if self._touches([first, *way, second]):
-                touching.append(way)
+        for path in paths:
+            if self._touches([first, *path, second]):
+                touching.append(path)
             else:
-                yield way
+                yield path
         yield from touching
 
     def _touches(self, postures: Sequence[Array]) -> bool:
-        """Whether the robot would touch itself on straight ways from posture to posture."""
-        assert self._collision_model is not None
+        """Whether the robot would touch itself along straight lines from posture to posture."""
+        assert self._motion_clearance is not None
         return any(
-            self._collision_model.is_nearer(begin + share * (end - begin), self._least_clearance)
+            self._motion_clearance.is_nearer(begin + share * (end - begin), self._least_clearance)
             for begin, end in pairwise(postures)
-            for share in np.linspace(0.0, 1.0, _LOOKS)
+            for share in np.linspace(0.0, 1.0, _LINE_SAMPLES)
         )
 
     def _is_clear(self, plan: Plan) -> bool:
         return plan.nearest is None or plan.nearest.distance >= self._least_clearance
 
     def _is_clear_at(self, plan: Plan, times: Array) -> bool:
-        assert self._collision_model is not None
-        found = self._collision_model.nearest(sample_at(plan.motions, times))
+        assert self._motion_clearance is not None
+        found = self._motion_clearance.nearest(sample_at(plan.motions, times))
         return found.distance >= self._least_clearance
 
 
@@ -188,8 +188,8 @@ def _nearest_step(timed: TimedRoute) -> int:
     return min(after - 1, len(timed.times) - 2)
 
 
-def _idle_arms(composition: Composition, collision: _InTheWayError) -> set[tuple[int, int]]:
-    """Arms that a token does not use, each with the station at which it begins."""
+def _idle_arms(composition: Composition, collision: _CollisionError) -> set[tuple[int, int]]:
+    """Arms that a token does not use, each with the waypoint at which it begins."""
     if collision.token >= len(composition.spans):
         return set()
     first = composition.spans[collision.token].first

@@ -1,4 +1,4 @@
-"""Ways around the robot's own body."""
+"""Detours: postures to pass through so that the arms go around the robot's own body."""
 
 from __future__ import annotations
 
@@ -50,16 +50,16 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
 
     Arms wider, further in front, hands away from the body; then one arm before the other; then hands apart,
     and from there one arm before the other, which takes any two hands out of each other's way; last the same
-    by way of rest, to which every sign has a way.
+    through rest, which every sign can reach.
 
     Args:
-        first: Positions where the way begins [rad]. Shape (28,).
-        middle: Half way as it is. Shape (28,).
-        second: Where it ends. Shape (28,).
+        first: Positions at the waypoint before [rad]. Shape (28,).
+        middle: Positions half way in time without a detour [rad]. Shape (28,).
+        second: Positions at the waypoint after [rad]. Shape (28,).
         limits: Limits of the joints, which the postures keep.
     """
-    for angle, ways in _CHANGES:
-        yield (_changed(middle, angle, ways, limits),)
+    for angle, directions in _CHANGES:
+        yield (_changed(middle, angle, directions, limits),)
     for arm in ARMS:
         yield (_with_arm(first, arm, second),)
     apart, rest = middle.copy(), middle.copy()
@@ -86,21 +86,23 @@ def _with_arm(posture: Array, arm: int, other: Array) -> Array:
     return mixed
 
 
-def _changed(posture: Array, angle: float, ways: tuple[dict[str, float], ...], limits: MotionLimits) -> Array:
+def _changed(
+    posture: Array, angle: float, directions: tuple[dict[str, float], ...], limits: MotionLimits
+) -> Array:
     changed = posture.copy()
-    for way in ways:
-        for name, sign in way.items():
+    for direction in directions:
+        for name, sign in direction.items():
             changed[COMMANDED_JOINTS.index(name)] += sign * angle
     kept: Array = np.clip(changed, limits.lower, limits.upper)
     return kept
 
 
 def with_detour(route: Route, step: int, posture: Array) -> Route:
-    """Pass through another posture of the arms half way between two stations.
+    """Pass through another posture of the arms half way between two waypoints.
 
     Args:
-        route: The stations.
-        step: The station before the detour.
+        route: The waypoints.
+        step: The waypoint before the detour.
         posture: Positions to pass through [rad]; those of the arms are used. Shape (28,).
     """
     row = np.full(len(posture), np.nan)

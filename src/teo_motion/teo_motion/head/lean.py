@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from teo_motion.head.neck_paths import EASES, Room, Way, hold_ways
+from teo_motion.head.neck_paths import EASES, GestureWindow, NeckPath, hold_paths
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.splice import Splicer, rest_after, shifted
 
@@ -38,7 +38,7 @@ class Leaning:
     """Leans one joint."""
 
     def __init__(self, splicer: Splicer, least_time: Callable[[float], float]) -> None:
-        """Lean a joint that keeps its limits, and needs a time for a way from rest to rest [s]."""
+        """Lean a joint that keeps its limits, and needs a time [s] for a distance [rad] from rest to rest."""
         self._splicer = splicer
         self._least_time = least_time
 
@@ -82,11 +82,11 @@ class Leaning:
     def _across(
         self, motion: JointMotion, angle: float, during: Times, gap: Times, levels: Times
     ) -> tuple[JointMotion, tuple[float, ...]] | None:
-        """The way between two times that are kept, and when it is at the angle; None if there is none."""
+        """The motion across a gap between kept times, and when it is at the angle; None if impossible."""
         begin, end = gap
         if begin >= end:
             return (motion, ()) if levels[0] == levels[1] else None
-        room = Room(
+        window = GestureWindow(
             begin=begin,
             first=max(begin, during[0]),
             last=min(end, during[1]),
@@ -96,23 +96,23 @@ class Leaning:
             motion=motion,
             least_time=self._least_time,
         )
-        for way in (*hold_ways(angle, room), *self._straight(motion, angle, gap, levels)):
-            spliced = self._splicer.spliced(motion, way.begin, way.knots, way.end)
+        for path in (*hold_paths(angle, window), *self._straight(motion, angle, gap, levels)):
+            spliced = self._splicer.spliced(motion, path.begin, path.points, path.end)
             if spliced is not None:
-                return spliced, tuple(knot.time for knot in way.knots)
+                return spliced, tuple(point.time for point in path.points)
         if levels[0] != levels[1]:
             return None
         return shifted(motion, begin, end, levels[0]), ()
 
-    def _straight(self, motion: JointMotion, angle: float, gap: Times, levels: Times) -> Iterator[Way]:
-        """Ways from one level to the other: late from none; early to none, but where the joint rests then."""
+    def _straight(self, motion: JointMotion, angle: float, gap: Times, levels: Times) -> Iterator[NeckPath]:
+        """Paths from one level [rad] to the other: late where the first is 0, early where the second is."""
         begin, end = gap
         if levels[0] == levels[1]:
             return
         for ease in EASES:
             takes = ease * self._least_time(angle)
             if not levels[0]:
-                yield Way(max(begin, end - takes), (), end)
+                yield NeckPath(max(begin, end - takes), (), end)
             elif not levels[1]:
-                yield Way(begin, (), min(end, rest_after(motion, begin + takes)))
-        yield Way(begin, (), end)
+                yield NeckPath(begin, (), min(end, rest_after(motion, begin + takes)))
+        yield NeckPath(begin, (), end)

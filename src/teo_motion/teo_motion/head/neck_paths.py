@@ -1,8 +1,8 @@
-"""Ways of a neck joint that make a gesture; each is given as several, the best first.
+"""Paths of a neck joint that make a gesture; each gesture offers several, the best first.
 
-Some may ask too much of the joint: `motion_splice` tells. The times of the hands are given, and it is the
-head that adapts: a gesture begins before its signs and ends after them where the neck needs longer, and has
-fewer swings where there is less room.
+Some may be too fast for the joint: `Splicer.spliced` returns None for them. The times of the hands are given,
+and it is the head that adapts: a gesture begins before its signs and ends after them where the neck needs
+longer, and has fewer swings where there is less time.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 from teo_motion.trajectory.joint_motion import JointMotion
-from teo_motion.trajectory.splice import Knot, position_at
+from teo_motion.trajectory.splice import StandPoint, position_at
 
 # How far the head turns to either side in a shake [rad], as in the table's sign NO. The front of TEO's head,
 # 0.1 m from the axis, moves by 42 mm then: more than a degree of sight for somebody 2 m away. A swing of
@@ -34,7 +34,7 @@ _SWING_EASE = 1.02
 # A position that is kept for less than this is not seen to be kept, and left out [s].
 _LEAST_HOLD = 0.3
 
-# The way into a sign's own motion, or out of it, which is a swing of the same shake where it has one [1].
+# Times the least time of the swing into a sign's own motion or out of it [1]: the sign may shake as well.
 _JOIN_EASE = 1.1
 
 # Moves between equal positions still take a time [s].
@@ -44,19 +44,19 @@ _LEAST_MOVE = 0.05
 _LEAST_SWINGS = 2
 
 
-class Way(NamedTuple):
-    """Where a joint goes instead of where it went."""
+class NeckPath(NamedTuple):
+    """What a joint does instead of its part in the plan."""
 
     begin: float
     """When it leaves its motion [s]."""
-    knots: tuple[Knot, ...]
-    """Where it stands for an instant."""
+    points: tuple[StandPoint, ...]
+    """Where it stands still in between, in order of time."""
     end: float
     """When it is back on its motion [s]."""
 
 
-class Room(NamedTuple):
-    """The room for a gesture of one joint, between signs that move the joint themselves."""
+class GestureWindow(NamedTuple):
+    """The time for a gesture of one joint, between signs that move the joint themselves."""
 
     begin: float
     """Earliest instant at which the joint may leave its motion [s]."""
@@ -67,99 +67,99 @@ class Room(NamedTuple):
     end: float
     """Latest instant at which the joint must be back on its motion [s]."""
     comes_from_sign: bool
-    """Whether the room begins where a sign that is part of the gesture ends."""
+    """Whether the window begins where a sign that is part of the gesture ends."""
     goes_on_into_sign: bool
     """Whether it ends where such a sign begins."""
     motion: JointMotion
-    """The joint's motion without the gesture; it may jump where the room begins and ends."""
+    """The joint's motion without the gesture; it may jump where the window begins and ends."""
     least_time: Callable[[float], float]
-    """Time that the joint needs for a way from rest to rest [s]."""
+    """Time that the joint needs for a distance [rad] from rest to rest [s]."""
 
-    def way_in(self, position: float, ease: float) -> float:
-        """Time to take for the way to a position [s]."""
+    def time_in(self, position: float, ease: float) -> float:
+        """Time to take from the plan's motion to a position [s]."""
         left = self._position(max(self.begin, self.first - ease * self.least_time(position)))
         return max(_LEAST_MOVE, ease * self.least_time(position - left))
 
-    def way_out(self, position: float, ease: float) -> float:
-        """Time to take for the way back from a position [s]."""
+    def time_out(self, position: float, ease: float) -> float:
+        """Time to take from a position back to the plan's motion [s]."""
         met = self._position(min(self.end, self.last + ease * self.least_time(position)))
         return max(_LEAST_MOVE, ease * self.least_time(position - met))
 
     @property
     def before(self) -> float:
-        """Where the joint is as the room begins [rad]."""
+        """Where the joint is as the window begins [rad]."""
         return position_at(self.motion, self.begin, side="left")
 
     @property
     def behind(self) -> float:
-        """Where it is as the room ends [rad]."""
+        """Where it is as the window ends [rad]."""
         return position_at(self.motion, self.end, side="right")
 
     def _position(self, time: float) -> float:
         return self.before if time <= self.begin else position_at(self.motion, time, side="right")
 
 
-def hold_ways(position: float, room: Room) -> Iterator[Way]:
-    """Ways to keep a position [rad] over the whole gesture."""
+def hold_paths(position: float, window: GestureWindow) -> Iterator[NeckPath]:
+    """Paths that keep a position [rad] over the whole gesture."""
     for ease in EASES:
-        way_in, way_out = room.way_in(position, ease), room.way_out(position, ease)
-        arrival = max(room.first, room.begin + way_in)
-        departure = min(room.last, room.end - way_out)
+        time_in, time_out = window.time_in(position, ease), window.time_out(position, ease)
+        arrival = max(window.first, window.begin + time_in)
+        departure = min(window.last, window.end - time_out)
         if departure - arrival >= _LEAST_HOLD:
-            knots = (Knot(arrival, position), Knot(departure, position))
-            yield Way(arrival - way_in, knots, departure + way_out)
+            points = (StandPoint(arrival, position), StandPoint(departure, position))
+            yield NeckPath(arrival - time_in, points, departure + time_out)
 
 
-def nod_ways(strength: float, room: Room) -> Iterator[Way]:
-    """Ways to nod: lowest in the middle of the sign, or as near to it as there is room."""
+def nod_paths(strength: float, window: GestureWindow) -> Iterator[NeckPath]:
+    """Paths that nod: lowest in the middle of the sign, or as near to it as the window allows."""
     positions = tuple(strength * angle for angle in _NOD)
     for ease in EASES:
         for turns in (positions, positions[1:]):
             steps = [later - earlier for earlier, later in pairwise((0.0, *turns, 0.0))]
-            takes = [ease * room.least_time(step) for step in steps]
-            earliest = (room.first + room.last) / 2.0 - sum(takes[:-1])
-            begin = max(room.begin, min(earliest, room.end - sum(takes)))
+            takes = [ease * window.least_time(step) for step in steps]
+            earliest = (window.first + window.last) / 2.0 - sum(takes[:-1])
+            begin = max(window.begin, min(earliest, window.end - sum(takes)))
             times = list(accumulate(takes, initial=begin))
-            if times[-1] <= room.end:
-                knots = tuple(Knot(time, turn) for time, turn in zip(times[1:-1], turns, strict=True))
-                yield Way(begin, knots, times[-1])
+            if times[-1] <= window.end:
+                points = tuple(StandPoint(time, turn) for time, turn in zip(times[1:-1], turns, strict=True))
+                yield NeckPath(begin, points, times[-1])
 
 
-def shake_ways(strength: float, room: Room) -> Iterator[Way]:
-    """Ways to shake the head over the whole gesture."""
-    swing = _SWING_EASE * room.least_time(2.0 * _SHAKE)
+def shake_paths(strength: float, window: GestureWindow) -> Iterator[NeckPath]:
+    """Paths that shake the head over the whole gesture."""
+    swing = _SWING_EASE * window.least_time(2.0 * _SHAKE)
     # Away from where the motion of a sign before or after is; else to the right first, as in NO.
     right = -strength * _SHAKE
-    begins = math.copysign(right, -room.before) if room.comes_from_sign else right
-    ends = math.copysign(right, -room.behind) if room.goes_on_into_sign else right
+    begins = math.copysign(right, -window.before) if window.comes_from_sign else right
+    ends = math.copysign(right, -window.behind) if window.goes_on_into_sign else right
     for ease in EASES:
-        way_in = room.way_in(begins, min(ease, _JOIN_EASE) if room.comes_from_sign else ease)
-        way_out = room.way_out(ends, min(ease, _JOIN_EASE) if room.goes_on_into_sign else ease)
-        times = _turns(room, room.begin + way_in, room.end - way_out, swing)
+        time_in = window.time_in(begins, min(ease, _JOIN_EASE) if window.comes_from_sign else ease)
+        time_out = window.time_out(ends, min(ease, _JOIN_EASE) if window.goes_on_into_sign else ease)
+        times = _turns(window, window.begin + time_in, window.end - time_out, swing)
         if not times:
             continue
         turns = [begins * (-1.0) ** index for index in range(len(times))]
-        if room.goes_on_into_sign and turns[-1] != ends:
-            if room.comes_from_sign:  # one swing too many
+        if window.goes_on_into_sign and turns[-1] != ends:
+            if window.comes_from_sign:  # one swing too many
                 times, turns = _evenly(times[0], times[-1], len(times) - 1), turns[:-1]
             else:
                 turns = [-turn for turn in turns]
         if turns:
-            knots = tuple(Knot(time, turn) for time, turn in zip(times, turns, strict=True))
-            begin = room.begin if room.comes_from_sign else times[0] - way_in
-            yield Way(begin, knots, room.end if room.goes_on_into_sign else times[-1] + way_out)
+            points = tuple(StandPoint(time, turn) for time, turn in zip(times, turns, strict=True))
+            begin = window.begin if window.comes_from_sign else times[0] - time_in
+            yield NeckPath(begin, points, window.end if window.goes_on_into_sign else times[-1] + time_out)
 
 
-def _turns(room: Room, earliest: float, latest: float, swing: float) -> list[float]:
+def _turns(window: GestureWindow, earliest: float, latest: float, swing: float) -> list[float]:
     """When a shake turns [s]: a swing apart, from about the gesture's beginning to about its end."""
     most = math.floor((latest - earliest) / swing)
-    first, last = max(earliest, room.first), min(latest, room.last)
+    first, last = max(earliest, window.first), min(latest, window.last)
     wanted = round((last - first) / swing)
-    if room.comes_from_sign and room.goes_on_into_sign:
+    if window.comes_from_sign and window.goes_on_into_sign:
         return _evenly(earliest, latest, most + 1)
-    if room.comes_from_sign or room.goes_on_into_sign:
+    if window.comes_from_sign or window.goes_on_into_sign:
         swings = min(max(wanted, 1), most)
-        begin = first if room.comes_from_sign else last - swings * swing
+        begin = first if window.comes_from_sign else last - swings * swing
     else:
         swings = min(max(wanted, _LEAST_SWINGS), most)
         if swings < _LEAST_SWINGS:

@@ -19,11 +19,11 @@ import numpy as np
 
 from teo_description import HEAD, HOME
 from teo_description.clearance import HEAD_LINKS
-from teo_motion.collision.clearance_check import SelfCollision
+from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.head.lean import Leaning, Times
-from teo_motion.head.neck_paths import Room, nod_ways, shake_ways
+from teo_motion.head.neck_paths import GestureWindow, nod_paths, shake_paths
 from teo_motion.sentence.head_gestures import Gesture, GestureKind
-from teo_motion.sentence.plan import HeadGesture, Nearness, Plan, Samples, sample_at
+from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples, sample_at
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds
@@ -40,15 +40,15 @@ _TURNED = 1e-3
 # control error, for they are few; back only slightly, but to be seen (the table's QUIÉN has 6 deg).
 _LEANS = {GestureKind.FORWARD: math.radians(9.0), GestureKind.BACK: math.radians(-8.0)}
 
-_MOVES = {GestureKind.SHAKE: (_YAW, shake_ways), GestureKind.NOD: (_PITCH, nod_ways)}
+_MOVES = {GestureKind.SHAKE: (_YAW, shake_paths), GestureKind.NOD: (_PITCH, nod_paths)}
 
 
-class HeadMotion:
+class HeadOverlay:
     """Adds head gestures to plans."""
 
     def __init__(
         self,
-        collision_model: SelfCollision | None,
+        motion_clearance: MotionClearance | None,
         *,
         limits: MotionLimits,
         bounds: Bounds,
@@ -58,20 +58,20 @@ class HeadMotion:
         """Prepare.
 
         Args:
-            collision_model: Distances between parts of the robot; None looks at none.
+            motion_clearance: Distances between parts of the robot; None looks at none.
             limits: Limits of the commanded joints.
             bounds: The same with what the interpolation between points asks for.
             least_clearance: Distance that parts of the robot keep [m].
             strength: Times the usual angles, 0 to 1; 0 leaves the head alone.
         """
-        self._collision_model = collision_model
+        self._motion_clearance = motion_clearance
         self._limits = limits
         self._least_clearance = least_clearance
         self._strength = strength
         self._columns = [limits.names.index(name) for name in HEAD]
         self._splicers = [Splicer(bounds.of([column])) for column in self._columns]
 
-    def shown(self, plan: Plan, signed: Sequence[SignedToken], gestures: Sequence[Gesture]) -> Plan:
+    def overlaid(self, plan: Plan, signed: Sequence[SignedToken], gestures: Sequence[Gesture]) -> Plan:
         """A plan with head gestures.
 
         Args:
@@ -135,14 +135,14 @@ class HeadMotion:
         self, kind: GestureKind, motions: list[JointMotion], during: Times, kept: _KeptTimes
     ) -> list[HeadGesture]:
         """Shake or nod the head in the motions, wherever no sign turns the joint."""
-        axis, ways = _MOVES[kind]
+        axis, paths = _MOVES[kind]
         column = self._columns[axis]
         shown = []
         for begin, end in kept.gaps(axis):
             first, last = max(during[0], begin), min(during[1], end)
             if first >= last:
                 continue
-            room = Room(
+            window = GestureWindow(
                 begin=begin,
                 first=first,
                 last=last,
@@ -152,27 +152,27 @@ class HeadMotion:
                 motion=motions[column],
                 least_time=functools.partial(self._least_time, axis),
             )
-            for way in ways(self._strength, room):
-                spliced = self._splicers[axis].spliced(motions[column], way.begin, way.knots, way.end)
+            for path in paths(self._strength, window):
+                spliced = self._splicers[axis].spliced(motions[column], path.begin, path.points, path.end)
                 if spliced is not None:
                     motions[column] = spliced
-                    start, stop = way.knots[0].time, way.knots[-1].time
+                    start, stop = path.points[0].time, path.points[-1].time
                     shown.append(HeadGesture(kind=kind, start=start, end=stop))
                     break
         return shown
 
-    def _nearest(self, plan: Plan, samples: Samples) -> Nearness | None:
+    def _nearest(self, plan: Plan, samples: Samples) -> NearestApproach | None:
         """The closest that parts come now."""
-        if self._collision_model is None or plan.nearest is None:
+        if self._motion_clearance is None or plan.nearest is None:
             return None
-        head = self._collision_model.nearest(samples, head_alone=True)
+        head = self._motion_clearance.nearest(samples, head_alone=True)
         others = plan.nearest  # all but the head is where it was
         if not {others.first, others.second}.isdisjoint(HEAD_LINKS):
-            others = self._collision_model.nearest(samples)
+            others = self._motion_clearance.nearest(samples)
         return min(head, others, key=lambda near: near.distance)
 
-    def _least_time(self, axis: int, way: float) -> float:
-        return float(self._limits.least_times(np.array([way]), [self._columns[axis]])[0])
+    def _least_time(self, axis: int, distance: float) -> float:
+        return float(self._limits.least_times(np.array([distance]), [self._columns[axis]])[0])
 
     def _sampled(self, plan: Plan, motions: tuple[JointMotion, ...]) -> Samples:
         found = sample_at(tuple(motions[column] for column in self._columns), plan.times)

@@ -60,12 +60,12 @@ _STILL = 0.01
 
 @dataclass(frozen=True, kw_only=True)
 class TokenSpan:
-    """The stations between which a token is signed.
+    """The waypoints between which a token is signed.
 
     Attributes:
         token: What is signed.
-        first: Station at which it begins.
-        last: Station at which it ends.
+        first: Waypoint at which it begins.
+        last: Waypoint at which it ends.
         asked: Time from one to the other as recorded, times the token's scale [s].
     """
 
@@ -77,7 +77,7 @@ class TokenSpan:
 
 @dataclass(frozen=True, kw_only=True)
 class IdleSpan:
-    """Stations between which a limb is not used: fixed at both, free in between."""
+    """Waypoints between which a limb is not used: fixed at both, free in between."""
 
     limb: int
     first: int
@@ -86,12 +86,12 @@ class IdleSpan:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Composition:
-    """A sentence as stations.
+    """A sentence as waypoints.
 
     Attributes:
         targets: Positions [rad], NaN where a joint is free. Shape (n, 28); the first row is the start.
-        nominal: Time from each station to the next, as recorded or by the style [s]. Shape (n - 1,).
-        strokes: Number of the stroke to which each step from a station to the next belongs: steps near each
+        nominal: Time from each waypoint to the next, as recorded or by the style [s]. Shape (n - 1,).
+        strokes: Number of the stroke to which each step from a waypoint to the next belongs: steps near each
             other in one stroke are stretched together. Shape (n - 1,).
         spans: Where each token is signed, in order.
         idle: Where limbs are not used.
@@ -114,7 +114,7 @@ def compose(
     Args:
         signed: Signs and pauses, in order; none for the way to rest alone.
         start: State of the 28 joints at the beginning.
-        limits: Limits of the joints, which every station keeps.
+        limits: Limits of the joints, which every waypoint keeps.
         style: Times of holds and pauses.
 
     Raises:
@@ -143,7 +143,7 @@ def _same_word(item: SignedToken, following: SignedToken | None) -> bool:
 
 
 class _Composer:
-    """Adds station after station, and remembers where each limb was last."""
+    """Adds waypoint after waypoint, and remembers where each limb was last."""
 
     def __init__(self, start: State, limits: MotionLimits, style: SigningStyle) -> None:
         self._start = start
@@ -155,7 +155,7 @@ class _Composer:
         self._strokes: list[int] = []
         self._spans: list[TokenSpan] = []
         self._idle: list[IdleSpan] = []
-        self._fixed_at = [0] * len(LIMBS)  # station at which each limb was fixed last
+        self._fixed_at = [0] * len(LIMBS)  # waypoint at which each limb was fixed last
         self._used: tuple[int, ...] = ()  # limbs of the latest sign
         self._signs = 0
 
@@ -208,16 +208,16 @@ class _Composer:
         *,
         same_stroke: bool = False,
     ) -> None:
-        """Add a station at which these limbs are at the posture."""
+        """Add a waypoint at which these limbs are at the posture."""
         row = np.full(REST.size, np.nan)
-        station = len(self._rows)
+        waypoint = len(self._rows)
         for limb in limbs:
             columns = list(LIMBS[limb])
             row[columns] = posture[columns]
             self._posture[columns] = posture[columns]
-            if station - self._fixed_at[limb] > 1:
-                self._idle.append(IdleSpan(limb=limb, first=self._fixed_at[limb], last=station))
-            self._fixed_at[limb] = station
+            if waypoint - self._fixed_at[limb] > 1:
+                self._idle.append(IdleSpan(limb=limb, first=self._fixed_at[limb], last=waypoint))
+            self._fixed_at[limb] = waypoint
         self._rows.append(row)
         self._nominal.append(nominal)
         self._strokes.append(self._strokes[-1] + (not same_stroke) if self._strokes else 0)

@@ -34,10 +34,10 @@ def settle_idle_limbs(
 
     Args:
         composition: The sentence.
-        times: When each station is reached, as far as the limbs in use ask for it [s]. Shape (n,).
+        times: When each waypoint is reached, as far as the limbs in use ask for it [s]. Shape (n,).
         limits: Limits of the joints.
-        arm_rest: Least time at rest that is worth an arm's way there and back [s].
-        cleared: Arms that must be out of the way, each with the station at which it must be at rest.
+        arm_rest: Least time at rest for which an idle arm goes there and back [s].
+        cleared: Arms that must be out of the way, each with the waypoint at which it must be at rest.
 
     Returns:
         The composition with idle limbs in place; positions are still NaN where a limb is on its way.
@@ -48,15 +48,15 @@ def settle_idle_limbs(
         columns = list(LIMBS[span.limb])
         before = targets[span.first, columns]
         wanted = [
-            station for limb, station in cleared if limb == span.limb and span.first < station < span.last
+            waypoint for limb, waypoint in cleared if limb == span.limb and span.first < waypoint < span.last
         ]
         if wanted:
             targets[span.first + 1 : min(wanted), columns] = before
             targets[min(wanted) : span.last, columns] = REST[columns]
             continue
-        way = float(np.max(limits.least_times(REST[columns] - before, columns)))
+        takes = float(np.max(limits.least_times(REST[columns] - before, columns)))
         between = slice(span.first + 1, span.last)
-        arrived = between.start + int(np.searchsorted(times[between], times[span.first] + way))
+        arrived = between.start + int(np.searchsorted(times[between], times[span.first] + takes))
         if span.limb in ARMS and span.last != final and not _worth_it(span, arrived, times, arm_rest):
             targets[between, columns] = before
         else:

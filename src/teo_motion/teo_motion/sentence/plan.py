@@ -32,7 +32,7 @@ class TokenTiming:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Nearness:
+class NearestApproach:
     """The closest that parts of the robot come to each other.
 
     Attributes:
@@ -99,7 +99,7 @@ class Plan:
     samples: Samples
     timings: tuple[TokenTiming, ...]
     stretch: float
-    nearest: Nearness | None = None
+    nearest: NearestApproach | None = None
     head: tuple[HeadGesture, ...] = ()
 
     @property
@@ -140,22 +140,22 @@ class Plan:
         return None
 
 
-def sample_times(stations: Array, period: float) -> Array:
-    """Times at which to sample a motion: at every station, and evenly in between.
+def sample_times(waypoints: Array, period: float) -> Array:
+    """Times at which to sample a motion: at every waypoint, and evenly in between.
 
-    With the stations among the samples every knot of every sign is one of them, and what a driver
+    With the waypoints among the samples every knot of every sign is one of them, and what a driver
     interpolates stands still where the plan does.
 
     Args:
-        stations: Times of the stations [s], increasing. Shape (n,).
+        waypoints: Times of the waypoints [s], increasing. Shape (n,).
         period: The most between two samples [s].
     """
-    steps = np.maximum(np.ceil(np.diff(stations) / period - 1e-9), 1.0).astype(int)
+    steps = np.maximum(np.ceil(np.diff(waypoints) / period - 1e-9), 1.0).astype(int)
     between = [
         begin + (end - begin) * np.arange(count) / count
-        for begin, end, count in zip(stations[:-1], stations[1:], steps.tolist(), strict=True)
+        for begin, end, count in zip(waypoints[:-1], waypoints[1:], steps.tolist(), strict=True)
     ]
-    return np.concatenate([*between, stations[-1:]])
+    return np.concatenate([*between, waypoints[-1:]])
 
 
 def sample_at(motions: tuple[JointMotion, ...], times: Array) -> Samples:

@@ -13,7 +13,7 @@ from teo_motion.sentence.route import Route
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import ROUNDING
-from teo_motion.trajectory.waypoint_timing import StationTiming
+from teo_motion.trajectory.waypoint_timing import WaypointTiming
 from teo_signs.errors import PlanError
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ class SentenceTiming:
 
     def estimate(self, composition: Composition) -> Array:
         """When about each waypoint is passed, idle limbs aside [s]. Shape (n,)."""
-        return StationTiming(
+        return WaypointTiming(
             composition.targets, composition.nominal, composition.strokes, composition.start, self._bounds
         ).times
 
@@ -66,7 +66,7 @@ class SentenceTiming:
             PlanError: It takes too long ("too_long"), no times are found ("no_timing"), or a joint cannot
                 stay within its limits ("outside_limits").
         """
-        timing = StationTiming(route.targets, route.nominal, route.strokes, route.start, self._bounds)
+        timing = WaypointTiming(route.targets, route.nominal, route.strokes, route.start, self._bounds)
         timing.solve()
         times = timing.times
         if times[-1] > self._max_duration:

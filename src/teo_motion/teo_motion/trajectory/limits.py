@@ -116,13 +116,13 @@ class MotionLimits:
         Returns:
             Durations [s]. Shape (m,).
         """
-        way = np.abs(distances)
+        distance = np.abs(distances)
         speed, push, jerk = (values[columns] for values in (self.velocity, self.acceleration, self.jerk))
         # With a phase of constant velocity; then with one of constant acceleration; then with neither.
         ramp = np.where(speed * jerk >= push**2, speed / push + push / jerk, 2.0 * np.sqrt(speed / jerk))
         without_cruise = np.where(
-            way >= 2.0 * push**3 / jerk**2,
-            push / jerk + np.sqrt((push / jerk) ** 2 + 4.0 * way / push),
-            np.cbrt(32.0 * way / jerk),
+            distance >= 2.0 * push**3 / jerk**2,
+            push / jerk + np.sqrt((push / jerk) ** 2 + 4.0 * distance / push),
+            np.cbrt(32.0 * distance / jerk),
         )
-        return np.where(way >= speed * ramp, ramp + way / speed, without_cruise)
+        return np.where(distance >= speed * ramp, ramp + distance / speed, without_cruise)

@@ -1,9 +1,9 @@
-"""Ruckig, state to state, behind checks that it lacks.
+"""Segments from one state of some joints to another, by Ruckig, behind checks that it lacks.
 
 The community build of Ruckig reads beyond lists that are too short, ignores position limits, and sends
 intermediate positions to a web service: this is the only module that calls it, with neither of the two. Its
 `position_extrema` (of 0.19.4) misses a joint that turns while its acceleration is constant, so that extremes
-are taken from the pieces of the move here.
+are taken from the pieces of the segment here.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ ROUNDING = 1e-8
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Bounds:
-    """Limits of one move: position [rad], velocity [rad/s], acceleration [rad/s^2], jerk [rad/s^3].
+    """Limits of one segment: position [rad], velocity [rad/s], acceleration [rad/s^2], jerk [rad/s^3].
 
     Ruckig keeps the last three. Positions are for whoever calls it to check. Shape (m,) each.
     """
@@ -70,17 +70,17 @@ class State:
         return self.position.tobytes() + self.velocity.tobytes() + self.acceleration.tobytes()
 
 
-class Move:
-    """A move of some joints."""
+class RuckigSegment:
+    """A motion of some joints from one state to another, as Ruckig calculated it."""
 
     def __init__(self, trajectory: ruckig.Trajectory, start: State) -> None:
-        """Keep what Ruckig calculated."""
+        """Keep Ruckig's trajectory and the state at which it starts."""
         self._trajectory = trajectory
         self._start = start
 
     @property
     def duration(self) -> float:
-        """How long the move takes [s]."""
+        """How long the segment takes [s]."""
         return float(self._trajectory.duration)
 
     @functools.cached_property
@@ -109,18 +109,18 @@ class Move:
         )
 
 
-class Mover:
-    """Calculates moves of a fixed number of joints that start and end together."""
+class RuckigSolver:
+    """Calculates segments of a fixed number of joints that start and end together."""
 
     def __init__(self, joints: int) -> None:
-        """Prepare for moves of so many joints."""
+        """Prepare for segments of so many joints."""
         self._joints = joints
         self._generator = ruckig.Ruckig(joints)
         self._input = ruckig.InputParameter(joints)
         self._bounds: Bounds | None = None  # as given last
 
-    def move(self, start: State, end: State, bounds: Bounds, *, duration: float) -> Move | None:
-        """The move from one state to another that takes a given time, or as little more as it must.
+    def segment(self, start: State, end: State, bounds: Bounds, *, duration: float) -> RuckigSegment | None:
+        """The segment from one state to another that takes a given time, or as little more as it must.
 
         Args:
             start: Where the joints are.
@@ -129,7 +129,7 @@ class Mover:
             duration: Least duration [s].
 
         Returns:
-            The move, or None where the solver finds none.
+            The segment, or None where the solver finds none.
 
         Raises:
             PlanError: An array is of the wrong length or holds a number that is not finite ("bad_state").
@@ -152,7 +152,8 @@ class Mover:
             result = self._generator.calculate(given, trajectory)
         except ruckig.RuckigError:
             return None
-        return Move(trajectory, start) if result in (ruckig.Result.Working, ruckig.Result.Finished) else None
+        found = result in (ruckig.Result.Working, ruckig.Result.Finished)
+        return RuckigSegment(trajectory, start) if found else None
 
     def _list(self, name: str, values: Array, *, positive: bool = False) -> list[float]:
         if values.shape != (self._joints,):

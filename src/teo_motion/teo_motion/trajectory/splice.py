@@ -1,4 +1,4 @@
-"""Puts another way between two instants of one joint's motion."""
+"""Replaces one joint's motion between two times, within the joint's limits."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
-from teo_motion.trajectory.relaxed_limits import gentle_bounds
-from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, Mover, State
+from teo_motion.trajectory.relaxed_limits import relaxed_bounds
+from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSolver, State
 
-# A move fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
+# A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
 _FITS = 1e-9
 
 # A joint with less velocity [rad/s] and acceleration [rad/s^2] stands still: rounding.
 _STILL = 1e-9
 
-# As in `station_timing`: times the least-jerk quintic's acceleration and jerk; at last what the limits allow.
+# As in `waypoint_timing`: factors on the least-jerk quintic's acceleration and jerk; None is the limits.
 _EASES = (1.3, 2.0, 4.0, None)
 
 
-class Knot(NamedTuple):
-    """Where a joint stands still for an instant."""
+class StandPoint(NamedTuple):
+    """A time at which a joint is at a position with velocity and acceleration zero."""
 
     time: float
     """[s]."""
@@ -37,17 +37,17 @@ class Splicer:
     def __init__(self, bounds: Bounds) -> None:
         """Keep to the limits of one joint, of shape (1,)."""
         self._bounds = bounds
-        self._mover = Mover(1)
+        self._solver = RuckigSolver(1)
 
     def spliced(
-        self, motion: JointMotion, begin: float, knots: Sequence[Knot], end: float
+        self, motion: JointMotion, begin: float, points: Sequence[StandPoint], end: float
     ) -> JointMotion | None:
-        """The motion with another way between two instants, where it is left and met again smoothly.
+        """The motion with another path between two times; position, velocity and acceleration are continuous.
 
         Args:
             motion: Motion of the joint; it may jump where it is left and where it is met.
             begin: When to leave it [s].
-            knots: Where to go instead, in order of time, after `begin` and before `end`.
+            points: Where to go instead, in order of time, after `begin` and before `end`.
             end: When to be back on it [s].
 
         Returns:
@@ -57,24 +57,24 @@ class Splicer:
         states = [
             _state(motion, begin, side="left"),
             *(
-                State(position=np.array([knot.position]), velocity=still, acceleration=still)
-                for knot in knots
+                State(position=np.array([point.position]), velocity=still, acceleration=still)
+                for point in points
             ),
             _state(motion, end, side="right"),
         ]
-        times = [begin, *(knot.time for knot in knots), end]
+        times = [begin, *(point.time for point in points), end]
         inside = JointMotionBuilder()
         for (state, after), (time, later) in zip(pairwise(states), pairwise(times), strict=True):
             pieces = self._move(state, after, later - time)
             if pieces is None:
                 return None
             inside.add(time, pieces)
-        way = inside.build(end)
-        if not self._keeps_limits(way):
+        path = inside.build(end)
+        if not self._keeps_limits(path):
             return None
         whole = JointMotionBuilder()
         _copy(motion, 0.0, begin, whole)
-        whole.add(begin, way.pieces)
+        whole.add(begin, path.pieces)
         _copy(motion, end, motion.duration, whole)
         return whole.build(motion.duration)
 
@@ -82,14 +82,14 @@ class Splicer:
         for ease in _EASES:
             bounds = self._bounds
             if ease is not None:
-                bounds = gentle_bounds(begin, end, duration, bounds, ease=ease)
-            move = self._mover.move(begin, end, bounds, duration=duration)
-            if move is not None and move.duration <= duration + _FITS:
-                return take(move.pieces, 0)
+                bounds = relaxed_bounds(begin, end, duration, bounds, ease=ease)
+            segment = self._solver.segment(begin, end, bounds, duration=duration)
+            if segment is not None and segment.duration <= duration + _FITS:
+                return take(segment.pieces, 0)
         return None
 
-    def _keeps_limits(self, way: JointMotion) -> bool:
-        reached, bounds = way.extremes(), self._bounds
+    def _keeps_limits(self, path: JointMotion) -> bool:
+        reached, bounds = path.extremes(), self._bounds
         more = 1.0 + ROUNDING
         return bool(
             reached.least >= bounds.lower[0] - ROUNDING
@@ -101,7 +101,7 @@ class Splicer:
 
 
 def shifted(motion: JointMotion, begin: float, end: float, angle: float) -> JointMotion:
-    """The motion with everything between two instants turned by an angle [rad]: it jumps at both."""
+    """The motion with an angle [rad] added between two times [s]: its position jumps at both."""
     whole = JointMotionBuilder()
     _copy(motion, 0.0, begin, whole)
     _copy(motion, begin, end, whole, angle)
@@ -110,12 +110,12 @@ def shifted(motion: JointMotion, begin: float, end: float, angle: float) -> Join
 
 
 def position_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> float:
-    """Where a joint is just before or just after an instant [rad]."""
+    """Position just before ("left") or just after ("right") a time, at which the motion may jump [rad]."""
     return float(_state(motion, time, side=side).position[0])
 
 
 def rest_after(motion: JointMotion, time: float) -> float:
-    """When a joint first stands still from an instant on [s]; the end of its motion, where it does not."""
+    """First time at or after `time` with zero velocity, acceleration and jerk [s]; else the motion's end."""
     pieces = motion.pieces
     still = (np.abs(pieces.velocities) < _STILL) & (np.abs(pieces.accelerations) < _STILL)
     begins = motion.starts[still & (pieces.jerks == 0.0)]
@@ -133,7 +133,7 @@ def _state(motion: JointMotion, time: float, *, side: Literal["left", "right"]) 
 
 
 def _piece_at(motion: JointMotion, time: float, *, side: Literal["left", "right"]) -> int:
-    """Index of the piece before or after an instant; it may begin or end there but for rounding."""
+    """Index of the piece that ends ("left") or begins ("right") at a time, or contains it, up to rounding."""
     nearly = time - _FITS if side == "left" else time + _FITS
     return max(int(np.searchsorted(motion.starts, nearly, side=side)) - 1, 0)
 
@@ -141,7 +141,7 @@ def _piece_at(motion: JointMotion, time: float, *, side: Literal["left", "right"
 def _copy(
     motion: JointMotion, begin: float, end: float, builder: JointMotionBuilder, angle: float = 0.0
 ) -> None:
-    """Add what a motion does between two instants, turned by an angle."""
+    """Add the part of a motion between two times, with an angle added to its positions [rad]."""
     if end <= begin:
         return
     first = _piece_at(motion, begin, side="right")

@@ -34,7 +34,7 @@ def stop(state: State, limits: MotionLimits) -> tuple[State, float]:
     speed = np.abs(state.velocity)
     needed = np.maximum(1.5 * speed / limits.acceleration, np.sqrt(6.0 * speed / limits.jerk))
     time = max(_LEAST_STOP, _EASE * float(needed.max()))
-    way = state.velocity * (_LATENCY + time / 2.0) + state.acceleration * time**2 / 12.0
+    distance = state.velocity * (_LATENCY + time / 2.0) + state.acceleration * time**2 / 12.0
     still = np.zeros_like(speed)
-    position = np.clip(state.position + way, limits.lower, limits.upper)
+    position = np.clip(state.position + distance, limits.lower, limits.upper)
     return State(position=position, velocity=still, acceleration=still), time + _LATENCY

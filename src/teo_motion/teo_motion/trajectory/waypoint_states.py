@@ -19,7 +19,7 @@ _TURNING = 1.0
 _SWING = 4.0
 
 
-def knot_states(times: Array, positions: Array, brake: Array, *, swing: float) -> tuple[Array, Array]:
+def waypoint_states(times: Array, positions: Array, brake: Array, *, swing: float) -> tuple[Array, Array]:
     """How joints pass their knots: as a smooth spline does that hardly leaves their interval.
 
     Velocities are those of the cubic spline with continuous acceleration, which follows densely recorded

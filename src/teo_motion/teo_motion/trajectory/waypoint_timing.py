@@ -1,8 +1,8 @@
-"""When the robot can be at each station, and how its joints move from one to the next.
+"""When the robot can be at each waypoint, and how its joints move from one to the next.
 
-Each joint goes from fixed station to fixed station, state to state, and need not stop where it goes on. Where
-a joint needs longer than recorded, all joints take longer: a stroke of a sign is slowed evenly, so that its
-rhythm stays, while holds and other strokes keep their time.
+Each joint goes from one waypoint at which it is fixed to the next by a segment of Ruckig, and need not stop
+where it goes on. Where a joint needs longer than recorded, all joints take longer: a stroke of a sign is
+slowed evenly, so that its rhythm stays, while holds and other strokes keep their time.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
-from teo_motion.trajectory.ruckig_segment import Bounds, Move, State
-from teo_motion.trajectory.waypoint_chain import JointChain, joint_chains
+from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, State
+from teo_motion.trajectory.waypoint_chain import WaypointChain, waypoint_chains
 from teo_signs.errors import PlanError
 
 Array = NDArray[np.float64]
 
-# No two stations are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
+# No two waypoints are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
 _LEAST_STEP = 1e-3
 
-# A move fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
+# A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
 _FITS = 1e-9
 
 # Most by which a stroke is stretched in one round of the search [1]: how the knots are passed is found anew
@@ -33,7 +33,8 @@ _PATIENT_STRETCH = 1.15
 # Without it a sign would change pace from knot to knot; an even stretch would slow it all for one instant.
 _NEAR = 0.1
 
-# A little more than a move asks for [1]: its ends change with the times, and would else ask again and again.
+# Factor on the time that a segment asks for [1]: the states at its ends change with the times, and it would
+# ask again in every round without it.
 _SPARE = 1.01
 
 # After so many rounds, whatever still does not fit is passed at a standstill, which always ends the search.
@@ -41,8 +42,8 @@ _PATIENT_ROUNDS = 25
 _ROUNDS = 60
 
 
-class StationTiming:
-    """Times the stations of one motion."""
+class WaypointTiming:
+    """Times the waypoints of one motion."""
 
     def __init__(
         self, targets: Array, nominal: Array, strokes: NDArray[np.intp], start: State, bounds: Bounds
@@ -51,21 +52,21 @@ class StationTiming:
 
         Args:
             targets: Positions [rad], NaN where a joint is free; first and last row without NaN. Shape (n, m).
-            nominal: Least time from each station to the next [s]. Shape (n - 1,).
-            strokes: Number of the stroke of each step from station to station, ascending. Shape (n - 1,).
-            start: State at the first station; its position is the first row of `targets`.
+            nominal: Least time from each waypoint to the next [s]. Shape (n - 1,).
+            strokes: Number of the stroke of each step from waypoint to waypoint, ascending. Shape (n - 1,).
+            start: State at the first waypoint; its position is the first row of `targets`.
             bounds: Limits of the m joints.
         """
         self._joints = targets.shape[1]
         self._durations = np.maximum(nominal, _LEAST_STEP)
         self._strokes = strokes
-        self._chains = joint_chains(targets, start, bounds)
+        self._chains = waypoint_chains(targets, start, bounds)
         self._wanted = np.zeros(len(nominal))  # logarithm of the factor for each step
-        # Moves from a station to the next first: a move that passes stations may find time enough then.
+        # Segments to the very next waypoint first: one that passes waypoints may have time enough then.
         for single in (True, False):
             for chain in self._chains:
-                ways = np.abs(np.diff(chain.positions, axis=0)) / chain.bounds.velocity
-                for index, needed in enumerate(ways.max(axis=1).tolist()):
+                least = np.abs(np.diff(chain.positions, axis=0)) / chain.bounds.velocity
+                for index, needed in enumerate(least.max(axis=1).tolist()):
                     if chain.is_single(index) == single:
                         self._want(chain, index, needed)
             self._durations *= np.exp(self._wanted)
@@ -73,14 +74,14 @@ class StationTiming:
 
     @property
     def times(self) -> Array:
-        """When each station is reached, as far as known [s]. Shape (n,)."""
+        """When each waypoint is reached, as far as known [s]. Shape (n,)."""
         return np.concatenate(([0.0], np.cumsum(self._durations)))
 
     def solve(self) -> None:
-        """Find times at which every move is possible within its bounds.
+        """Find times at which every segment is possible within its bounds.
 
         Raises:
-            PlanError: The solver of moves gives up, which no known input makes it do ("no_timing").
+            PlanError: The solver of segments gives up, which no known input makes it do ("no_timing").
         """
         exact = False
         for round_number in range(_ROUNDS):
@@ -95,7 +96,7 @@ class StationTiming:
                         if chain.is_single(index) == single:
                             changed |= self._try(chain, index, patient=patient)
                 if self._wanted.any():
-                    break  # see what that gives the moves that pass stations
+                    break  # see what that gives the segments that pass waypoints
             changed |= self._stretch()
             if exact and not changed:
                 return
@@ -108,10 +109,10 @@ class StationTiming:
         builders = [JointMotionBuilder() for _ in range(self._joints)]
         for chain in self._chains:
             moving = set(chain.moving.tolist())
-            for index in range(len(chain.stations) - 1):
-                begin = float(times[chain.stations[index]])
+            for index in range(len(chain.waypoints) - 1):
+                begin = float(times[chain.waypoints[index]])
                 if index in moving:
-                    pieces = self._final_move(chain, index).pieces
+                    pieces = self._final_segment(chain, index).pieces
                     for row, column in enumerate(chain.columns):
                         builders[column].add(begin, take(pieces, row))
                 elif index == 0 or index - 1 in moving:  # else the joints stand still already
@@ -119,9 +120,9 @@ class StationTiming:
                         builders[column].hold(begin, position)
         return tuple(builder.build(float(times[-1])) for builder in builders)
 
-    def _want(self, chain: JointChain, index: int, needed: float, *, most: float = math.inf) -> bool:
-        """Ask for the time that a move needs, at most by a factor at once; whether it has too little."""
-        under = slice(chain.stations[index], chain.stations[index + 1])
+    def _want(self, chain: WaypointChain, index: int, needed: float, *, most: float = math.inf) -> bool:
+        """Ask for the time that a segment needs, at most by a factor at once; whether it has too little."""
+        under = slice(chain.waypoints[index], chain.waypoints[index + 1])
         given = float(self._durations[under].sum())
         if needed <= given + _FITS:
             return False
@@ -130,7 +131,7 @@ class StationTiming:
         return True
 
     def _stretch(self) -> bool:
-        """Give the steps what their moves asked for, and part of it to the steps near them in a stroke."""
+        """Give the steps what their segments asked for, and part of it to the steps near them in a stroke."""
         wanted = self._wanted
         if not wanted.any():
             return False
@@ -144,21 +145,21 @@ class StationTiming:
         wanted[:] = 0.0
         return True
 
-    def _try(self, chain: JointChain, index: int, *, patient: bool) -> bool:
-        """Try a move; where it does not fit, ask for time or pass its knots more slowly; whether it did."""
+    def _try(self, chain: WaypointChain, index: int, *, patient: bool) -> bool:
+        """Try a segment; if it does not fit, ask for time or slow its ends down. True if anything changed."""
         slower = 0.5 if patient else 0.0
-        move = chain.move(index)
-        if move is None:
+        segment = chain.segment(index)
+        if segment is None:
             if chain.is_rest_to_rest(index):
-                raise PlanError("no_timing", "expected a move from rest to rest, got none")
+                raise PlanError("no_timing", "expected a segment from rest to rest, got none")
             chain.slow(index, slice(None), slower)
             return True
-        if self._want(chain, index, move.duration, most=_PATIENT_STRETCH if patient else math.inf):
+        if self._want(chain, index, segment.duration, most=_PATIENT_STRETCH if patient else math.inf):
             if not patient:
                 chain.slow(index, slice(None), slower)
             return True
-        beyond = chain.beyond(index, move)
-        if chain.is_too_fast(index, move):
+        beyond = chain.beyond(index, segment)
+        if chain.is_too_fast(index, segment):
             beyond[:] = True
         if beyond.any():
             chain.slow(index, beyond, slower)
@@ -166,15 +167,15 @@ class StationTiming:
         chain.fits(index)
         return False
 
-    def _final_move(self, chain: JointChain, index: int) -> Move:
-        """The move with the least acceleration and jerk that still takes its time."""
+    def _final_segment(self, chain: WaypointChain, index: int) -> RuckigSegment:
+        """The segment with the least acceleration and jerk that still takes its time."""
         for ease in (1.3, 2.0, 4.0, None):
-            move = chain.move(index, ease)
+            segment = chain.segment(index, ease)
             if (
-                move is not None
-                and move.duration <= chain.duration(index) + _FITS
-                and not chain.beyond(index, move).any()
-                and not chain.is_too_fast(index, move)
+                segment is not None
+                and segment.duration <= chain.duration(index) + _FITS
+                and not chain.beyond(index, segment).any()
+                and not chain.is_too_fast(index, segment)
             ):
-                return move
-        raise PlanError("no_timing", "expected a move that was found before, got none")
+                return segment
+        raise PlanError("no_timing", "expected a segment that was found before, got none")

@@ -110,9 +110,9 @@ def _clearance(robot: Robot, gloss: str, plan: Plan) -> float:
 def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array:
     """Distance of every captured frame to the path played between the knots around it [rad]. Shape (m,)."""
     columns = [plan.names.index(joint) for joint in sign.joints]
-    stations = _stations(sign, plan, columns)
+    waypoints = _waypoint_times(sign, plan, columns)
     worst = np.zeros(len(sign.joints))
-    for knot, (begin, end) in enumerate(pairwise(stations)):
+    for knot, (begin, end) in enumerate(pairwise(waypoints)):
         between = (times >= sign.times[knot] - 1e-9) & (times <= sign.times[knot + 1] + 1e-9)
         played = sample_at(plan.motions, np.linspace(begin, end, _BETWEEN)).positions[:, columns]
         away = np.abs(positions[between][:, None] - played)
@@ -122,7 +122,7 @@ def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array
     return worst
 
 
-def _stations(sign: Sign, plan: Plan, columns: list[int]) -> list[float]:
+def _waypoint_times(sign: Sign, plan: Plan, columns: list[int]) -> list[float]:
     """When the plan passes each knot [s]: knots are among its samples, in order."""
     timing = plan.timings[0]
     index = int(np.searchsorted(plan.times, timing.start - 1e-9))

@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES
-from teo_description.hand_table import DextraTable
+from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES, DextraTable
 from teo_sign_capture.retarget.thumb_motion import follow_thumb
 from teo_sign_capture.signing_space.hand_points import KNUCKLES
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm

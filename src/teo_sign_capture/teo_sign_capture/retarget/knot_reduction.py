@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import BPoly
 
 from teo_motion.trajectory.waypoint_chain import OVERSHOOT
-from teo_motion.trajectory.waypoint_states import knot_states
+from teo_motion.trajectory.waypoint_states import waypoint_states
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -67,7 +67,7 @@ def passed(knot_times: Array, knots: Array, times: Array) -> Array:
     Returns:
         Positions [rad]. Shape (n, m).
     """
-    velocities, accelerations = knot_states(knot_times, knots, np.ones_like(knots), swing=OVERSHOOT)
+    velocities, accelerations = waypoint_states(knot_times, knots, np.ones_like(knots), swing=OVERSHOOT)
     states = np.stack([knots, velocities, accelerations], axis=1)
     positions: Array = BPoly.from_derivatives(knot_times, states)(times)
     return positions

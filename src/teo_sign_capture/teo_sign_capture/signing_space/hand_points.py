@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description.hand_table import DextraTable
+from teo_description.hand_geometry import DextraTable
 
 Array = NDArray[np.float64]
 

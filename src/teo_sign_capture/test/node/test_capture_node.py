@@ -21,7 +21,6 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import CaptureSign
 
 from teo_sign_capture.node.capture_node import CaptureNode
-from teo_signs.live_table import LiveLut
 from teo_signs.look_up_table import Lut
 from teo_signs.sign_file import read_sign
 
@@ -95,7 +94,7 @@ def camera(graph: Graph) -> None:
 
 @pytest.mark.usefixtures("camera")
 def test_a_sign_is_recorded_saved_and_found_by_a_table_in_use(graph: Graph) -> None:
-    table = LiveLut(Lut.open(graph.directory / "lut"))
+    table = Lut.open(graph.directory / "lut")
     response = graph.answer(graph.call("SIGNO"))
     assert response.success, response.message
     assert response.code == ""
@@ -107,7 +106,7 @@ def test_a_sign_is_recorded_saved_and_found_by_a_table_in_use(graph: Graph) -> N
     assert len(list((graph.directory / "recordings").glob("SIGNO-*.mcap"))) == 1
     # As the executor looks before each sentence.
     assert table.refresh() == ""
-    assert "SIGNO" in table.lut
+    assert "SIGNO" in table
     graph.spin_until(lambda: graph.states[-1:] == ["idle"])
     assert "sign now" in graph.states
     assert "capturing" in graph.states

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_description.hand_geometry import DextraHand
-from teo_description.hand_table import DextraTable
+from teo_description.hand_geometry import DextraHand, DextraTable
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, ArmChain
 

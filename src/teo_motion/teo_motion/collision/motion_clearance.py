@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS
 from teo_description.robot import Robot
-from teo_motion.sentence.plan import Nearness, Samples
+from teo_motion.sentence.plan import NearestApproach, Samples
 
 # How far any point of the robot can be from each joint's axis [m], rounded up from the robot description: tip
 # of the hand to shoulder, elbow and wrist, finger tip to knuckle.
@@ -38,7 +38,7 @@ _HEAD_STEP = 0.02
 _CLOSER = 6
 
 
-class SelfCollision:
+class MotionClearance:
     """Looks along a motion at the distances between parts of the robot."""
 
     def __init__(self, robot: Robot) -> None:
@@ -46,7 +46,7 @@ class SelfCollision:
         self._robot = robot
         self._reach = np.array([_reach(name) for name in COMMANDED_JOINTS])
 
-    def nearest(self, samples: Samples, *, head_alone: bool = False) -> Nearness:
+    def nearest(self, samples: Samples, *, head_alone: bool = False) -> NearestApproach:
         """The closest that parts come along a motion; of the head to any other, if only that is asked for.
 
         The next look is taken where the parts can have moved by the distance that the last one found, and at
@@ -56,15 +56,15 @@ class SelfCollision:
         clearance = self._robot.head_clearance if head_alone else self._robot.clearance
         step = _HEAD_STEP if head_alone else _STEP
 
-        def look(index: int) -> Nearness:
+        def look(index: int) -> NearestApproach:
             distance, first, second = clearance(self._configuration(samples.positions[index]))
             time = float(samples.times[index])
-            return Nearness(distance=float(distance), time=time, first=first, second=second)
+            return NearestApproach(distance=float(distance), time=time, first=first, second=second)
 
         moved = np.abs(np.diff(samples.positions, axis=0)) @ self._reach
         path = np.concatenate(([0.0], np.cumsum(moved)))
         looked: list[int] = []
-        found: list[Nearness] = []
+        found: list[NearestApproach] = []
         index, last = 0, len(path) - 1
         while True:
             near = look(index)

@@ -1,4 +1,6 @@
-"""Stopping on the path: the trajectory's own time slows down to a standstill.
+"""Time along a path: it never goes back or leaps, and slows down to a standstill.
+
+Stopping on the path: the trajectory's own time slows down to a standstill.
 
 A joint at q(s) moves at q'(s) ds/dt. Letting ds/dt fall from 1 to 0 stops all joints together and on the
 very path that was found good, so that no position limit and no velocity limit can be broken by stopping,
@@ -13,11 +15,46 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.message import SECOND
 from teo_sim_driver.trajectory import Trajectory
+
+# Longest gap between two steps that the motion follows [s]: longer than checking the longest message takes. A
+# greater one is a clock that was set or a process that stood still, and no path is cut short for either.
+LONGEST_GAP = 0.5
 
 # Greatest slope of 1 - 3 u^2 + 2 u^3, at u = 1/2, and its integral from 0 to 1.
 _STEEPEST = 1.5
 _DISTANCE = 0.5
+
+
+class PathClock:
+    """Turns clock readings into steps of time."""
+
+    def __init__(self, period: float) -> None:
+        """Start without a reading.
+
+        Args:
+            period: usual time between steps [s].
+        """
+        self._period = period
+        self._last: int | None = None
+        self.jumps = 0
+        """Readings that went back, or too far ahead."""
+
+    def advance(self, now: int) -> float:
+        """Time since the last reading [s]; one period where the clock jumped, as a step was made.
+
+        Args:
+            now: reading [ns].
+        """
+        last, self._last = self._last, now
+        if last is None:
+            return 0.0
+        gap = (now - last) / SECOND
+        if 0.0 <= gap <= LONGEST_GAP:
+            return gap
+        self.jumps += 1
+        return self._period
 
 
 class PathTime(NamedTuple):
