@@ -30,9 +30,9 @@ def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None
     """Judge how the node fares.
 
     Args:
-        report: of the streams.
-        topics: name of the topic of each stream that must come.
-        problem: of an image since the last time, None if there was none.
+        report: Of the streams.
+        topics: Name of the topic of each stream that must come.
+        problem: Of an image since the last time, None if there was none.
     """
     level, message = Level.OK, f"{report.rates['results']:.1f} images per second"
     silent = [topic for stream, topic in topics.items() if report.silent[stream] > _SILENCE]

@@ -19,9 +19,9 @@ class ImageDiagnostics:
         """Create the publisher.
 
         Args:
-            node: to publish and to log with.
-            stats: of its streams.
-            topics: name of the topic of each stream that must come.
+            node: To publish and to log with.
+            stats: Of its streams.
+            topics: Name of the topic of each stream that must come.
         """
         self._node = node
         self._stats = stats
@@ -34,8 +34,8 @@ class ImageDiagnostics:
         """Note a problem for the next diagnostics; tell it at once unless it was told just now.
 
         Args:
-            problem: why an image was left out.
-            details: for the log, which make it an error.
+            problem: Why an image was left out.
+            details: For the log, which make it an error.
         """
         self._problem = problem
         now = time.monotonic()

@@ -65,11 +65,11 @@ _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 _LOOK_PERIOD = 0.25  # [s] between looks for who publishes images; of a bag of some seconds little is missed
 _SAME_CLOCK = 60.0  # [s] An image that seems older, or younger, was stamped by another clock: in a bag.
 
+# Images whose turn never came: a newer one was there first.
 BUSY = "busy"
-"""Images whose turn never came: a newer one was there first."""
 NO_CAMERA_INFO = "no_camera_info"
+# Images left out because of the parameter `period`.
 NOT_DUE = "not_due"
-"""Images left out because of the parameter `period`."""
 
 
 class _Job(NamedTuple):
@@ -90,11 +90,11 @@ class RetrieverNode(Node):
         """Make the detector and listen.
 
         Args:
-            detector: in place of the one that the parameters name; closed with the node.
-            node_arguments: of `rclpy.node.Node`, after its name.
+            detector: In place of the one that the parameters name; closed with the node.
+            node_arguments: Of `rclpy.node.Node`, after its name.
 
         Raises:
-            RetrieverError: the parameters do not go together, or the detector cannot be made.
+            RetrieverError: The parameters do not go together, or the detector cannot be made.
         """
         super().__init__("skeleton_retriever", **node_arguments)
         declare_parameters(self, PARAMETERS)
