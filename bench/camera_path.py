@@ -26,13 +26,13 @@ from rich.table import Table
 
 from teo_description.robot import Robot
 from teo_sign_capture.entries.take import capture_take
-from teo_sign_capture.entries.takes import features, warp
+from teo_sign_capture.entries.take_combination import features, warp
 from teo_sign_capture.notation.performance import performance
 from teo_sign_capture.notation.score_file import default_scores_directory, read_score
 from teo_sign_capture.notation.score_retarget import score_sign
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.recordings.recording import open_recording, track_of
-from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness

@@ -22,7 +22,7 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import sample_at
 from teo_sign_capture.alphabet.stroke import find_stroke
-from teo_sign_capture.entries.takes import warp
+from teo_sign_capture.entries.take_combination import warp
 from teo_sign_capture.recordings.letter_clips import LetterClip, load_letter_clips
 from teo_sign_capture.tracks.hand_model import KNUCKLES, THUMB, measure_signer, palm_axes
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH

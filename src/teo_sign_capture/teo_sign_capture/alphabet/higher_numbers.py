@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS, HOME, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import ArmFit, fit_arm
+from teo_sign_capture.alphabet.spelling_arm import ArmFit, fit_arm
 from teo_sign_capture.retarget.arm_bounds import mirrored
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
 

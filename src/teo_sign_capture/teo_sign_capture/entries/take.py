@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.motion import RobotMotion, retarget_motion
+from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack

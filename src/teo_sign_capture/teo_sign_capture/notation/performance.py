@@ -14,8 +14,7 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from teo_sign_capture.notation.performance_places import person_place
-from teo_sign_capture.notation.performance_shapes import FINGERS, person_shape
+from teo_sign_capture.notation.person_inventory import FINGERS, person_place, person_shape
 from teo_sign_capture.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import split_place

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import RIGHT_ARM
-from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, WRIST, ArmChain, ArmPoses
+from teo_sign_capture.retarget.arm_kinematics import ELBOW, WRIST, ArmKinematics, ArmPoses
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
@@ -97,7 +97,7 @@ class ArmProblem:
 
     def __init__(
         self,
-        chain: ArmChain,
+        chain: ArmKinematics,
         hands: tuple[HandGoals, ...],
         pair: PairGoals | None = None,
         weights: ArmWeights = CAPTURED,
@@ -121,7 +121,7 @@ class ArmProblem:
         hands = tuple(_cut(goals, part) for goals in self._hands)
         return ArmProblem(self._chain, hands, pair, self._weights)
 
-    def opened(self, amount: Array) -> ArmProblem:
+    def spread_apart(self, amount: Array) -> ArmProblem:
         """The same with hands away from everything, each on the side of the other on which it belongs.
 
         Hands that are near each other go apart along the way on which the person's are, the one in front

@@ -30,7 +30,7 @@ _TOLERANCE = 1e-12
 """Of the least squares: accelerations come out a billionth from the least, in the time of an exact search."""
 
 
-def gentlest(times: Array, joints: tuple[str, ...], positions: Array, *, share: float = 1.0) -> Array:
+def smoothest_motion(times: Array, joints: tuple[str, ...], positions: Array, *, share: float = 1.0) -> Array:
     """Find the motion of least acceleration in the tube, within the joints' limits.
 
     Args:

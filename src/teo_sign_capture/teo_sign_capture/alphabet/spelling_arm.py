@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds
+from teo_sign_capture.retarget.arm_kinematics import ELBOW, ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
-from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, ArmChain
 from teo_sign_capture.retarget.hand_goals import HandGoals
 
 Array = NDArray[np.float64]
@@ -104,7 +104,7 @@ def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[
 
 def arm_fits(robot: Robot, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
     """How well arms do; arguments of n poses as for `follow_arm`."""
-    poses = ArmChain(robot).poses(positions)
+    poses = ArmKinematics(robot).poses(positions)
     angles = Rotation.from_matrix(palms.transpose(0, 2, 1) @ poses.rotation).magnitude()
     away = np.linalg.norm(poses.place - places, axis=1)
     rows = zip(positions, poses.rotation, poses.place, angles.tolist(), away.tolist(), strict=True)
@@ -125,4 +125,4 @@ def _problem(robot: Robot, palms: Array, places: Array) -> ArmProblem:
         upper_arm=none,
         fore_arm=none,
     )
-    return ArmProblem(ArmChain(robot), (goals,), weights=_WEIGHTS)
+    return ArmProblem(ArmKinematics(robot), (goals,), weights=_WEIGHTS)

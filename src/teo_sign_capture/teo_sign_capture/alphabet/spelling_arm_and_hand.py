@@ -15,8 +15,8 @@ from scipy.optimize import least_squares
 
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
-from teo_sign_capture.alphabet.posture_hand import HandProblem, fit_dextra
+from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
+from teo_sign_capture.alphabet.spelling_hand import HandProblem, fit_dextra
 from teo_sign_capture.tracks.hand_model import HandPose
 
 Array = NDArray[np.float64]

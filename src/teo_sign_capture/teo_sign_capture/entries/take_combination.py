@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from teo_description import RIGHT_ARM, RIGHT_HAND
 from teo_description.hand_geometry import FINGERS
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import PALM_FRAME
+from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME
 
 Array = NDArray[np.float64]
 

@@ -56,7 +56,7 @@ class ArmPoses(NamedTuple):
         return _cross(self.axes[:, :joints], directions[:, None])
 
 
-class ArmChain:
+class ArmKinematics:
     """The right arm of one robot."""
 
     def __init__(self, robot: Robot) -> None:
