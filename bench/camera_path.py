@@ -42,6 +42,7 @@ from teo_synthetic_signer.take.take_bag import write_take
 Array = NDArray[np.float64]
 
 FEW = ("ADIÓS", "BIEN", "GRACIAS")
+# One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles.
 MANY = (
     *(
         "ADIÓS",
@@ -72,7 +73,6 @@ MANY = (
     ),
     *("TREN", "TÚ", "YO"),
 )
-"""One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles."""
 _RATE = 15.0  # [Hz] of the images
 _STEP = 0.02  # [s] between samples of the score's own motion
 _PARTS = ("wrist's place (mm)", "palm (deg)", "fingers (deg)", "flexion (deg)")

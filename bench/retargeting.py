@@ -37,8 +37,8 @@ SCRIPTS: tuple[tuple[str, Handedness], ...] = (
     ("two_hands", "both"),
     ("crossing", "both"),
 )
+# [Hz] The errors do not depend on it; the bench takes half the time.
 _RATE = 15.0
-"""[Hz] The errors do not depend on it; the bench takes half the time."""
 _BAG = Path(__file__).resolve().parent.parent / "bags" / "signer_d435"
 
 

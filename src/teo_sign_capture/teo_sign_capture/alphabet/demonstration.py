@@ -30,10 +30,10 @@ SPELLING_POSES = {
 }
 
 _PAUSE = 0.5  # [s], after each sign of the demonstration
+# Every motor at rest, tendons slack: the thumb stands out from the straight fingers.
 _OPEN_HAND = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-"""Every motor at rest, tendons slack: the thumb stands out from the straight fingers."""
+# [rad] The poses are published to a tenth of a degree: a joint beyond its limit by half of that is on it.
 _ROUNDING = np.radians(0.05)
-"""[rad] The poses are published to a tenth of a degree: a joint beyond its limit by half of that is on it."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -31,16 +31,15 @@ Frames = NDArray[np.int64]
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 
+# [rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
+# the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement.
 _TOLERANCE = np.radians(2.0)
-"""[rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
-the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement."""
+# [rad] A palm that is farther than this from the person's is worth giving up place and shape for.
 _OUT_OF_REACH = np.radians(20.0)
-"""[rad] A palm that is farther than this from the person's is worth giving up place and shape for."""
+# N and Ñ are M with a finger less. Their clips differ by 15 deg in the palm, which would lead to other arms.
 _SAME_ARM = {"N": "M", "Ñ": "M"}
-"""N and Ñ are M with a finger less. Their clips differ by 15 deg in the palm, which would lead to other
-arms."""
+# Each shift off the face moves the arm, and with it the hand a little back.
 _FACE_TRIES = 4
-"""Each shift off the face moves the arm, and with it the hand a little back."""
 
 _HANGING = (
     "TEO's wrist cannot bend the hand down: it hangs before the right breast instead of beside the face, its "

@@ -22,8 +22,8 @@ Array = NDArray[np.float64]
 
 PALM_FRAME = "right_palm"
 
+# [rad] Mean of the poses in which TEO's own demonstration spells T, E and O. Shape (6,).
 SPELLING_ARM = np.radians([-74.0, 11.2, 11.1, -80.5, 48.9, 1.1])
-"""[rad] Mean of the poses in which TEO's own demonstration spells T, E and O. Shape (6,)."""
 
 # The elbow is bent by as much at least [rad]: nobody spells with a straight arm.
 _BENT = np.radians(-46.0)

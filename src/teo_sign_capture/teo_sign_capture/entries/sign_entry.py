@@ -23,11 +23,11 @@ from teo_signs.sign_schema import Kind, Provenance, Standing
 
 Array = NDArray[np.float64]
 
+# [m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
+# apart.
 _SAID_OUT_OF_REACH = 0.12
-"""[m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
-apart."""
+# [%] Of the frames, so that a single one decides nothing.
 _SHARE = 95.0
-"""[%] Of the frames, so that a single one decides nothing."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,11 +20,11 @@ from teo_sign_capture.signing_space.places import OTHER_HAND, find_place
 
 Array = NDArray[np.float64]
 
+# [m] From the middle: hands that meet or cross are as far apart on both.
 _ALIKE = 0.10
-"""[m] From the middle: hands that meet or cross are as far apart on both."""
+# What is farther aside on TEO, on a person, whose arms begin 0.14 m nearer to the middle: stretched out to
+# the sides, hands are 0.9 m from the middle on TEO, 0.75 m on a person whose arms are as long.
 _BEYOND = 0.75
-"""What is farther aside on TEO, on a person, whose arms begin 0.14 m nearer to the middle: stretched out to
-the sides, hands are 0.9 m from the middle on TEO, 0.75 m on a person whose arms are as long."""
 
 
 class PersonPlace(NamedTuple):
@@ -136,11 +136,11 @@ _SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, fl
 
 FINGERS = ("index", "middle", "ring", "little")
 
+# Of the angle by which a finger goes to and fro: the last joint follows the middle one at half, as they share
+# a tendon.
 _SHARES = (1.0, 1.0, 0.5)
-"""Of the angle by which a finger goes to and fro: the last joint follows the middle one at half, as they
-share a tendon."""
+# [deg] A knuckle that is bent more has more room to open than to bend.
 _FAR_BENT = 50.0
-"""[deg] A knuckle that is bent more has more room to open than to bend."""
 
 
 def person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:

@@ -24,16 +24,16 @@ from teo_signs.sign_schema import Provenance
 
 Array = NDArray[np.float64]
 
+# [m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the
+# planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close.
 _CLEARANCE = 0.012
-"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that
-the planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close."""
+# [m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach 8
+# cm beyond the middle of its palm.
 _PUSH, _MOST_PUSHES = 0.012, 12
-"""[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
-8 cm beyond the middle of its palm."""
+# What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg.
 _TOUCH = 0.5
-"""What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg."""
+# [rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body.
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
-"""[rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body."""
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _OUT = np.array([0.0, -1.0, 0.0])

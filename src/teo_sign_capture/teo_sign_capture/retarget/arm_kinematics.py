@@ -21,8 +21,8 @@ from teo_description.robot import Robot
 
 Array = NDArray[np.float64]
 
+# Joints whose axes go through the elbow and the wrist.
 ELBOW, WRIST = 3, 5
-"""Joints whose axes go through the elbow and the wrist."""
 
 
 class ArmPoses(NamedTuple):

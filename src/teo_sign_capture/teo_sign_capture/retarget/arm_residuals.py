@@ -23,10 +23,10 @@ Goals = TypeVar("Goals", HandGoals, PairGoals)
 
 JOINTS = len(RIGHT_ARM)
 
+# [rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two.
 _TOGETHER = 12.0
-"""[rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two."""
+# [rad] An arm that signs at ease. Shape (6,).
 EASY_ARM = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
-"""[rad] An arm that signs at ease. Shape (6,)."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,6 +54,7 @@ class ArmWeights:
     easy_arm: Array
 
 
+# Weights for a motion captured from a person.
 CAPTURED = ArmWeights(
     # 10 cm beside its place in the air count as much as a palm turned by 29 deg; forwards, along the line of
     # sight of whom is signed to, less than half of it. TEO's elbow keeps its hand 46 cm off its shoulder,
@@ -72,7 +73,6 @@ CAPTURED = ArmWeights(
     easy=np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25]),
     easy_arm=EASY_ARM,
 )
-"""Weights for a motion captured from a person."""
 
 
 class Quadratic(NamedTuple):

@@ -20,35 +20,35 @@ from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
 
+# [s] From one frame to the next that is sought from all starts: valleys change slower than hands move.
 _EVERY = 0.1
-"""[s] From one frame to the next that is sought from all starts: valleys change slower than hands move."""
+# The search from all starts ends after so many steps: what follows refines what it finds.
 _SEARCH_STEPS = 12
-"""The search from all starts ends after so many steps: what follows refines what it finds."""
+# [1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
+# much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it.
 _JUMP = 0.5
-"""[1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
-much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it."""
+# [s] A way from valley to valley begins and ends so much before and after in all.
 _SPREAD = 0.15
-"""[s] A way from valley to valley begins and ends so much before and after in all."""
+# [s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
+# this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
+# hardly matters it smooths more.
 _SPEED = 0.04
-"""[s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
-this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
-hardly matters it smooths more."""
+# [rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which is
+# 15 deg from one of 30 images a second to the next.
 SWIFT = np.radians(450.0)
-"""[rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which
-is 15 deg from one of 30 images a second to the next."""
+# [1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
+# 70 deg, so that an arm that changes the valley takes some frames for it.
 HASTE = 20.0
-"""[1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
-70 deg, so that an arm that changes the valley takes some frames for it."""
+# The search ends after so many steps, or when no joint moves by this any more [rad].
 _STEPS, _ENOUGH = 40, 1e-4
-"""The search ends after so many steps, or when no joint moves by this any more [rad]."""
+# The same with collision terms, which are measured anew after it: their slopes are wrong by more.
 _STEPS_OFF, _ENOUGH_OFF = 20, 3e-4
-"""The same with collision terms, which are measured anew after it: their slopes are wrong by more."""
+# At least this is added to the curvature, so that a step exists where a joint has no say.
 _DAMPING = 1e-4
-"""At least this is added to the curvature, so that a step exists where a joint has no say."""
+# Ten times what the price of collisions bends the sum by: where no smaller step helps, none does.
 _MOST_DAMPING = 1e6
-"""Ten times what the price of collisions bends the sum by: where no smaller step helps, none does."""
+# [rad] How far from where a distance was measured its slope is believed.
 TRUSTED = np.radians(12.0)
-"""[rad] How far from where a distance was measured its slope is believed."""
 
 
 def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:

@@ -28,10 +28,10 @@ from teo_sign_capture.tracks.person import Person
 Array = NDArray[np.float64]
 
 
+# Of the way from the shoulders to the hips.
 _WAIST = 0.7
-"""Of the way from the shoulders to the hips."""
+# [m] Farther than any arm: what is there goes on as it was.
 _BEYOND = 3.0
-"""[m] Farther than any arm: what is there goes on as it was."""
 
 
 class WorkspaceScaling:
@@ -80,18 +80,18 @@ def _monotone(ours: list[float], theirs: list[float], slope: float) -> PchipInte
     )
 
 
+# Middle and half sides [m].
 Box = tuple[Array, Array]
-"""Middle and half sides [m]."""
 
+# [m] Length over which the bend fades, on a person whose trunk is `_TRUNK` long: a contact is felt about a
+# hand's width off the skin; wider, and the places of the face would pull at what is signed before the chest.
 _REACH = 0.12
-"""[m] Length over which the bend fades, on a person whose trunk is `_TRUNK` long: a contact is felt about a
-hand's width off the skin; wider, and the places of the face would pull at what is signed before the chest."""
 _TRUNK = 0.48
+# How far, as a share, places that are next to each other may give way to each other: without it two places
+# that TEO has nearer together than a person fold the space before them.
 _GIVE = 0.02
-"""How far, as a share, places that are next to each other may give way to each other: without it two places
-that TEO has nearer together than a person fold the space before them."""
+# [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
-"""[m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person."""
 
 # Names in `score.places` of a person's places; those aside stand for both sides.
 _MIDDLE = {

@@ -11,13 +11,13 @@ from teo_sign_capture.retarget.collision_terms import LEAST, CollisionModel, bet
 
 Array = NDArray[np.float64]
 
+# [rad] A posture that moves by less keeps its distances to a tenth of a millimetre.
 _STILL = 1e-4
-"""[rad] A posture that moves by less keeps its distances to a tenth of a millimetre."""
+# [m] Distances are measured wherever the hands have moved by this on the way between two frames: no hand, 3
+# cm thick, is passed unseen.
 _SAMPLE_STEP = 0.03
-"""[m] Distances are measured wherever the hands have moved by this on the way between two frames: no hand,
-3 cm thick, is passed unseen."""
+# [m] On these ways parts are at least so far apart: what curves between knots need is left.
 _ON_WAY = 0.004
-"""[m] On these ways parts are at least so far apart: what curves between knots need is left."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -16,31 +16,31 @@ from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# Each finds anew what is near, and solves what still touches with it; after three most hands are off.
 _PASSES = 30
-"""Each finds anew what is near, and solves what still touches with it; after three most hands are off."""
+# Passes after which what still touches begins anew: from hands that are away from everything, each on the
+# side of the other on which the person's is (hands that have gone into each other are pushed to the wrong
+# side; hands that come from outside stay on theirs; eight passes bring them back), and from the nearest
+# moments that do not touch, where what is wanted counts less.
 _SPREAD_AFTER, _RESTART_AFTER = 3, 11
-"""Passes after which what still touches begins anew: from hands that are away from everything, each on the
-side of the other on which the person's is (hands that have gone into each other are pushed to the wrong side;
-hands that come from outside stay on theirs; eight passes bring them back), and from the nearest moments that
-do not touch, where what is wanted counts less."""
+# [rad] A pass turns no joint by more once hands come from outside, so that none skips through the other.
 _CAREFUL = np.radians(6.0)
-"""[rad] A pass turns no joint by more once hands come from outside, so that none skips through the other."""
+# [rad] Hands that come from outside are where they belong when a pass turns no joint by more.
 _SETTLED = np.radians(2.0)
-"""[rad] Hands that come from outside are where they belong when a pass turns no joint by more."""
+# [s] So much before and after what touches is solved with it: as long as a way aside takes.
 _GIVE = 0.35
-"""[s] So much before and after what touches is solved with it: as long as a way aside takes."""
+# Passes at the end over all that was moved, the first of which may have moved some of it too far.
 _EASED = 1
-"""Passes at the end over all that was moved, the first of which may have moved some of it too far."""
+# [m] So far from each other parts are watched then: what a pass may bring them nearer.
 _SEEN_FROM = 0.06
-"""[m] So far from each other parts are watched then: what a pass may bring them nearer."""
+# Share of this that moves no hand by more than 1 cm.
 _FAINT = 0.01
-"""Share of this that moves no hand by more than 1 cm."""
+# By how much less each time, and in how many frames before and after as well.
 _LESS, _AROUND = 0.3, 2
-"""By how much less each time, and in how many frames before and after as well."""
+# [m] So far apart hands begin then: TEO's forearms and hands are 10 cm thick.
 _OPEN = 0.25
-"""[m] So far apart hands begin then: TEO's forearms and hands are 10 cm thick."""
+# [s] Deviation of the Gaussian by which arms go away from everything and come back: as swift as a person.
 _OPENING = 0.12
-"""[s] Deviation of the Gaussian by which arms go away from everything and come back: as swift as a person."""
 
 
 def clear_arms(

@@ -17,20 +17,20 @@ from teo_sign_capture.signing_space.hand_points import MIRROR
 
 Array = NDArray[np.float64]
 
+# [m] Parts that come nearer than this are pushed apart.
 WANTED = 0.014
-"""[m] Parts that come nearer than this are pushed apart."""
+# [m] Parts are never nearer than this: a touch is shown by a gap that nobody sees, and that curves between
+# knots do not close.
 LEAST = 0.010
-"""[m] Parts are never nearer than this: a touch is shown by a gap that nobody sees, and that curves between
-knots do not close."""
+# [m] Parts nearer than this are watched, so that what is pushed off one is not pushed into another.
 WATCHED = 0.030
-"""[m] Parts nearer than this are watched, so that what is pushed off one is not pushed into another."""
+# [1/m] A millimetre too near costs as much as a hand 2 cm off its place.
 _PRICE = 200.0
-"""[1/m] A millimetre too near costs as much as a hand 2 cm off its place."""
 
+# [m] Tip of a stretched finger, from the palm's middle along the hand.
 _TIP = np.array([0.12, 0.0, 0.0])
-"""[m] Tip of a stretched finger, from the palm's middle along the hand."""
+# [m] From its knuckle to its tip.
 _FINGER = 0.10
-"""[m] From its knuckle to its tip."""
 
 _ARM = {"right": RIGHT_ARM, "left": LEFT_ARM}
 _HAND = {"right": RIGHT_HAND, "left": LEFT_HAND}

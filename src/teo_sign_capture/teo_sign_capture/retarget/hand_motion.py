@@ -89,25 +89,25 @@ def _lowest(grid: Array, cost: Array) -> Array:
 
 
 _JOINT, _TIP = 3, 4
+# Rows of the 21 keypoints.
 _FINGER_TIPS = (8, 12, 16, 20)
-"""Rows of the 21 keypoints."""
 
 # Weights of squares: of a metre at the thumb's joint (1 at its tip), at the distance to a tip that it
 # touches, inside of a finger or the palm; of a radian of way from frame to frame: 6 deg cost as much as 2 mm.
 _JOINT_WEIGHT, _TOUCH_WEIGHT, _INSIDE_WEIGHT, _WAY_WEIGHT = 0.3, 3.0, 60.0, 4e-4
+# [m] As in `hand_retarget`: tips farther apart are not meant to touch; distance of their axes when they do; a
+# smaller gap is a contact, two keypoints being off by 3 mm each.
 _NEAR, _TOUCH, _SURELY_APART = 0.045, 0.018, 0.006
-"""[m] As in `hand_retarget`: tips farther apart are not meant to touch; distance of their axes when they do;
-a smaller gap is a contact, two keypoints being off by 3 mm each."""
+# [m] Radii of a phalanx of thumb and finger together; height over the palm at which the thumb touches it.
 _RADII, _PALM_FRONT = 0.018, 0.006
-"""[m] Radii of a phalanx of thumb and finger together; height over the palm at which the thumb touches it."""
+# [m] The palm along and across the hand, the thumb's radius added (`dextra`).
 _PALM_TO, _PALM_HALF_WIDTH = 0.032, 0.047
-"""[m] The palm along and across the hand, the thumb's radius added (`dextra`)."""
+# Thumbs looked at closely in each frame: those whose tip is best.
 _CANDIDATES = 32
-"""Thumbs looked at closely in each frame: those whose tip is best."""
+# Of the table's steps of 2 deg; in between it is smoothed.
 _EVERY = 2
-"""Of the table's steps of 2 deg; in between it is smoothed."""
+# [s] Deviation of the Gaussian that takes the steps away.
 _TREMBLE = 0.04
-"""[s] Deviation of the Gaussian that takes the steps away."""
 
 
 def follow_thumb(table: DextraTable, times: Array, fingers: Array, person: Array) -> Array:
