@@ -5,7 +5,7 @@ starts asks for thousands of poses a step. Here they are all worked out together
 robot's model: every joint of the arm turns about one of the axes of its link, and all links are parallel to
 the base while the arm hangs.
 
-The left arm is the right one in a mirror (`score.arm_solver.mirrored`): what is said here of the right arm is
+The left arm is the right one in a mirror (`arm_bounds.mirrored`): what is said here of the right arm is
 used for both.
 """
 

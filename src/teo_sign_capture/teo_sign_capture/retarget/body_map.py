@@ -93,7 +93,7 @@ _GIVE = 0.02
 # [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
 
-# Names in `score.places` of a person's places; those aside stand for both sides.
+# Names in `signing_space.places` of a person's places; those aside stand for both sides.
 _MIDDLE = {
     name: name
     for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
@@ -183,7 +183,7 @@ class BodyMap:
 
 
 def on_skin(boxes: list[Box], name: str) -> Array:
-    """A place of `score.places`, moved out of the shapes that count in a collision [m]. Shape (3,)."""
+    """A place of articulation on TEO, moved out of the shapes that count in a collision [m]. Shape (3,)."""
     place = find_place(name)
     out = place.outward
     leaving = [0.0]

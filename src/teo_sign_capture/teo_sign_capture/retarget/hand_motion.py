@@ -95,12 +95,12 @@ _FINGER_TIPS = (8, 12, 16, 20)
 # Weights of squares: of a metre at the thumb's joint (1 at its tip), at the distance to a tip that it
 # touches, inside of a finger or the palm; of a radian of way from frame to frame: 6 deg cost as much as 2 mm.
 _JOINT_WEIGHT, _TOUCH_WEIGHT, _INSIDE_WEIGHT, _WAY_WEIGHT = 0.3, 3.0, 60.0, 4e-4
-# [m] As in `hand_retarget`: tips farther apart are not meant to touch; distance of their axes when they do; a
-# smaller gap is a contact, two keypoints being off by 3 mm each.
+# [m] As in `alphabet.spelling_hand`: tips farther apart are not meant to touch; distance of their axes when
+# they do; a smaller gap is a contact, two keypoints being off by 3 mm each.
 _NEAR, _TOUCH, _SURELY_APART = 0.045, 0.018, 0.006
 # [m] Radii of a phalanx of thumb and finger together; height over the palm at which the thumb touches it.
 _RADII, _PALM_FRONT = 0.018, 0.006
-# [m] The palm along and across the hand, the thumb's radius added (`dextra`).
+# [m] The palm along and across the hand, the thumb's radius added (`teo_description.hand_geometry`).
 _PALM_TO, _PALM_HALF_WIDTH = 0.032, 0.047
 # Thumbs looked at closely in each frame: those whose tip is best.
 _CANDIDATES = 32

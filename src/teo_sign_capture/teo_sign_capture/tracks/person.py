@@ -67,8 +67,8 @@ class Person:
         head_shape: Keypoints of the head, as `head_pose.head_shape` finds them [m]. Shape (95, 3).
         straight: What knuckle, middle and last joint of index ... little finger seem bent by while they are
             straight [rad]. Shape (4, 3).
-        places: Places of articulation on the skin by their names in `score.places`, the head held straight;
-            those aside are the right ones, the left ones mirror them. Shape (3,) each.
+        places: Places of articulation on the skin by their names in `signing_space.places`, the head held
+            straight; those aside are the right ones, the left ones mirror them. Shape (3,) each.
     """
 
     shoulder: float
