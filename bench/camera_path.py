@@ -26,13 +26,13 @@ from rich.table import Table
 
 from teo_description.robot import Robot
 from teo_sign_capture.entries.take import capture_take
-from teo_sign_capture.entries.takes import features, warp
+from teo_sign_capture.entries.take_combination import features, warp
 from teo_sign_capture.notation.performance import performance
 from teo_sign_capture.notation.score_file import default_scores_directory, read_score
 from teo_sign_capture.notation.score_retarget import score_sign
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.recordings.recording import open_recording, track_of
-from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness
@@ -42,6 +42,7 @@ from teo_synthetic_signer.take.take_bag import write_take
 Array = NDArray[np.float64]
 
 FEW = ("ADIÓS", "BIEN", "GRACIAS")
+# One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles.
 MANY = (
     *(
         "ADIÓS",
@@ -72,7 +73,6 @@ MANY = (
     ),
     *("TREN", "TÚ", "YO"),
 )
-"""One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles."""
 _RATE = 15.0  # [Hz] of the images
 _STEP = 0.02  # [s] between samples of the score's own motion
 _PARTS = ("wrist's place (mm)", "palm (deg)", "fingers (deg)", "flexion (deg)")

@@ -19,8 +19,8 @@ from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, Skele
 
 Array = NDArray[np.float64]
 
+# Columns: along, to the little finger's side and out of the right palm while the arm hangs.
 _PALM_HANGING = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
-"""Columns: along, to the little finger's side and out of the right palm while the arm hangs."""
 
 
 def copied_joints(track: SkeletonTrack, side: str) -> tuple[tuple[str, ...], Array]:

@@ -22,7 +22,7 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import sample_at
 from teo_sign_capture.alphabet.stroke import find_stroke
-from teo_sign_capture.entries.takes import warp
+from teo_sign_capture.entries.take_combination import warp
 from teo_sign_capture.recordings.letter_clips import LetterClip, load_letter_clips
 from teo_sign_capture.tracks.hand_model import KNUCKLES, THUMB, measure_signer, palm_axes
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
@@ -31,15 +31,15 @@ from teo_signs.tokens import Kind, Token
 
 Array = NDArray[np.float64]
 
+# Letters of thirty that must be most like their own recording.
 TARGET = 28
-"""Letters of thirty that must be most like their own recording."""
 
 _RATE = 25.0  # [Hz], of the recordings; TEO's slower motion is warped onto them
+# A second recording within this share of the nearest is one that the hand cannot tell from it.
 _LOOK_ALIKE = 1.1
-"""A second recording within this share of the nearest is one that the hand cannot tell from it."""
+# [m] Movement is seen where a difference in place is not. Between half and a third of a finger's thickness
+# the count is the same (27); at a whole one (23) still letters pass for those that differ by movement only.
 _SEEN_MOVEMENT = SEEN_LENGTH / 2.0
-"""[m] Movement is seen where a difference in place is not. Between half and a third of a finger's thickness
-the count is the same (27); at a whole one (23) still letters pass for those that differ by movement only."""
 _FRAMES = (
     "right_palm",
     *(f"Right{finger}Finger{part}" for part in ("_link", "Distal_link", "Tip") for finger in FINGERS),

@@ -18,13 +18,13 @@ from signer_tracks import signer_track
 
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
-from teo_sign_capture.retarget import motion as motion_retarget
+from teo_sign_capture.retarget import robot_motion as motion_retarget
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.collision_clearing import clear_arms
-from teo_sign_capture.retarget.collision_terms import WholeRobot
-from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.retarget.collision_terms import CollisionModel
+from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.sign_schema import Handedness
 
@@ -37,8 +37,8 @@ SCRIPTS: tuple[tuple[str, Handedness], ...] = (
     ("two_hands", "both"),
     ("crossing", "both"),
 )
+# [Hz] The errors do not depend on it; the bench takes half the time.
 _RATE = 15.0
-"""[Hz] The errors do not depend on it; the bench takes half the time."""
 _BAG = Path(__file__).resolve().parent.parent / "bags" / "signer_d435"
 
 
@@ -125,10 +125,10 @@ def _watched() -> Iterator[_Watch]:
         return arms
 
     def clearing(
-        problem: ArmProblem, whole: WholeRobot, track: SkeletonTrack, bounds: list[Bounds], arms: Array
+        problem: ArmProblem, model: CollisionModel, track: SkeletonTrack, bounds: list[Bounds], arms: Array
     ) -> tuple[Array, Array]:
         start = time.process_time()
-        cleared = clear_arms(problem, whole, track, bounds, arms)
+        cleared = clear_arms(problem, model, track, bounds, arms)
         watch.clearing += time.process_time() - start
         return cleared
 

@@ -18,12 +18,12 @@ Array = NDArray[np.float64]
 
 _TIPS = (4, 8, 12, 16, 20)
 _FINGERS = ("Index", "Middle", "Ring", "Pinky")
+# [m] A tip whose keypoint is so near to a place of the face is at it.
 _TOUCHES = 0.03
-"""[m] A tip whose keypoint is so near to a place of the face is at it."""
+# [m] A wrist lower than this below the shoulders hangs: no sign.
 _RAISED = -0.35
-"""[m] A wrist lower than this below the shoulders hangs: no sign."""
+# So many of the landmarks, the first ones, are places of the face.
 _OF_THE_FACE = 4
-"""So many of the landmarks, the first ones, are places of the face."""
 _STRAIGHT, _FOLDED = np.radians(15.0), np.radians(45.0)
 
 

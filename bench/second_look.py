@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS, urdf_text
 
+# [rad/s] TEO's drives (nodes/common-ipos.ini of teo-configuration-files).
 MOST_SPEED = np.radians(50.0)
-"""[rad/s] TEO's drives (nodes/common-ipos.ini of teo-configuration-files)."""
 _ROUNDING = 1e-6
 _NEIGHBOURS = 3  # joints between two links that touch by construction
 

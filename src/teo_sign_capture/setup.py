@@ -16,7 +16,6 @@ setup(
     ],
     install_requires=[
         "setuptools",
-        "casadi",
         "distributed",
         "numpy",
         "opencv-python-headless",
@@ -27,6 +26,7 @@ setup(
         "rich",
         "rosbags",
         "scipy",
+        "spoken-to-signed",
         "threadpoolctl",
         "typer",
     ],

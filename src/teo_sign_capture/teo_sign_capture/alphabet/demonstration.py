@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
 from teo_description.tendons import RIGHT_AXES
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness, Provenance
@@ -30,10 +30,10 @@ SPELLING_POSES = {
 }
 
 _PAUSE = 0.5  # [s], after each sign of the demonstration
+# Every motor at rest, tendons slack: the thumb stands out from the straight fingers.
 _OPEN_HAND = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-"""Every motor at rest, tendons slack: the thumb stands out from the straight fingers."""
+# [rad] The poses are published to a tenth of a degree: a joint beyond its limit by half of that is on it.
 _ROUNDING = np.radians(0.05)
-"""[rad] The poses are published to a tenth of a degree: a joint beyond its limit by half of that is on it."""
 
 
 @dataclass(frozen=True, kw_only=True)

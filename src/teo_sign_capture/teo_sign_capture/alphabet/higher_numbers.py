@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from teo_description import COMMANDED_JOINTS, HOME, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 
@@ -27,16 +27,16 @@ _FLICKED = {"12": "2", "13": "3", "14": "4", "15": "5", "16": "6", "17": "7", "1
 _SEEN = ("11", "12", "13", "14")
 _WRITTEN_OUT = ("20", "30", "40", "50", "60", "70", "80", "90", "100")
 
+# [rad] Flexion of a hooked finger, as of the scores' `hook`.
 _HOOKED = np.radians(45.0)
-"""[rad] Flexion of a hooked finger, as of the scores' `hook`."""
+# [s] Hooked before the flick, and the flick; TEO's fingers need longer.
 _HELD_HOOKED, _FLICK = 0.2, 0.2
-"""[s] Hooked before the flick, and the flick; TEO's fingers need longer."""
+# [rad], times and [s] of each half: a shake of the wrist that is "small" and yet moves the tip by 3 cm.
 _SHAKE, _SHAKES, _SHAKE_TIME = np.radians(10.0), 2, 0.15
-"""[rad], times and [s] of each half: a shake of the wrist that is "small" and yet moves the tip by 3 cm."""
+# [s] From digit to digit, and half of the way aside between two equal ones.
 _BETWEEN = 0.35
-"""[s] From digit to digit, and half of the way aside between two equal ones."""
+# [rad] How far the elbow opens between two equal digits.
 _ASIDE = np.radians(8.0)
-"""[rad] How far the elbow opens between two equal digits."""
 
 
 def higher_number_signs(robot: Robot, digits: Mapping[str, Sign]) -> list[Sign]:

@@ -14,15 +14,14 @@ from teo_description import RIGHT_ARM, RIGHT_HAND, description_hash, joint_limit
 from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import SPELLING_POSES
-from teo_sign_capture.alphabet.face import shift_off_face
-from teo_sign_capture.alphabet.letter_notes import NOTES
-from teo_sign_capture.alphabet.posture_arm import PALM_FRAME, ArmFit, fit_arm, follow_arm
-from teo_sign_capture.alphabet.posture_hand import HandFit, fit_dextra
-from teo_sign_capture.alphabet.posture_whole import fit_whole
+from teo_sign_capture.alphabet.face_visibility import shift_off_face
+from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME, ArmFit, fit_arm, follow_arm
+from teo_sign_capture.alphabet.spelling_arm_and_hand import fit_whole
+from teo_sign_capture.alphabet.spelling_hand import HandFit, fit_dextra
 from teo_sign_capture.alphabet.stroke import Stroke, find_stroke, palm_centres, reaches, tilts
 from teo_sign_capture.recordings.letter_clips import LICENCE, PACKAGE, LetterClip, clips_version
 from teo_sign_capture.retarget.knot_reduction import reduce_to_knots
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, measure_signer
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
@@ -32,16 +31,50 @@ Frames = NDArray[np.int64]
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 
+# [rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
+# the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement.
 _TOLERANCE = np.radians(2.0)
-"""[rad] Knots follow the recorded motion to this, 7 mm at the finger tips of a hand that turns at its wrist:
-the slight swings in which a movement dies away would cost TEO, at 50 deg/s, more time than the movement."""
+# [rad] A palm that is farther than this from the person's is worth giving up place and shape for.
 _OUT_OF_REACH = np.radians(20.0)
-"""[rad] A palm that is farther than this from the person's is worth giving up place and shape for."""
+# N and Ñ are M with a finger less. Their clips differ by 15 deg in the palm, which would lead to other arms.
 _SAME_ARM = {"N": "M", "Ñ": "M"}
-"""N and Ñ are M with a finger less. Their clips differ by 15 deg in the palm, which would lead to other
-arms."""
+# Each shift off the face moves the arm, and with it the hand a little back.
 _FACE_TRIES = 4
-"""Each shift off the face moves the arm, and with it the hand a little back."""
+
+_HANGING = (
+    "TEO's wrist cannot bend the hand down: it hangs before the right breast instead of beside the face, its "
+    "palm half as far down as the signer's."
+)
+_MOVES_ONLY = "Differs from {} by its movement from side to side only."
+_FIST = "TEO's thumb cannot lie over the fist: it stands beside it, along the index."
+
+# What must be said about single letters beside the numbers.
+_NOTES: dict[str, str] = {
+    "D": "The thumb meets middle and ring finger; the little finger stays a finger's width away.",
+    "E": "A half-closed hand: the knuckles of TEO's fingers cannot stay straight under a claw.",
+    "F": "The thumb stays beside the bent index, a finger's width away, instead of crossing it.",
+    "G": "Moves from side to side, as recorded.",
+    "H": "Two holds, beside the face and before the body, as recorded; the second is seen badly: doubtful.",
+    "I": _FIST,
+    "J": _FIST,
+    "LL": _MOVES_ONLY.format("L"),
+    "M": _HANGING,
+    "N": f"{_HANGING} Arm as for M.",
+    "Ñ": f"{_MOVES_ONLY.format('N')} {_HANGING} Arm as for M.",
+    "Q": (
+        "The recording's tracker of the hand lost it in 15 of 25 frames, while that of the body saw the arm "
+        "stay: shape and palm are those seen before and after. A movement in between would not be seen. The "
+        "thumb stays off the fingers."
+    ),
+    "R": "TEO's fingers cannot cross: index and middle stand side by side, closed, where U's part.",
+    "RR": f"{_MOVES_ONLY.format('R')} Index and middle side by side instead of crossed.",
+    "U": "TEO's fingers cannot spread: the index bends forwards a little, parting them from the front.",
+    "V": f"{_MOVES_ONLY.format('U')} Spread as in U.",
+    "W": "Moves from side to side. Spread shown by bending the index a little.",
+    "X": "Hooked index; then the hand turns and draws back, as recorded; the index is seen badly then.",
+    "Y": f"The little finger bends again and again. {_FIST}",
+    "Z": f"The little finger draws the letter. {_FIST}",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,7 +257,7 @@ def _provenance(clip: LetterClip, letter: str) -> Provenance:
         created=datetime.date.today().isoformat(),
         licence=LICENCE,
         description_hash=description_hash(),
-        notes=NOTES.get(letter, ""),
+        notes=_NOTES.get(letter, ""),
     )
 
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import ArmFit, fit_arm
+from teo_sign_capture.alphabet.spelling_arm import ArmFit, fit_arm
 from teo_sign_capture.retarget.arm_bounds import mirrored
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
 
@@ -43,17 +43,17 @@ _PALM_OUT = ("1", "5")
 _TWO_HANDED = ("6", "7", "8", "9", "10")
 _OPEN_THUMB = ("5", "10")
 
+# [s] Median of the strokes of the letters of the manual alphabet: the numbers' own are not measured.
 _HOLD = 0.64
-"""[s] Median of the strokes of the letters of the manual alphabet: the numbers' own are not measured."""
 
+# [rad] Flexion of a folded finger: total 240 deg, as measured; 5 deg from the limit.
 _FOLDED = np.radians(80.0)
-"""[rad] Flexion of a folded finger: total 240 deg, as measured; 5 deg from the limit."""
 # Abductor and thumb [deg]: spread from the open hand; else as far over the palm as it goes without touching
 # what is folded there, by how many fingers are straight.
 _THUMB_SPREAD = (0.0, -60.0)
 _THUMB_OVER_PALM = {1: (45.0, -15.0), 2: (70.0, -15.0), 3: (80.0, -15.0), 4: (80.0, -15.0)}
+# [rad] Fingers bent to the opposed thumb: least sum of the distances of the tips without overlap.
 _ZERO_HAND = np.radians([80.0, -54.0, 40.0, 38.0, 42.0, 42.0])
-"""[rad] Fingers bent to the opposed thumb: least sum of the distances of the tips without overlap."""
 
 
 @dataclass(frozen=True, kw_only=True)

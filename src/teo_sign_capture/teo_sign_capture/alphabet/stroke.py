@@ -14,27 +14,26 @@ Array = NDArray[np.float64]
 
 # Figures below are in pixels of the normalised clips, where wrist to middle knuckle is 59 pixels, and in
 # degrees; "still" and "moving" letters lie well apart on each, as said there.
+# [pixel/frame] The wrist rises and falls faster than this; no stroke of a letter does for so long.
 _RISE = 8.0
-"""[pixel/frame] The wrist rises and falls faster than this; no stroke of a letter does for so long."""
+# [deg/frame] Fingers bend faster than this, on average of the four, while the handshape forms or dissolves.
 _FORMING = 20.0
-"""[deg/frame] Fingers bend faster than this, on average of the four, while the handshape forms or
-dissolves."""
+# [deg] A hand tilted by this much more than it is in the later three quarters of the stroke is still
+# arriving.
 _SWING = 10.0
-"""[deg] A hand tilted by this much more than it is in the later three quarters of the stroke is still
-arriving."""
+# [pixel] Way of the index tip from side to side, all swings added: at most 41 in still letters, 92 up in
+# moving.
 _SWAY = 60.0
-"""[pixel] Way of the index tip from side to side, all swings added: at most 41 in still letters, 92 up in
-moving."""
+# [deg] The palm turns more than this from its median in one frame of ten: at most 32 in letters that do not
+# turn.
 _TURN = 45.0
-"""[deg] The palm turns more than this from its median in one frame of ten: at most 32 in letters that do not
-turn."""
+# [pixel] How much a finger's reach, knuckle to tip, changes beyond once through its range: Y's little finger
+# 115, others at most 71.
 _WAG = 90.0
-"""[pixel] How much a finger's reach, knuckle to tip, changes beyond once through its range: Y's little finger
-115, others at most 71."""
+# [deg] Frames of one hold have palms within this of their first.
 _HOLD_ANGLE = 25.0
-"""[deg] Frames of one hold have palms within this of their first."""
+# [frame] A hold that is shorter is a passage.
 _HOLD_FRAMES = 4
-"""[frame] A hold that is shorter is a passage."""
 
 
 @dataclass(frozen=True, kw_only=True)

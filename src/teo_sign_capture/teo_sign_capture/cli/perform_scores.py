@@ -22,8 +22,8 @@ from teo_signs.errors import LutError
 
 _SYNTHESIZE = "teo_synthetic_signer.cli.synthesize_cli"
 _SAYS = "synthesize: "
+# [Hz] The fastest wiggles of scores go to and fro 7 times a second at most.
 _TWICE_A_SIGNS_FASTEST = 15.0
-"""[Hz] The fastest wiggles of scores go to and fro 7 times a second at most."""
 _LAST_WORDS = 300
 
 _output = Console(highlight=False)

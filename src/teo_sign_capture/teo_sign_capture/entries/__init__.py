@@ -1,1 +1,4 @@
-"""From takes to entries of the table: gates, evidence, pictures, batches."""
+"""From takes to entries of the table.
+
+One take, several takes, checks by the planner, evidence, pictures, batches.
+"""

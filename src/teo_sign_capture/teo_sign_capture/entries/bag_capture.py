@@ -19,12 +19,12 @@ from teo_signs.sign import gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
 
+# Hexadecimal digits of SHA-256 that tell one recording from another.
 DIGEST = 16
-"""Hexadecimal digits of SHA-256 that tell one recording from another."""
 _SOURCE = re.compile(r"sha256 ([0-9a-f]{16})(, cut \S+ to \S+ s)?")
 
+# Told what is done, how much of it, of how much.
 Progress = Callable[[str, int, int], None]
-"""Told what is done, how much of it, of how much."""
 
 
 @dataclass(frozen=True, kw_only=True)

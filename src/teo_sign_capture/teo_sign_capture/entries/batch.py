@@ -28,8 +28,8 @@ from teo_signs.errors import LutError
 from teo_signs.sign import gloss_key
 from teo_signs.sign_schema import Handedness
 
+# Ends the names of several takes of one sign: HOLA_1, HOLA_2.
 _TAKE = re.compile(r"_\d+$")
-"""Ends the names of several takes of one sign: HOLA_1, HOLA_2."""
 _COLUMNS = ("bag", "gloss", "start", "end", "hands", "person")
 CAPTURED, UNCHANGED = "captured", "unchanged"
 _CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer, or has no worker, by then will not

@@ -19,12 +19,12 @@ from teo_signs.pictures import FRAME_RATE, FRONT, pose_at
 Array = NDArray[np.float64]
 
 _MOMENTS = 7
+# [px] Of each picture: seven beside each other are as wide as a screen.
 _SIZE = (320, 240)
-"""[px] Of each picture: seven beside each other are as wide as a screen."""
+# [px/m] The drawn person fills the height from hands that hang to hands above the head.
 _SCALE = 0.8 * _SIZE[1]
-"""[px/m] The drawn person fills the height from hands that hang to hands above the head."""
+# [px] Where the origin of the person's axes is drawn, between the shoulders.
 _MIDDLE = (_SIZE[0] // 2, int(0.42 * _SIZE[1]))
-"""[px] Where the origin of the person's axes is drawn, between the shoulders."""
 _PAPER, _INK, _RIGHT, _LEFT = (250, 250, 252), (70, 75, 85), (200, 60, 40), (40, 90, 190)
 _TRUNK = ((2, 5), (2, 9), (5, 12), (9, 12), (1, 0), (0, 15), (0, 16), (15, 17), (16, 18))
 _ARMS = {"right": ((2, 3), (3, 4)), "left": ((5, 6), (6, 7))}
@@ -32,8 +32,8 @@ _FINGERS = tuple(
     (0 if bone == 0 else 4 * finger + bone, 4 * finger + bone + 1) for finger in range(5) for bone in range(4)
 )
 
+# Draws the demonstration at a time from the beginning of the stroke [s].
 Drawer = Callable[[float], Image]
-"""Draws the demonstration at a time from the beginning of the stroke [s]."""
 
 
 def save_capture_picture(path: Path, captured: Captured, recording: Recording | None, cache: Path) -> None:

@@ -21,14 +21,14 @@ from teo_signs.tokens import Kind, Token
 Array = NDArray[np.float64]
 
 _KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
+# [rad] The planner passes knots exactly; entries keep six decimals.
 _ON_KNOT = 1e-6
-"""[rad] The planner passes knots exactly; entries keep six decimals."""
+# Instants between two knots at which the played path is looked at: less than half a degree apart.
 _BETWEEN = 24
-"""Instants between two knots at which the played path is looked at: less than half a degree apart."""
+# [s] Five looks at the limits between two points that the drives are sent.
 _STEP = 0.004
-"""[s] Five looks at the limits between two points that the drives are sent."""
+# [rad], [rad/s]
 _LIMIT_ROUNDING = 1e-6
-"""[rad], [rad/s]"""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,11 +14,11 @@ from teo_sign_capture.entries.take import capture_take
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recordings.pose_file import read_pose_file
 
+# Said in the notes of every entry.
 LIFTED = (
     "Lifted from a clip that one camera took: what is forward follows from the lengths of limbs and bones, "
     "and the errors given are against that."
 )
-"""Said in the notes of every entry."""
 
 
 def capture_pose_file(

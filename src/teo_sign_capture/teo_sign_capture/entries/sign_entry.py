@@ -13,21 +13,21 @@ from teo_description import description_hash
 from teo_description.robot import Robot
 from teo_sign_capture.entries.playback import Playback, play
 from teo_sign_capture.entries.take import Take
-from teo_sign_capture.entries.takes import Combined, combine
+from teo_sign_capture.entries.take_combination import Combined, combine
 from teo_sign_capture.retarget.knot_reduction import TOLERANCE, deviations, reduce_to_knots
-from teo_sign_capture.retarget.measures import limit_margin_deg
-from teo_sign_capture.retarget.motion_smoothing import gentlest, is_finger
+from teo_sign_capture.retarget.motion_smoothing import is_finger, smoothest_motion
+from teo_sign_capture.retarget.quality_figures import limit_margin_deg
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_schema import Kind, Provenance, Standing
 
 Array = NDArray[np.float64]
 
+# [m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
+# apart.
 _SAID_OUT_OF_REACH = 0.12
-"""[m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
-apart."""
+# [%] Of the frames, so that a single one decides nothing.
 _SHARE = 95.0
-"""[%] Of the frames, so that a single one decides nothing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,7 +104,7 @@ def make_sign(
 def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
     """The sign in fewer knots, gently moved, and what the planner makes of it."""
     for share in (1.0, 0.5, 0.25, 0.0):
-        gentle = gentlest(whole.times, whole.joints, whole.knots, share=share)
+        gentle = smoothest_motion(whole.times, whole.joints, whole.knots, share=share)
         knots = reduce_to_knots(whole.times, gentle, share * TOLERANCE)
         sign = replace(whole, times=whole.times[knots], knots=gentle[knots])
         try:

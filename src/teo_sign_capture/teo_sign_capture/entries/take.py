@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.motion import RobotMotion, retarget_motion
+from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
@@ -18,17 +18,17 @@ from teo_signs.sign_schema import Handedness
 
 Array = NDArray[np.float64]
 
+# [m] A hand that is farther than this from where it belongs is at another part of the body: from the crown to
+# the shoulder.
 MOST_OUT_OF_REACH = 0.30
-"""[m] A hand that is farther than this from where it belongs is at another part of the body: from the crown
-to the shoulder."""
+# [s] Of the recording around a cut, from which keypoints that are lost at its edges are filled in.
 _CONTEXT = 1.0
-"""[s] Of the recording around a cut, from which keypoints that are lost at its edges are filled in."""
+# [%] Of the frames, so that a single one decides nothing.
 _SHARE = 95.0
-"""[%] Of the frames, so that a single one decides nothing."""
+# Share of a hand's keypoints of which its shape is known.
 _SEEN = 0.5
-"""Share of a hand's keypoints of which its shape is known."""
+# [s] Of sums of times and of stamps; frames are a hundred times as far apart.
 _ROUNDING = 1e-4
-"""[s] Of sums of times and of stamps; frames are a hundred times as far apart."""
 _HANDS = {"right": ("right_hand",), "left": ("left_hand",), "both": ("right_hand", "left_hand")}
 
 

@@ -1,1 +1,1 @@
-"""From points in a picture to keypoints in space, by the lengths of limbs and bones."""
+"""From points in a picture to keypoints in space, by the lengths of a person's limbs and bones."""

@@ -23,45 +23,45 @@ from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
 
+# Upper arm and forearm: towards the viewer or away.
 _SIGNS = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]])
-"""Upper arm and forearm: towards the viewer or away."""
 
+# [m] How far in front of the shoulders' centres a wrist is at least: before the trunk, before the head, and
+# beside both. A trunk is some 0.2 m deep and its shoulders in the middle of it.
 _CHEST, _FACE, _BACK = 0.09, 0.06, -0.05
-"""[m] How far in front of the shoulders' centres a wrist is at least: before the trunk, before the head, and
-beside both. A trunk is some 0.2 m deep and its shoulders in the middle of it."""
+# [m] Half the breadth of trunk and head; where the head begins and ends above the shoulders.
 _TRUNK_HALF, _HEAD_HALF, _HEAD_FROM, _HEAD_TO = 0.15, 0.09, 0.10, 0.35
-"""[m] Half the breadth of trunk and head; where the head begins and ends above the shoulders."""
+# [m] The trunk ends at the hips, this far below the shoulders.
 _TRUNK_TO = -0.45
-"""[m] The trunk ends at the hips, this far below the shoulders."""
+# [m] Elbows of arms that hang are so far behind the shoulders, those of signing arms are not.
 _ELBOW_BACK = -0.10
-"""[m] Elbows of arms that hang are so far behind the shoulders, those of signing arms are not."""
+# [m] Where wrists mostly are in front of the shoulders, and its deviation: of forearms that are raised, in
+# the space where one signs, and of arms that hang.
 _RAISED, _HANGING = (0.22, 0.12), (0.03, 0.05)
-"""[m] Where wrists mostly are in front of the shoulders, and its deviation: of forearms that are raised, in
-the space where one signs, and of arms that hang."""
+# Share of both limbs' lengths that a hanging arm has downwards.
 _HANGS = 0.85
-"""Share of both limbs' lengths that a hanging arm has downwards."""
+# [m] Deviation of all of these from person to person.
 _INSIDE = 0.03
-"""[m] Deviation of all of these from person to person."""
+# [rad] An elbow does not close beyond this angle between upper arm and forearm.
 _FOLDED = np.radians(35.0)
-"""[rad] An elbow does not close beyond this angle between upper arm and forearm."""
 _FOLDED_DEVIATION = np.radians(8.0)
+# [rad] Wrists are bent by less than the first in nine postures of ten (their end is at 70 to 80 deg).
 _WRIST, _WRIST_DEVIATION = np.radians(40.0), np.radians(25.0)
-"""[rad] Wrists are bent by less than the first in nine postures of ten (their end is at 70 to 80 deg)."""
+# At most this counts a wrist that is bent too far: the hand's depth is an estimate too.
 _HAND_COST = 4.0
-"""At most this counts a wrist that is bent too far: the hand's depth is an estimate too."""
+# Cost of a forearm against what the detector guesses of its depth, and of one that points away: hands mostly
+# sign in front of their elbows.
 _DETECTOR, _FORWARD = 0.5, 0.3
-"""Cost of a forearm against what the detector guesses of its depth, and of one that points away: hands mostly
-sign in front of their elbows."""
+# [m/s] Deviation of the speed of elbow and wrist along the view.
 _SPEED = 1.5
-"""[m/s] Deviation of the speed of elbow and wrist along the view."""
+# [m] What a depth trembles in any case.
 _JITTER = 0.02
-"""[m] What a depth trembles in any case."""
+# [m/s^2] Deviation of a signing wrist's acceleration: 1 Hz over 0.4 m has 8, shakes have 30.
 _ACCELERATION = 15.0
-"""[m/s^2] Deviation of a signing wrist's acceleration: 1 Hz over 0.4 m has 8, shakes have 30."""
+# [m] Of a point across the view, of one that the detector is sure of and of one that it guesses.
 _POINT_SIGMA = (0.008, 0.05)
-"""[m] Of a point across the view, of one that the detector is sure of and of one that it guesses."""
+# Share of a limb's length by which it is off, measured and by proportion.
 _LENGTH_SIGMA = (0.07, 0.12)
-"""Share of a limb's length by which it is off, measured and by proportion."""
 
 
 class LiftedArm(NamedTuple):

@@ -12,20 +12,20 @@ from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST
 
 Array = NDArray[np.float64]
 
+# [m] Of an adult, between the centres of the joints. After Drillis and Contini, "Body Segment Parameters"
+# (1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of shoulders, to which
+# and from which detectors measure, are some 4 cm further in and down.
 SHOULDERS, UPPER_ARM, FOREARM = 0.36, 0.28, 0.24
-"""[m] Of an adult, between the centres of the joints. After Drillis and Contini, "Body Segment Parameters"
-(1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of shoulders, to which
-and from which detectors measure, are some 4 cm further in and down."""
 
+# A person turns, and a limb points at the camera: the length is what few frames exceed.
 _SHOULDERS_PERCENTILE, _LIMB_PERCENTILE = 90.0, 95.0
-"""A person turns, and a limb points at the camera: the length is what few frames exceed."""
+# A limb of this share of what the shoulders let expect lay across the view at some time. Shorter, it was
+# always foreshortened; longer, something was found wrong. Rendered adults had 0.85 to 1.25.
 _FULL_LENGTH = (0.8, 1.35)
-"""A limb of this share of what the shoulders let expect lay across the view at some time. Shorter, it was
-always foreshortened; longer, something was found wrong. Rendered adults had 0.85 to 1.25."""
+# How far a measured length is believed: also an arm that hangs is some 15 deg out of the view.
 _TRUST = 0.7
-"""How far a measured length is believed: also an arm that hangs is some 15 deg out of the view."""
+# Confidence of points that are measured, where there are such.
 _SURE = 0.3
-"""Confidence of points that are measured, where there are such."""
 
 
 @dataclass(frozen=True, kw_only=True)

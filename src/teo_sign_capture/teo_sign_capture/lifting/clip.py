@@ -31,13 +31,13 @@ from teo_sign_capture.tracks.skeleton_track import WRIST as BODY_WRIST
 
 Array = NDArray[np.float64]
 
+# `Keypoint3D.STATUS_*`: seen, its depth follows from limb lengths; or not known.
 _OPTIMISED, _LOST = 3, 0
-"""`Keypoint3D.STATUS_*`: seen, its depth follows from limb lengths; or not known."""
 _SIDES = ("right", "left")
+# [m] Of shoulders and hips along the view: of a trunk that is turned by 15 deg.
 _TRUNK_SIGMA = 0.04
-"""[m] Of shoulders and hips along the view: of a trunk that is turned by 15 deg."""
+# [m] Of a point of the body across the view.
 _ACROSS_SIGMA = 0.01
-"""[m] Of a point of the body across the view."""
 
 
 def lift_clip(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:

@@ -20,13 +20,17 @@ from teo_sign_capture.tracks.hand_model import INDEX, KNUCKLES, LITTLE, PALM, TH
 
 Array = NDArray[np.float64]
 
+# Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out.
 BONES = tuple(
     (WRIST if bone == 0 else first + bone - 1, first + bone)
     for first in (THUMB, *KNUCKLES)
     for bone in range(4)
 )
-"""Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out."""
 
+# [m] Of an adult. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand Segments", Int. J.
+# Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and of 27 mm of carpal
+# bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in the clips of
+# `letter_clips`.
 BONE_LENGTHS = 1e-3 * np.array(
     [
         *(36.0, 46.2, 31.6, 21.7),
@@ -36,36 +40,32 @@ BONE_LENGTHS = 1e-3 * np.array(
         *(81.0, 32.7, 18.1, 16.0),
     ]
 )
-"""[m] Of an adult. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand Segments", Int. J.
-Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and of 27 mm of carpal
-bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in the clips of
-`letter_clips`."""
 
+# A bone lies across the view in some frames: its length is what 9 of 10 do not exceed.
 _PERCENTILE = 90.0
-"""A bone lies across the view in some frames: its length is what 9 of 10 do not exceed."""
+# Hands are within these shares of an adult's that suits the body; what is outside was found wrong.
 _SIZE = (0.75, 1.35)
-"""Hands are within these shares of an adult's that suits the body; what is outside was found wrong."""
+# Of a bone of that size: never seen at full length below, found wrong above.
 _LEAST_SHARE, _GREATEST_SHARE = 0.85, 1.25
-"""Of a bone of that size: never seen at full length below, found wrong above."""
+# Units of the clip for a unit of its depth: pixels for pixels have 1, pixels for widths of the picture some
+# hundreds.
 _SCALES = np.geomspace(0.05, 20000.0, 120)
-"""Units of the clip for a unit of its depth: pixels for pixels have 1, pixels for widths of the picture some
-hundreds."""
+# A guess of depth must make the bones' lengths more even than none by this share, or it is noise.
 _LEAST_TURN = 0.02
-"""A guess of depth must make the bones' lengths more even than none by this share, or it is noise."""
+# Deviation of a bone's length as a share of it.
 _LENGTH_SHARE = 0.08
-"""Deviation of a bone's length as a share of it."""
+# Deviation of the detector's guess of a depth as a share of the bone's length: of the palm's bones, which a
+# detector sees whole, and of fingers, which hide each other. Shape (20,).
 _GUESS_SHARE = np.where(np.arange(len(BONES)) % 4 == 0, 0.15, 0.3)
-"""Deviation of the detector's guess of a depth as a share of the bone's length: of the palm's bones, which a
-detector sees whole, and of fingers, which hide each other. Shape (20,)."""
+# Where there is no guess, a hand goes on as its forearm, give or take this share of a bone's length; bones of
+# fingers are bent out of it to the palm's side by that share.
 _NO_GUESS_SHARE, _BENT = 0.6, 0.4
-"""Where there is no guess, a hand goes on as its forearm, give or take this share of a bone's length; bones
-of fingers are bent out of it to the palm's side by that share."""
+# Depths that are tried, in lengths of the bone.
 _STEPS = np.linspace(-1.0, 1.0, 81)
-"""Depths that are tried, in lengths of the bone."""
+# [m/s^2] Deviation of the acceleration of a bone's end about its beginning, along the view.
 _ACCELERATION = 12.0
-"""[m/s^2] Deviation of the acceleration of a bone's end about its beginning, along the view."""
+# [m] Of a point across the view: two pixels of a person who is 500 pixels high.
 _POINT_SIGMA = 0.004
-"""[m] Of a point across the view: two pixels of a person who is 500 pixels high."""
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
 

@@ -15,9 +15,11 @@ from teo_sign_capture.tracks.skeleton_track import EAR, EYE, NOSE
 
 Array = NDArray[np.float64]
 
+# Places in BODY_25.
 POINTS = (NOSE, EYE["right"], EYE["left"], EAR["right"], EAR["left"])
-"""Places in BODY_25."""
 
+# [m] Forward, left, up, from the middle of the ears: of an adult, to the centimetre. Pupils are 63 mm apart
+# and tragi 0.15 m.
 HEAD = np.array(
     [
         [0.115, 0.0, -0.025],
@@ -27,17 +29,15 @@ HEAD = np.array(
         [0.0, 0.075, 0.0],
     ]
 )
-"""[m] Forward, left, up, from the middle of the ears: of an adult, to the centimetre. Pupils are 63 mm apart
-and tragi 0.15 m."""
+# [m] How far ears are in front of the shoulders of an upright person.
 IN_FRONT = 0.02
-"""[m] How far ears are in front of the shoulders of an upright person."""
 
+# [m] Deviation of a point from a person's own head.
 _POINT = 0.01
-"""[m] Deviation of a point from a person's own head."""
+# [rad] Deviation of the head's turn from straight ahead, and from one frame to the next.
 _TURN, _STEP = 0.6, 0.15
-"""[rad] Deviation of the head's turn from straight ahead, and from one frame to the next."""
+# Deviation of a head's size from the usual.
 _SIZE = 0.1
-"""Deviation of a head's size from the usual."""
 _LEAST_POINTS = 3
 
 

@@ -1,1 +1,1 @@
-"""The node that captures a sign live."""
+"""The ROS node that captures a sign live."""

@@ -1,1 +1,4 @@
-"""Sign scores: signs written down by their form, and brought onto the robot."""
+"""Sign scores.
+
+Signs written down by their form, read, brought onto the robot, or performed by the synthetic signer.
+"""

@@ -17,9 +17,9 @@ from teo_description.hand_geometry import DextraHand
 from teo_description.robot import Robot
 from teo_sign_capture.notation.targets import HandTarget
 from teo_sign_capture.retarget.arm_bounds import Bounds
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import EASY_ARM, JOINTS, ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.viterbi import cheapest_path
 
@@ -48,7 +48,7 @@ _SAME = np.radians(2.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reach:
+class ArmCandidate:
     """An arm for a target, seen as a right arm.
 
     Attributes:
@@ -68,17 +68,17 @@ class ArmSolver:
     """Finds arms for targets on one robot."""
 
     def __init__(self, robot: Robot) -> None:
-        self._chain = ArmChain(robot)
+        self._chain = ArmKinematics(robot)
         self._hand = DextraHand(robot)
 
-    def reaches(self, targets: Sequence[HandTarget], bounds: Bounds) -> list[list[Reach]]:
+    def candidates(self, targets: Sequence[HandTarget], bounds: Bounds) -> list[list[ArmCandidate]]:
         """The arms for each target at which the search ends, one for each valley, the best first."""
         goals = _goals(targets, np.array([self.part(target) for target in targets]))
         problem = ArmProblem(self._chain, (goals,), weights=_WEIGHTS)
         found, costs = search_arms(problem, 0, np.arange(len(targets)), bounds)
         return [self._distinct(*of_target) for of_target in zip(targets, found, costs, strict=True)]
 
-    def _distinct(self, target: HandTarget, found: Array, costs: Array) -> list[Reach]:
+    def _distinct(self, target: HandTarget, found: Array, costs: Array) -> list[ArmCandidate]:
         poses = self._chain.poses(found)
         palms, fingers = (
             2.0 * np.arcsin(np.clip(np.linalg.norm(reached - wanted, axis=1) / 2.0, 0.0, 1.0))
@@ -87,18 +87,18 @@ class ArmSolver:
                 (poses.rotation[:, :, 0], target.fingers),
             )
         )
-        reaches: list[Reach] = []
+        candidates: list[ArmCandidate] = []
         for index in np.argsort(costs, kind="stable").tolist():
-            if all(np.abs(found[index] - other.positions).max() > _SAME for other in reaches):
-                reaches.append(
-                    Reach(
+            if all(np.abs(found[index] - other.positions).max() > _SAME for other in candidates):
+                candidates.append(
+                    ArmCandidate(
                         positions=found[index],
                         palm_error=float(palms[index]),
                         finger_error=float(fingers[index]),
                         cost=float(costs[index]),
                     )
                 )
-        return reaches
+        return candidates
 
     def part(self, target: HandTarget) -> Array:
         """Where the part of the hand that meets the place is, in the axes of the palm [m]. Shape (3,)."""
@@ -154,9 +154,9 @@ def _goals(targets: Sequence[HandTarget], parts: Array) -> HandGoals:
     )
 
 
-def smoothest(candidates: list[list[Reach]]) -> list[Reach]:
+def cheapest_sequence(choices: list[list[ArmCandidate]]) -> list[ArmCandidate]:
     """One arm a posture, such that their costs and the ways between them are least together."""
-    costs = [np.array([reach.cost for reach in reaches]) for reaches in candidates]
-    arms = [np.array([reach.positions for reach in reaches]) for reaches in candidates]
+    costs = [np.array([candidate.cost for candidate in candidates]) for candidates in choices]
+    arms = [np.array([candidate.positions for candidate in candidates]) for candidates in choices]
     path = cheapest_path(costs, arms, _NEARNESS)
-    return [reaches[index] for reaches, index in zip(candidates, path.tolist(), strict=True)]
+    return [candidates[index] for candidates, index in zip(choices, path.tolist(), strict=True)]

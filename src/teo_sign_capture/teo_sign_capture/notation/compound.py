@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from teo_sign_capture.notation.score_schema import Compound, HandScore, HeadScore, Score, Step, flattened
 
+# [s] From one part to the next. In the dictionary's compounds (BUENOS_DÍAS and the like) 0.2 s to 0.4 s.
 _BETWEEN = 0.3
-"""[s] From one part to the next. In the dictionary's compounds (BUENOS_DÍAS and the like) 0.2 s to 0.4 s."""
 
+# A left hand that is not needed yet: before the hip, where no other hand comes by.
 _WAITING = HandScore(
     shape="relaxed", place="belly 16 front 28 out", part="palm", palm="in down", fingers="front"
 )
-"""A left hand that is not needed yet: before the hip, where no other hand comes by."""
 
 
 def performed(compound: Compound, parts: Sequence[Score]) -> Score:

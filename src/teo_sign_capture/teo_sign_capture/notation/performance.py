@@ -14,25 +14,24 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from teo_sign_capture.notation.performance_places import person_place
-from teo_sign_capture.notation.performance_shapes import FINGERS, person_shape
+from teo_sign_capture.notation.person_inventory import FINGERS, person_place, person_shape
 from teo_sign_capture.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import split_place
 
 Array = NDArray[np.float64]
 
+# [s] The hands hang before and after a sign: longer than any hold, so that rest is told from sign.
 REST = 0.5
-"""[s] The hands hang before and after a sign: longer than any hold, so that rest is told from sign."""
+# [s] From there to the first posture, and back: 0.6 m at a peak of 2 m/s, as fast as signers are.
 WAY = 0.6
-"""[s] From there to the first posture, and back: 0.6 m at a peak of 2 m/s, as fast as signers are."""
+# [s] A step without time is gone at one image of a camera: no hand is in two places at once.
 _LEAST_MOVE = 0.04
-"""[s] A step without time is gone at one image of a camera: no hand is in two places at once."""
+# Key poses on a circle's round; what is between follows the circle to 1 % of its radius.
 _PER_TURN = 12
-"""Key poses on a circle's round; what is between follows the circle to 1 % of its radius."""
 
+# Parts that the synthetic signer has another word for.
 _POINTS: dict[Part, str] = {"index": "index_tip", "thumb": "thumb_tip"}
-"""Parts that the synthetic signer has another word for."""
 
 
 @dataclass(frozen=True, kw_only=True)

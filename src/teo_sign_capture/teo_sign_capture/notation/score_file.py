@@ -15,7 +15,7 @@ from teo_signs.errors import LutError
 from teo_signs.look_up_table import LANGUAGE
 from teo_signs.sign import gloss_key
 
-#: A score of a dozen steps is 2 kB; this is no score.
+# A score of a dozen steps is 2 kB; this is no score.
 _MOST_BYTES = 100_000
 
 

@@ -12,28 +12,28 @@ from numpy.typing import NDArray
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
-from teo_sign_capture.notation.arm_solver import ArmSolver, Reach, smoothest
-from teo_sign_capture.notation.knot_rows import knots_of
+from teo_sign_capture.notation.arm_solver import ArmCandidate, ArmSolver, cheapest_sequence
+from teo_sign_capture.notation.score_knots import knots_of
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
 from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored
-from teo_sign_capture.retarget.measures import clearance_mm, least_clearance, limit_margin_deg
+from teo_sign_capture.retarget.quality_figures import clearance_mm, least_clearance, limit_margin_deg
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
 
 Array = NDArray[np.float64]
 
+# [m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the
+# planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close.
 _CLEARANCE = 0.012
-"""[m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that
-the planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close."""
+# [m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach 8
+# cm beyond the middle of its palm.
 _PUSH, _MOST_PUSHES = 0.012, 12
-"""[m] Step by which a hand is moved off what it would go into, and how many: the shapes of TEO's hand reach
-8 cm beyond the middle of its palm."""
+# What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg.
 _TOUCH = 0.5
-"""What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg."""
+# [rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body.
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
-"""[rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body."""
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _OUT = np.array([0.0, -1.0, 0.0])
@@ -64,9 +64,11 @@ def score_sign(robot: Robot, score: Score) -> Sign:
         provenance=_provenance(score),
         quality={
             "place_error_mm": round(1000.0 * max(place_errors), 1),
-            "palm_angle_error_deg": round(float(np.degrees(max(reach.palm_error for reach in reached))), 1),
+            "palm_angle_error_deg": round(
+                float(np.degrees(max(candidate.palm_error for candidate in reached))), 1
+            ),
             "finger_angle_error_deg": round(
-                float(np.degrees(max(reach.finger_error for reach in reached))), 1
+                float(np.degrees(max(candidate.finger_error for candidate in reached))), 1
             ),
             "clearance_mm": clearance_mm(robot, joints, knots),
             "limit_margin_deg": limit_margin_deg(joints, knots),
@@ -82,11 +84,11 @@ class _Performance:
         self._score = score
         self._moments = moments
         self._solver = ArmSolver(robot)
-        self._known: dict[tuple[object, ...], list[Reach]] = {}
+        self._known: dict[tuple[object, ...], list[ArmCandidate]] = {}
         self._left_bounds = arm_bounds("left")
         self._right_bounds = arm_bounds("both" if score.hands == "mirrored" else "right")
 
-    def solve(self) -> tuple[list[Reach], list[Reach]]:
+    def solve(self) -> tuple[list[ArmCandidate], list[ArmCandidate]]:
         """Right and left arms for every moment; the left ones are empty where the left arm takes no part.
 
         Raises:
@@ -119,28 +121,28 @@ class _Performance:
             "move the place",
         )
 
-    def place_errors(self, rights: list[Reach], lefts: list[Reach]) -> list[float]:
+    def place_errors(self, rights: list[ArmCandidate], lefts: list[ArmCandidate]) -> list[float]:
         """How far the parts of the hands are from their places, moved off or not [m]."""
-        wanted: list[tuple[HandTarget, Reach]] = []
+        wanted: list[tuple[HandTarget, ArmCandidate]] = []
         for index, (moment, right) in enumerate(zip(self._moments, rights, strict=True)):
             target = moment.right
             if lefts and moment.left is not None:
                 target = self._resolved(target, moment.left, lefts[index])
                 wanted.append((moment.left, lefts[index]))
             wanted.append((target, right))
-        return [self._solver.distance(target, reach.positions) for target, reach in wanted]
+        return [self._solver.distance(target, candidate.positions) for target, candidate in wanted]
 
     def clearance(self, joints: tuple[str, ...], row: Array) -> Clearance:
         """Smallest distance between parts of the robot in a pose."""
         pose = dict(zip(joints, row.tolist(), strict=True))
         return self._robot.clearance(self._robot.configuration(pose))
 
-    def _arms(self, pushes: Array) -> tuple[list[Reach], list[Reach]]:
+    def _arms(self, pushes: Array) -> tuple[list[ArmCandidate], list[ArmCandidate]]:
         if self._score.hands != "both":
             targets = [
                 _pushed(moment.right, push) for moment, push in zip(self._moments, pushes, strict=True)
             ]
-            rights = smoothest(self._reaches(targets, self._right_bounds, "right"))
+            rights = cheapest_sequence(self._candidates(targets, self._right_bounds, "right"))
             return rights, []
         left_targets = [moment.left for moment in self._moments if moment.left is not None]
         # Where the right hand is on the left one, the right hand gives way.
@@ -149,62 +151,65 @@ class _Performance:
             target if stay else _pushed(target, push)
             for target, stay, push in zip(left_targets, stays, pushes, strict=True)
         ]
-        lefts = smoothest(self._reaches(left_targets, self._left_bounds, "left"))
+        lefts = cheapest_sequence(self._candidates(left_targets, self._left_bounds, "left"))
         targets = [
-            _pushed(self._resolved(moment.right, left, reach), push)
-            for moment, left, reach, push in zip(self._moments, left_targets, lefts, pushes, strict=True)
+            _pushed(self._resolved(moment.right, left, candidate), push)
+            for moment, left, candidate, push in zip(self._moments, left_targets, lefts, pushes, strict=True)
         ]
-        candidates = [
-            self._beside(target, reaches, moment, left)
-            for target, reaches, moment, left in zip(
+        choices = [
+            self._beside(target, candidates, moment, left)
+            for target, candidates, moment, left in zip(
                 targets,
-                self._reaches(targets, self._right_bounds, "right"),
+                self._candidates(targets, self._right_bounds, "right"),
                 self._moments,
                 lefts,
                 strict=True,
             )
         ]
-        return smoothest(candidates), lefts
+        return cheapest_sequence(choices), lefts
 
-    def _resolved(self, right: HandTarget, left: HandTarget, reach: Reach) -> HandTarget:
+    def _resolved(self, right: HandTarget, left: HandTarget, candidate: ArmCandidate) -> HandTarget:
         """A target on the left hand, in ``base_link``; away from the left palm is its way out."""
         if not right.other:
             return right
-        point = _MIRROR * self._solver.hand_point(reach.positions, left, right.other)
+        point = _MIRROR * self._solver.hand_point(candidate.positions, left, right.other)
         wanted = point + right.point
-        away = wanted - _MIRROR * self._solver.palm(reach.positions)[1]
+        away = wanted - _MIRROR * self._solver.palm(candidate.positions)[1]
         # The hand comes from where its own palm does not look.
         outward = away / max(float(np.linalg.norm(away)), 1e-6) - right.palm
         return replace(right, point=wanted, outward=outward / max(float(np.linalg.norm(outward)), 1e-6))
 
-    def _reaches(self, targets: list[HandTarget], bounds: Bounds, side: str) -> list[list[Reach]]:
+    def _candidates(self, targets: list[HandTarget], bounds: Bounds, side: str) -> list[list[ArmCandidate]]:
         """Arms for each target; those that were sought before are known."""
         keys = [_key(target, side) for target in targets]
         new = {key: target for key, target in zip(keys, targets, strict=True) if key not in self._known}
         if new:
-            found = self._solver.reaches(list(new.values()), bounds)
-            for (key, target), reaches in zip(new.items(), found, strict=True):
+            found = self._solver.candidates(list(new.values()), bounds)
+            for (key, target), candidates in zip(new.items(), found, strict=True):
                 self._known[key] = [
-                    replace(reach, cost=reach.cost + self._touch(target, reach, side)) for reach in reaches
+                    replace(candidate, cost=candidate.cost + self._touch(target, candidate, side))
+                    for candidate in candidates
                 ]
         return [self._known[key] for key in keys]
 
-    def _beside(self, target: HandTarget, reaches: list[Reach], moment: Posture, left: Reach) -> list[Reach]:
+    def _beside(
+        self, target: HandTarget, candidates: list[ArmCandidate], moment: Posture, left: ArmCandidate
+    ) -> list[ArmCandidate]:
         """Right arms, those that touch the left one at a higher cost."""
         assert moment.left is not None
         other = np.concatenate([mirrored(left.positions), moment.left.shape])
         joints = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
         return [
-            replace(reach, cost=reach.cost + _TOUCH)
-            if self.clearance(joints, np.concatenate([reach.positions, target.shape, other])).distance
+            replace(candidate, cost=candidate.cost + _TOUCH)
+            if self.clearance(joints, np.concatenate([candidate.positions, target.shape, other])).distance
             < _CLEARANCE
-            else reach
-            for reach in reaches
+            else candidate
+            for candidate in candidates
         ]
 
-    def _touch(self, target: HandTarget, reach: Reach, side: str) -> float:
+    def _touch(self, target: HandTarget, candidate: ArmCandidate, side: str) -> float:
         """What it costs that an arm, the other at rest, touches the body."""
-        arm = mirrored(reach.positions) if side == "left" else reach.positions
+        arm = mirrored(candidate.positions) if side == "left" else candidate.positions
         joints = LEFT_ARM + LEFT_HAND if side == "left" else RIGHT_ARM + RIGHT_HAND
         near = self.clearance(joints, np.concatenate([arm, target.shape])).distance
         return _TOUCH if near < _CLEARANCE else 0.0

@@ -11,7 +11,7 @@ from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import OTHER_HAND, split_place
 from teo_signs.sign_schema import STANDING_MEANING, Gloss, Standing, Text
 
-#: Part of the hand that is at the place.
+# Part of the hand that is at the place.
 Part = Literal["palm", "fingertips", "index", "thumb", "index_side", "little_side", "back", "wrist"]
 
 

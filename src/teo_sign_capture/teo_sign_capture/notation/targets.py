@@ -15,11 +15,11 @@ from teo_sign_capture.signing_space.places import OTHER_HAND, find_place, split_
 
 Array = NDArray[np.float64]
 
+# [m] A hand that is farther than this from its place on the body is before it, not on it: its orientation
+# counts as in the air.
 _ON_BODY = 0.10
-"""[m] A hand that is farther than this from its place on the body is before it, not on it: its orientation
-counts as in the air."""
+# Postures on a circle's round: the straight lines between them stay within 8 % of the radius of it.
 _PER_TURN = 8
-"""Postures on a circle's round: the straight lines between them stay within 8 % of the radius of it."""
 
 
 @dataclass(frozen=True, kw_only=True)

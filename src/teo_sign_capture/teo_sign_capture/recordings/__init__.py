@@ -1,1 +1,4 @@
-"""What a sign is captured from: bags of skeletons or images, `.pose` clips, live skeletons."""
+"""What a sign is captured from.
+
+Bags of images or skeletons, `.pose` clips, clips of letters, live skeletons.
+"""

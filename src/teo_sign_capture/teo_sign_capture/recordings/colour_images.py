@@ -16,12 +16,12 @@ from teo_sign_capture.recordings.skeleton_bag import TYPE
 
 Array = NDArray[np.float64]
 
+# [s] An image this far outside the stroke still shows its beginning or end: three images at 30 Hz.
 _NEAREST = 0.1
-"""[s] An image this far outside the stroke still shows its beginning or end: three images at 30 Hz."""
+# Of the width of the shoulders, around the keypoints: from the nose to the crown and a little paper.
 _MARGIN = 0.45
-"""Of the width of the shoulders, around the keypoints: from the nose to the crown and a little paper."""
+# Nose, right shoulder, elbow and wrist, left shoulder, elbow and wrist in BODY_25.
 _UPPER_BODY = (0, 2, 3, 4, 5, 6, 7)
-"""Nose, right shoulder, elbow and wrist, left shoulder, elbow and wrist in BODY_25."""
 _PAPER = (250, 250, 252)
 
 

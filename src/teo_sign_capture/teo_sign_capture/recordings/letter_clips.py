@@ -29,10 +29,10 @@ DEPTH_SCALE = 620.0
 
 _HAND = "RIGHT_HAND_LANDMARKS"
 _BODY, _BODY_WRIST = "POSE_LANDMARKS", 16
+# [pixel] The hand's wrist is within 27 of the body's in every letter's stroke but Q's, where 15 frames in a
+# row have it 34 to 55 away and the hand shrunk to a third: the hand was lost, the arm was not. Wrist to
+# middle knuckle is 59.
 _LOST = 30.0
-"""[pixel] The hand's wrist is within 27 of the body's in every letter's stroke but Q's, where 15 frames in a
-row have it 34 to 55 away and the hand shrunk to a third: the hand was lost, the arm was not. Wrist to middle
-knuckle is 59."""
 
 
 @dataclass(frozen=True, kw_only=True)

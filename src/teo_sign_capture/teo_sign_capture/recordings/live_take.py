@@ -10,16 +10,16 @@ from teo_sign_capture.recordings.skeleton_bag import track_of_people
 from teo_sign_capture.tracks.segmentation import find_signs
 from teo_signs.errors import LutError
 
+# [s] From the end of the countdown to the end of the sign: a breath, the longest sign and the ways up and
+# down.
 LONGEST_WAIT = 8.0
-"""[s] From the end of the countdown to the end of the sign: a breath, the longest sign and the ways up and
-down."""
 MOST_COUNTDOWN = 30.0  # [s]
+# [s] Hands that are back at rest for so long have ended the sign; beats of one sign return for less.
 _STAYS = 0.5
-"""[s] Hands that are back at rest for so long have ended the sign; beats of one sign return for less."""
+# [s] Of the countdown that is kept: where the hands rest is learned from it.
 _BEFORE = 1.0
-"""[s] Of the countdown that is kept: where the hands rest is learned from it."""
+# [s] From one look for the end to the next: each takes some hundredths of a second.
 _LOOK = 0.5
-"""[s] From one look for the end to the next: each takes some hundredths of a second."""
 
 
 class Phase(enum.Enum):

@@ -21,24 +21,24 @@ from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out.
 MAX_FILE_BYTES = 256 * 1024**2
-"""Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out."""
 
+# Four minutes at 25 frames a second, which take half a GB and half a minute to lift.
 MAX_FRAMES = 6000
-"""Four minutes at 25 frames a second, which take half a GB and half a minute to lift."""
 
+# [Hz] No camera that films signers is faster.
 MAX_RATE = 1000.0
-"""[Hz] No camera that films signers is faster."""
 
+# A person of whom fewer points are ever seen is an empty place in the file.
 _PERSON_POINTS = 3
-"""A person of whom fewer points are ever seen is an empty place in the file."""
 
+# Points given as fractions of a picture's size stay this near its middle, some way outside included...
 _FRACTION_LIMIT = 1.5
-"""Points given as fractions of a picture's size stay this near its middle, some way outside included..."""
+# ...but for one in a hundred.
 _MOST = 0.99
-"""...but for one in a hundred."""
+# Shoulders of a clip that is scaled to them are nearer to 0 than this: in a picture that is a corner.
 _CENTRED = 0.1
-"""Shoulders of a clip that is scaled to them are nearer to 0 than this: in a picture that is a corner."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

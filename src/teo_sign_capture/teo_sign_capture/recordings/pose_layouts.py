@@ -11,6 +11,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+# MediaPipe's name of points of BODY_25; the neck and the middle of the hips are means of two, legs are left
+# out.
 _MEDIAPIPE_BODY = {
     0: "NOSE",
     2: "RIGHT_SHOULDER",
@@ -26,8 +28,6 @@ _MEDIAPIPE_BODY = {
     17: "RIGHT_EAR",
     18: "LEFT_EAR",
 }
-"""MediaPipe's name of points of BODY_25; the neck and the middle of the hips are means of two, legs are left
-out."""
 
 _MEDIAPIPE_HAND = (
     "WRIST",
@@ -56,12 +56,12 @@ _OPENPOSE_BODY = {
     18: "LEar",
 }
 
+# As pose-format names them, from the wrist out.
 _OPENPOSE_HAND = (
     "BASE",
     *(f"T_{joint}" for joint in ("STT", "BCMC", "MCP", "IP")),
     *(f"{finger}_{joint}" for finger in "IMRP" for joint in ("CMC", "MCP", "PIP", "DIP")),
 )
-"""As pose-format names them, from the wrist out."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,6 +85,7 @@ class Layout:
     hand_points: Sequence[str]
 
 
+# The layouts that are read.
 LAYOUTS = (
     Layout(
         name="MediaPipe Holistic",
@@ -103,4 +104,3 @@ LAYOUTS = (
         hand_points=_OPENPOSE_HAND,
     ),
 )
-"""The layouts that are read."""

@@ -15,8 +15,8 @@ from pathlib import Path
 
 from teo_signs.errors import LutError
 
+# Told the number of messages read and that of all.
 Progress = Callable[[int, int], None]
-"""Told the number of messages read and that of all."""
 
 
 def retrieve_apart(bag: Path, out: Path, on_progress: Progress | None = None) -> tuple[str, ...]:

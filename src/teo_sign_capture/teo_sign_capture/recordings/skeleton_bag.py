@@ -18,17 +18,17 @@ from teo_signs.errors import LutError
 Array = NDArray[np.float64]
 
 TYPE = "teo_sign_msgs/msg/SkeletonArray"
+# Begins the topics in which a renderer says where everything truly was.
 TRUTH = "/truth/"
-"""Begins the topics in which a renderer says where everything truly was."""
 
 _PARTS = {"body": BODY, "left_hand": HAND, "right_hand": HAND, "face": FACE}
+# Stamps before this count from the start of a clock that knows no day, as in simulation.
 _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
-"""Stamps before this count from the start of a clock that knows no day, as in simulation."""
 
 
+# [s] The synthetic signer's takes all begin at this moment of 2023 (`synthetic/take_bag.py`, which loads for
+# seconds what draws them), and last no longer: skeletons that were found in its images carry no other sign.
 RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0
-"""[s] The synthetic signer's takes all begin at this moment of 2023 (`synthetic/take_bag.py`, which loads for
-seconds what draws them), and last no longer: skeletons that were found in its images carry no other sign."""
 
 
 def is_rendered(topics: Iterable[str], begins: float) -> bool:

@@ -1,1 +1,4 @@
-"""A person's motion as a motion of the robot: hands, arms, head, contact, collisions."""
+"""A person's motion as a motion of the robot.
+
+Where hands belong, arms, fingers, head, distances to the body, knots.
+"""

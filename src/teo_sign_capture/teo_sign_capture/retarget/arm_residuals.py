@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import RIGHT_ARM
-from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, WRIST, ArmChain, ArmPoses
+from teo_sign_capture.retarget.arm_kinematics import ELBOW, WRIST, ArmKinematics, ArmPoses
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
@@ -23,10 +23,10 @@ Goals = TypeVar("Goals", HandGoals, PairGoals)
 
 JOINTS = len(RIGHT_ARM)
 
+# [rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two.
 _TOGETHER = 12.0
-"""[rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two."""
+# [rad] An arm that signs at ease. Shape (6,).
 EASY_ARM = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
-"""[rad] An arm that signs at ease. Shape (6,)."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,6 +54,7 @@ class ArmWeights:
     easy_arm: Array
 
 
+# Weights for a motion captured from a person.
 CAPTURED = ArmWeights(
     # 10 cm beside its place in the air count as much as a palm turned by 29 deg; forwards, along the line of
     # sight of whom is signed to, less than half of it. TEO's elbow keeps its hand 46 cm off its shoulder,
@@ -72,7 +73,6 @@ CAPTURED = ArmWeights(
     easy=np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25]),
     easy_arm=EASY_ARM,
 )
-"""Weights for a motion captured from a person."""
 
 
 class Quadratic(NamedTuple):
@@ -97,7 +97,7 @@ class ArmProblem:
 
     def __init__(
         self,
-        chain: ArmChain,
+        chain: ArmKinematics,
         hands: tuple[HandGoals, ...],
         pair: PairGoals | None = None,
         weights: ArmWeights = CAPTURED,
@@ -121,7 +121,7 @@ class ArmProblem:
         hands = tuple(_cut(goals, part) for goals in self._hands)
         return ArmProblem(self._chain, hands, pair, self._weights)
 
-    def opened(self, amount: Array) -> ArmProblem:
+    def spread_apart(self, amount: Array) -> ArmProblem:
         """The same with hands away from everything, each on the side of the other on which it belongs.
 
         Hands that are near each other go apart along the way on which the person's are, the one in front

@@ -16,6 +16,9 @@ from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
 
 Array = NDArray[np.float64]
 
+# [rad] Right arms that sign, one in each valley. 64 starts more, spread evenly over the bounds, find nothing
+# better for any posture of the shipped scores; an arm that hangs finds nothing better for captured motions.
+# Shape (8, 6).
 STARTS = np.radians(
     [
         [-45.0, -12.0, 10.0, -80.0, 20.0, 0.0],  # at ease
@@ -28,9 +31,6 @@ STARTS = np.radians(
         [-68.0, -9.0, 54.0, -99.0, 89.0, 44.0],  # palm to the front
     ]
 )
-"""[rad] Right arms that sign, one in each valley. 64 starts more, spread evenly over the bounds, find nothing
-better for any posture of the shipped scores; an arm that hangs finds nothing better for captured motions.
-Shape (8, 6)."""
 # A joint so near to its bound is at it [rad].
 ON_BOUND = 1e-9
 # Steps after which the search for a posture that nothing refines ends, and the step that ends it [rad].

@@ -15,40 +15,40 @@ from scipy.linalg import solveh_banded
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem, Quadratic
 from teo_sign_capture.retarget.arm_search import ON_BOUND, search_arms
-from teo_sign_capture.retarget.collision_terms import Touches
+from teo_sign_capture.retarget.collision_terms import CollisionTerms
 from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
 
+# [s] From one frame to the next that is sought from all starts: valleys change slower than hands move.
 _EVERY = 0.1
-"""[s] From one frame to the next that is sought from all starts: valleys change slower than hands move."""
+# The search from all starts ends after so many steps: what follows refines what it finds.
 _SEARCH_STEPS = 12
-"""The search from all starts ends after so many steps: what follows refines what it finds."""
+# [1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
+# much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it.
 _JUMP = 0.5
-"""[1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
-much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it."""
+# [s] A way from valley to valley begins and ends so much before and after in all.
 _SPREAD = 0.15
-"""[s] A way from valley to valley begins and ends so much before and after in all."""
+# [s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
+# this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
+# hardly matters it smooths more.
 _SPEED = 0.04
-"""[s] Price of speed: over a joint that moves the hand as much as the shoulder does it smooths over half of
-this, less than a frame of a camera, so that a beat of 3 Hz keeps nine tenths of its height; over one that
-hardly matters it smooths more."""
+# [rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which is
+# 15 deg from one of 30 images a second to the next.
 SWIFT = np.radians(450.0)
-"""[rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which
-is 15 deg from one of 30 images a second to the next."""
+# [1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
+# 70 deg, so that an arm that changes the valley takes some frames for it.
 HASTE = 20.0
-"""[1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
-70 deg, so that an arm that changes the valley takes some frames for it."""
+# The search ends after so many steps, or when no joint moves by this any more [rad].
 _STEPS, _ENOUGH = 40, 1e-4
-"""The search ends after so many steps, or when no joint moves by this any more [rad]."""
+# The same with collision terms, which are measured anew after it: their slopes are wrong by more.
 _STEPS_OFF, _ENOUGH_OFF = 20, 3e-4
-"""The same with touches, which are measured anew after it: their slopes are wrong by more."""
+# At least this is added to the curvature, so that a step exists where a joint has no say.
 _DAMPING = 1e-4
-"""At least this is added to the curvature, so that a step exists where a joint has no say."""
+# Ten times what the price of collisions bends the sum by: where no smaller step helps, none does.
 _MOST_DAMPING = 1e6
-"""Ten times what the price of touches bends the sum by: where no smaller step helps, none does."""
+# [rad] How far from where a distance was measured its slope is believed.
 TRUSTED = np.radians(12.0)
-"""[rad] How far from where a distance was measured its slope is believed."""
 
 
 def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:
@@ -62,7 +62,7 @@ def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array
     Returns:
         Shape (T, 6 or 12) [rad].
     """
-    frames = _sought(times)
+    frames = _searched_frames(times)
     arms = []
     for hand, arm_bounds in enumerate(bounds):
         found, cost = search_arms(problem, hand, frames, arm_bounds, steps=_SEARCH_STEPS)
@@ -74,7 +74,7 @@ def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array
     return refine_arms(problem, times, bounds, np.concatenate(arms, axis=1))
 
 
-def _sought(times: Array) -> NDArray[np.intp]:
+def _searched_frames(times: Array) -> NDArray[np.intp]:
     """Frames that are sought from all starts, the first and the last among them."""
     steps = np.arange(0.0, times[-1] - times[0], _EVERY)
     found: NDArray[np.intp] = np.unique(np.append(np.searchsorted(times - times[0], steps), len(times) - 1))
@@ -87,29 +87,30 @@ def refine_arms(
     bounds: list[Bounds],
     start: Array,
     *,
-    touches: Touches | None = None,
+    terms: CollisionTerms | None = None,
     shares: Array | None = None,
     trusted: float | Array = TRUSTED,
     held: NDArray[np.bool_] | None = None,
 ) -> Array:
-    """Find the joints nearest to a motion at which what is wanted, speed and touches cost least.
+    """Find the joints nearest to a motion at which what is wanted, speed and collisions cost least.
 
     Args:
         problem: What is wanted.
         times: [s]. Shape (T,).
         bounds: Of each arm [rad]. Shapes (6,).
         start: Shape (T, 6 or 12) [rad].
-        touches: What must not touch; None if nothing can.
+        terms: What must not touch; None if nothing can.
         shares: What is wanted counts by so much in each frame, 0 to 1; None if it counts in full. Shape (T,).
-        trusted: With touches, how far from the start each joint may go [rad]; one for all, or shape (T, 1).
+        trusted: With collision terms, how far from the start each joint may go [rad]; one for all, or shape
+            (T, 1).
         held: Frames that stay as they are; None if all may move. Shape (T,).
     """
     lower, upper = (np.concatenate([arm[end] for arm in bounds]) for end in (0, 1))
-    if touches is not None:
+    if terms is not None:
         lower, upper = np.maximum(lower, start - trusted), np.minimum(upper, start + trusted)
     if held is not None:
         lower, upper = (np.where(held[:, None], start, end) for end in (lower, upper))
-    ties, farthest = _ties(times), _farthest(times)
+    prices, farthest = _speed_prices(times), _longest_steps(times)
 
     def worth(positions: Array) -> tuple[Quadratic, float]:
         here = problem.whole(positions)
@@ -117,19 +118,19 @@ def refine_arms(
             here = Quadratic(
                 here.cost * shares, here.gradient * shares[:, None], here.curvature * shares[:, None, None]
             )
-        if touches is not None:
-            here = touches.added(here, positions)
+        if terms is not None:
+            here = terms.added(here, positions)
         steps = np.diff(positions, axis=0)
         hasty = np.maximum(np.abs(steps) - farthest, 0.0)
-        speed = 0.5 * float((ties * steps**2 + HASTE * hasty**2).sum())
+        speed = 0.5 * float((prices * steps**2 + HASTE * hasty**2).sum())
         return here, float(here.cost.sum()) + speed
 
     positions = np.clip(start, lower, upper)
     here, cost = worth(positions)
     damping = _DAMPING
-    steps, enough = (_STEPS, _ENOUGH) if touches is None else (_STEPS_OFF, _ENOUGH_OFF)
+    steps, enough = (_STEPS, _ENOUGH) if terms is None else (_STEPS_OFF, _ENOUGH_OFF)
     for _ in range(steps):
-        step = _newton_step(here, positions, ties, farthest, lower, upper, damping)
+        step = _newton_step(here, positions, prices, farthest, lower, upper, damping)
         moved = np.clip(positions + step, lower, upper)
         there, lower_cost = worth(moved)
         if lower_cost > cost:
@@ -145,16 +146,16 @@ def refine_arms(
     return positions
 
 
-def _ties(times: Array) -> Array:
+def _speed_prices(times: Array) -> Array:
     """Price of the square of each step from frame to frame [1/rad^2]. Shape (T - 1, 1)."""
     if len(times) < 2:
         return np.empty((0, 1))
     steps = np.diff(times)[:, None]
-    ties: Array = _SPEED**2 / (steps * np.median(steps))
-    return ties
+    prices: Array = _SPEED**2 / (steps * np.median(steps))
+    return prices
 
 
-def _farthest(times: Array) -> Array:
+def _longest_steps(times: Array) -> Array:
     """How far a joint turns from frame to frame without haste [rad]. Shape (T - 1, 1)."""
     steps: Array = SWIFT * np.diff(times)[:, None]
     return steps
@@ -163,7 +164,7 @@ def _farthest(times: Array) -> Array:
 def _newton_step(
     here: Quadratic,
     positions: Array,
-    ties: Array,
+    prices: Array,
     farthest: Array,
     lower: Array,
     upper: Array,
@@ -173,8 +174,8 @@ def _newton_step(
     gradient = here.gradient.copy()
     steps = np.diff(positions, axis=0)
     hasty = np.abs(steps) > farthest
-    pull = ties * steps + HASTE * hasty * (steps - np.sign(steps) * farthest)
-    ties = ties + HASTE * hasty
+    pull = prices * steps + HASTE * hasty * (steps - np.sign(steps) * farthest)
+    prices = prices + HASTE * hasty
     gradient[:-1] -= pull
     gradient[1:] += pull
     held = ((positions <= lower + ON_BOUND) & (gradient > 0.0)) | (
@@ -183,8 +184,8 @@ def _newton_step(
     free = ~held
     curvature = here.curvature * (free[:, :, None] & free[:, None])
     diagonal = np.full((count, size), damping)
-    diagonal[:-1] += ties
-    diagonal[1:] += ties
+    diagonal[:-1] += prices
+    diagonal[1:] += prices
     curvature[:, np.arange(size), np.arange(size)] += np.where(free, diagonal, 1.0)
     # Upper form of a symmetric band matrix: row `width - k` holds what is k columns right of the diagonal.
     width = size if here.coupling is None else 2 * size - 1
@@ -198,6 +199,6 @@ def _newton_step(
             for column in range(size):
                 band[width - (size + column - row), size + column :: size] = coupling[:, row, column]
     if count > 1:
-        band[width - size, size:] -= np.where(free[:-1] & free[1:], ties, 0.0).ravel()
+        band[width - size, size:] -= np.where(free[:-1] & free[1:], prices, 0.0).ravel()
     step: Array = solveh_banded(band, np.where(free, -gradient, 0.0).ravel(), check_finite=False)
     return step.reshape(count, size)

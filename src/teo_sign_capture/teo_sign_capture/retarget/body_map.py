@@ -1,10 +1,14 @@
-"""Where on TEO a place at a person's body is.
+"""Where on TEO a place at or before a person's body is.
 
-Away from the body heights and distances are mapped axis by axis (`far_map`). At the body this is bent so that
-each place of articulation comes to lie on TEO's own (`score.places`): a chin is a chin. What is between is
-interpolated smoothly, and the bend fades away from the body within a forearm's length.
+TEO's shoulders are nearly twice as far apart as a person's, its head is small and its arms are longer. In the
+air the workspace is scaled axis by axis (`WorkspaceScaling`): crown, shoulders and waist keep their heights;
+distances before the body scale with the length of the arms; sideways the scale is half-way between both, so
+that circles stay nearly round; and arms stretched out, or hanging, stay so.
 
-At the head all this is done in the head's own axes: a hand at the chin stays there while the head turns.
+At the body this is bent so that each place of articulation comes to lie on TEO's own
+(`signing_space.places`): a chin is a chin. What is between is interpolated smoothly, and the bend fades away
+from the body within a forearm's length. At the head all this is done in the head's own axes: a hand at the
+chin stays there while the head turns.
 """
 
 from __future__ import annotations
@@ -12,30 +16,84 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 from teo_description import urdf_text
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.retarget.workspace_scaling import FarMap
 from teo_sign_capture.signing_space.places import find_place
 from teo_sign_capture.tracks.person import Person
 
 Array = NDArray[np.float64]
+
+
+# Of the way from the shoulders to the hips.
+_WAIST = 0.7
+# [m] Farther than any arm: what is there goes on as it was.
+_BEYOND = 3.0
+
+
+class WorkspaceScaling:
+    """The map of one person's space to TEO's, both from between the shoulders.
+
+    Attributes:
+        scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
+    """
+
+    def __init__(self, person: Person, reach: float, shoulder: float, height: float) -> None:
+        """Find it.
+
+        Args:
+            person: The person.
+            reach: Of TEO's arm, shoulder to palm [m].
+            shoulder: Half the distance between TEO's shoulders [m].
+            height: Of TEO's shoulders above its hips [m].
+        """
+        along = reach / person.arm
+        crown, own_crown = find_place("head_top").point[2] - height, person.places["head_top"][2]
+        across = (along + crown / own_crown) / 2.0
+        self._along = along
+        self._aside = _monotone(
+            [0.0, person.shoulder, person.shoulder + person.arm],
+            [0.0, across * person.shoulder, shoulder + reach],
+            along,
+        )
+        self._up = _monotone(
+            [-person.arm, -_WAIST * person.trunk, 0.0, own_crown],
+            [-reach, -_WAIST * height, 0.0, crown],
+            along,
+        )
+        self.scale: Array = np.array([along, across, height / person.trunk])
+
+    def __call__(self, points: Array) -> Array:
+        """Points of TEO's space for points of the person's [m]. Shapes (n, 3)."""
+        x, y, z = points.T
+        return np.stack([self._along * x, np.sign(y) * self._aside(np.abs(y)), self._up(z)], axis=1)
+
+
+def _monotone(ours: list[float], theirs: list[float], slope: float) -> PchipInterpolator:
+    """A smooth map through pairs that grows everywhere, and goes on with a slope at both ends."""
+    return PchipInterpolator(
+        [ours[0] - _BEYOND, *ours, ours[-1] + _BEYOND],
+        [theirs[0] - slope * _BEYOND, *theirs, theirs[-1] + slope * _BEYOND],
+    )
+
+
+# Middle and half sides [m].
 Box = tuple[Array, Array]
-"""Middle and half sides [m]."""
 
+# [m] Length over which the bend fades, on a person whose trunk is `_TRUNK` long: a contact is felt about a
+# hand's width off the skin; wider, and the places of the face would pull at what is signed before the chest.
 _REACH = 0.12
-"""[m] Length over which the bend fades, on a person whose trunk is `_TRUNK` long: a contact is felt about a
-hand's width off the skin; wider, and the places of the face would pull at what is signed before the chest."""
 _TRUNK = 0.48
+# How far, as a share, places that are next to each other may give way to each other: without it two places
+# that TEO has nearer together than a person fold the space before them.
 _GIVE = 0.02
-"""How far, as a share, places that are next to each other may give way to each other: without it two places
-that TEO has nearer together than a person fold the space before them."""
+# [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
-"""[m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person."""
 
-# Names in `score.places` of a person's places; those aside stand for both sides.
+# Names in `signing_space.places` of a person's places; those aside stand for both sides.
 _MIDDLE = {
     name: name
     for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
@@ -51,11 +109,11 @@ class BodyMap:
         scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
     """
 
-    def __init__(self, robot: Robot, arm: ArmChain, person: Person) -> None:
+    def __init__(self, robot: Robot, arm: ArmKinematics, person: Person) -> None:
         reach, shoulder = arm.reach, -float(arm.shoulder[1])
         self._origin = arm.shoulder * (1.0, 0.0, 1.0)
-        self._far_map = FarMap(person, reach, shoulder, float(arm.shoulder[2]))
-        self.scale: Array = self._far_map.scale
+        self._scaling = WorkspaceScaling(person, reach, shoulder, float(arm.shoulder[2]))
+        self.scale: Array = self._scaling.scale
         self._size = person.trunk / _TRUNK
         self._boxes = body_boxes(robot)
         self._centres, wanted = self._pairs(person)
@@ -97,7 +155,7 @@ class BodyMap:
         return smooth_step((_HEAD_LEFT - away) / (_HEAD_LEFT - _HEAD_HELD))
 
     def _far(self, points: Array) -> Array:
-        moved: Array = self._origin + self._far_map(points)
+        moved: Array = self._origin + self._scaling(points)
         return moved
 
     def _nearness(self, points: Array) -> Array:
@@ -125,7 +183,7 @@ class BodyMap:
 
 
 def on_skin(boxes: list[Box], name: str) -> Array:
-    """A place of `score.places`, moved out of the shapes that count in a collision [m]. Shape (3,)."""
+    """A place of articulation on TEO, moved out of the shapes that count in a collision [m]. Shape (3,)."""
     place = find_place(name)
     out = place.outward
     leaving = [0.0]

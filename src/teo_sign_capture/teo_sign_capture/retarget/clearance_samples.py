@@ -7,25 +7,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_capture.retarget.collision_terms import LEAST, WholeRobot, between
+from teo_sign_capture.retarget.collision_terms import LEAST, CollisionModel, between
 
 Array = NDArray[np.float64]
 
+# [rad] A posture that moves by less keeps its distances to a tenth of a millimetre.
 _STILL = 1e-4
-"""[rad] A posture that moves by less keeps its distances to a tenth of a millimetre."""
-_LOOK = 0.03
-"""[m] On a way between two frames the robot is looked at where its hands have moved by this: no hand, 3 cm
-thick, is passed unseen."""
+# [m] Distances are measured wherever the hands have moved by this on the way between two frames: no hand, 3
+# cm thick, is passed unseen.
+_SAMPLE_STEP = 0.03
+# [m] On these ways parts are at least so far apart: what curves between knots need is left.
 _ON_WAY = 0.004
-"""[m] On these ways parts are at least so far apart: what curves between knots need is left."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Looks:
+class ClearanceSamples:
     """Distances along a motion, in its frames and on the straight ways between them.
 
     Attributes:
-        frames: The frame looked at, or from which the way begins. Shape (k,).
+        frames: The frame, or the one from which the way begins. Shape (k,).
         shares: Of the way that is behind; 0 in a frame. Shape (k,).
         distances: Smallest one between parts of the robot [m]. Shape (k,).
         arms: At which they were measured [rad]. Shape (T, m).
@@ -44,7 +44,7 @@ class Looks:
 
     @property
     def short(self) -> Array:
-        """By how much each look falls short of what is asked for there; negative where it does not [m]."""
+        """By how much each distance falls short of the least one there; negative where it does not [m]."""
         short: Array = np.where(self.shares == 0.0, LEAST, _ON_WAY) - self.distances
         return short
 
@@ -58,24 +58,32 @@ class Looks:
         return tight
 
 
-def look(whole: WholeRobot, arms: Array, known: Looks | None = None) -> Looks:
+def sample_clearance(
+    model: CollisionModel, arms: Array, known: ClearanceSamples | None = None
+) -> ClearanceSamples:
     """Measure a motion; what has not moved since it was known is not measured again."""
     every = np.arange(len(arms))
-    in_frames = _distances(whole, arms, every, np.zeros(len(arms)), known)
-    ways = whole.ways(arms)
+    in_frames = _distances(model, arms, every, np.zeros(len(arms)), known)
+    ways = model.ways(arms)
     # Half way at the latest, a part is as near to one end of its way as to the other.
     surely_clear = np.minimum(in_frames[:-1], in_frames[1:]) - ways / 2.0 >= _ON_WAY
-    counts = np.append(np.where(surely_clear, 1, np.maximum(np.ceil(ways / _LOOK), 1)), 1).astype(np.intp)
+    counts = np.append(np.where(surely_clear, 1, np.maximum(np.ceil(ways / _SAMPLE_STEP), 1)), 1).astype(
+        np.intp
+    )
     frames = np.repeat(every, counts)
     shares = (np.arange(len(frames)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[frames]
     distances = in_frames[frames]
     inner = shares > 0.0
-    distances[inner] = _distances(whole, arms, frames[inner], shares[inner], known)
-    return Looks(frames=frames, shares=shares, distances=distances, arms=arms)
+    distances[inner] = _distances(model, arms, frames[inner], shares[inner], known)
+    return ClearanceSamples(frames=frames, shares=shares, distances=distances, arms=arms)
 
 
 def _distances(
-    whole: WholeRobot, arms: Array, frames: NDArray[np.intp], shares: Array, known: Looks | None
+    model: CollisionModel,
+    arms: Array,
+    frames: NDArray[np.intp],
+    shares: Array,
+    known: ClearanceSamples | None,
 ) -> Array:
     """Smallest distances on the ways from frames to the next [m]. Shape (k,) each."""
     postures = between(arms, frames, shares)
@@ -86,12 +94,12 @@ def _distances(
         before = dict(zip(keys, known.distances.tolist(), strict=True))
         here = zip(frames[still].tolist(), shares[still].tolist(), strict=True)
         measured = {key: before[key] for key in here if key in before}
-    looks = zip(frames.tolist(), postures, shares.tolist(), strict=True)
+    samples = zip(frames.tolist(), postures, shares.tolist(), strict=True)
     return np.array(
         [
             measured[frame, share]
             if (frame, share) in measured
-            else whole.clearance(frame, posture, share).distance
-            for frame, posture, share in looks
+            else model.clearance(frame, posture, share).distance
+            for frame, posture, share in samples
         ]
     )

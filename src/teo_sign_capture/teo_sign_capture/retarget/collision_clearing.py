@@ -9,48 +9,48 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import TRUSTED, refine_arms
-from teo_sign_capture.retarget.clearance_samples import Looks, look
-from teo_sign_capture.retarget.collision_terms import LEAST, WANTED, WATCHED, Touches, WholeRobot
+from teo_sign_capture.retarget.clearance_samples import ClearanceSamples, sample_clearance
+from teo_sign_capture.retarget.collision_terms import LEAST, WANTED, WATCHED, CollisionModel, CollisionTerms
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# Each finds anew what is near, and solves what still touches with it; after three most hands are off.
 _PASSES = 30
-"""Each finds anew what is near, and solves what still touches with it; after three most hands are off."""
-_OPENED, _PUSHED = 3, 11
-"""Passes after which what still touches begins anew: from hands that are away from everything, each on the
-side of the other on which the person's is (hands that have gone into each other are pushed to the wrong side;
-hands that come from outside stay on theirs; eight passes bring them back), and from the nearest moments that
-do not touch, where what is wanted counts less."""
+# Passes after which what still touches begins anew: from hands that are away from everything, each on the
+# side of the other on which the person's is (hands that have gone into each other are pushed to the wrong
+# side; hands that come from outside stay on theirs; eight passes bring them back), and from the nearest
+# moments that do not touch, where what is wanted counts less.
+_SPREAD_AFTER, _RESTART_AFTER = 3, 11
+# [rad] A pass turns no joint by more once hands come from outside, so that none skips through the other.
 _CAREFUL = np.radians(6.0)
-"""[rad] A pass turns no joint by more once hands come from outside, so that none skips through the other."""
+# [rad] Hands that come from outside are where they belong when a pass turns no joint by more.
 _SETTLED = np.radians(2.0)
-"""[rad] Hands that come from outside are where they belong when a pass turns no joint by more."""
+# [s] So much before and after what touches is solved with it: as long as a way aside takes.
 _GIVE = 0.35
-"""[s] So much before and after what touches is solved with it: as long as a way aside takes."""
+# Passes at the end over all that was moved, the first of which may have moved some of it too far.
 _EASED = 1
-"""Passes at the end over all that was moved, the first of which may have moved some of it too far."""
+# [m] So far from each other parts are watched then: what a pass may bring them nearer.
 _SEEN_FROM = 0.06
-"""[m] So far from each other parts are watched then: what a pass may bring them nearer."""
+# Share of this that moves no hand by more than 1 cm.
 _FAINT = 0.01
-"""Share of this that moves no hand by more than 1 cm."""
+# By how much less each time, and in how many frames before and after as well.
 _LESS, _AROUND = 0.3, 2
-"""By how much less each time, and in how many frames before and after as well."""
+# [m] So far apart hands begin then: TEO's forearms and hands are 10 cm thick.
 _OPEN = 0.25
-"""[m] So far apart hands begin then: TEO's forearms and hands are 10 cm thick."""
+# [s] Deviation of the Gaussian by which arms go away from everything and come back: as swift as a person.
 _OPENING = 0.12
-"""[s] Deviation of the Gaussian by which arms go away from everything and come back: as swift as a person."""
 
 
 def clear_arms(
-    problem: ArmProblem, whole: WholeRobot, track: SkeletonTrack, bounds: list[Bounds], arms: Array
+    problem: ArmProblem, model: CollisionModel, track: SkeletonTrack, bounds: list[Bounds], arms: Array
 ) -> tuple[Array, Array]:
     """Move a motion of the arms off all that it would touch.
 
     Args:
         problem: What is wanted of the arms.
-        whole: The robot.
+        model: The robot, which must not touch itself.
         track: The person, for times and errors.
         bounds: Of each arm [rad].
         arms: Shape (T, m) [rad].
@@ -62,36 +62,36 @@ def clear_arms(
     Raises:
         LutError: "self_collision" where no way off is found.
     """
-    work = _Work(problem, whole, track.times, bounds)
+    work = _Clearing(problem, model, track.times, bounds)
     wished, count = arms, len(arms)
-    looks = best = look(whole, arms)
+    samples = best = sample_clearance(model, arms)
     shares, careful, moved = np.ones(count), np.zeros(count, bool), np.zeros(count)
     touched = np.zeros(count, bool)
     for turn in range(_PASSES):
-        unsettled = careful & (moved >= _SETTLED) & (turn < _PUSHED)
-        at_work = _widened(track.times, looks.tight | unsettled)
+        unsettled = careful & (moved >= _SETTLED) & (turn < _RESTART_AFTER)
+        at_work = _widened(track.times, samples.tight | unsettled)
         if not at_work.any():
             break
-        if turn == _OPENED:
-            around = _around(track.times, looks.tight)
+        if turn == _SPREAD_AFTER:
+            around = _around(track.times, samples.tight)
             at_work = careful = around > _FAINT
-            looks = work.opened(looks, wished, around, at_work)
-        if turn >= _PUSHED:
-            shares = shares * np.where(maximum_filter1d(looks.tight, 2 * _AROUND + 1), _LESS, 1.0)
-            looks = look(whole, _begun_anew(looks.arms, looks.tight), looks)
-        before, touched = looks.arms, touched | at_work
-        looks = work.passed(looks, at_work, careful, shares)
-        moved = np.abs(looks.arms - before).max(axis=1)
-        best = min(looks, best, key=_badness)
+            samples = work.spread_apart(samples, wished, around, at_work)
+        if turn >= _RESTART_AFTER:
+            shares = shares * np.where(maximum_filter1d(samples.tight, 2 * _AROUND + 1), _LESS, 1.0)
+            samples = sample_clearance(model, _begun_anew(samples.arms, samples.tight), samples)
+        before, touched = samples.arms, touched | at_work
+        samples = work.passed(samples, at_work, careful, shares)
+        moved = np.abs(samples.arms - before).max(axis=1)
+        best = min(samples, best, key=_shortfall)
     for _ in range(_EASED if touched.any() else 0):
-        looks = work.passed(best, touched, touched, shares)
-        if _badness(looks) > _badness(best):
+        samples = work.passed(best, touched, touched, shares)
+        if _shortfall(samples) > _shortfall(best):
             break
-        best = looks
+        best = samples
     worst = int(best.in_frames.argmin())
     if best.in_frames[worst] >= LEAST:
         return best.arms, best.in_frames
-    found = whole.clearance(worst, best.arms[worst])
+    found = model.clearance(worst, best.arms[worst])
     raise LutError(
         "self_collision",
         f"{track.source}: expected a posture that TEO can take at {track.times[worst]:.2f} s, got one in "
@@ -101,35 +101,37 @@ def clear_arms(
     )
 
 
-class _Work:
+class _Clearing:
     """What is solved anew, and with what."""
 
-    def __init__(self, problem: ArmProblem, whole: WholeRobot, times: Array, bounds: list[Bounds]) -> None:
+    def __init__(
+        self, problem: ArmProblem, model: CollisionModel, times: Array, bounds: list[Bounds]
+    ) -> None:
         self._problem = problem
-        self._whole = whole
+        self._model = model
         self._times = times
         self._bounds = bounds
 
-    def opened(self, looks: Looks, wished: Array, around: Array, at_work: NDArray[np.bool_]) -> Looks:
+    def spread_apart(
+        self, samples: ClearanceSamples, wished: Array, around: Array, at_work: NDArray[np.bool_]
+    ) -> ClearanceSamples:
         """Hands away from everything in the frames at work, by a share in each, from how they were wished."""
-        start = np.where(at_work[:, None], wished, looks.arms)
-        arms = self._solved(self._problem.opened(_OPEN * around), start, at_work)
-        return look(self._whole, arms, looks)
+        start = np.where(at_work[:, None], wished, samples.arms)
+        arms = self._solved(self._problem.spread_apart(_OPEN * around), start, at_work)
+        return sample_clearance(self._model, arms, samples)
 
     def passed(
-        self, looks: Looks, at_work: NDArray[np.bool_], careful: NDArray[np.bool_], shares: Array
-    ) -> Looks:
+        self, samples: ClearanceSamples, at_work: NDArray[np.bool_], careful: NDArray[np.bool_], shares: Array
+    ) -> ClearanceSamples:
         """The frames at work off what they touch, as far as one pass goes."""
-        last = np.minimum(looks.frames + (looks.shares > 0.0), len(at_work) - 1)
-        near = looks.distances < np.where(careful[looks.frames], _SEEN_FROM, 2.0 * WANTED)
-        near &= at_work[looks.frames] | at_work[last]
+        last = np.minimum(samples.frames + (samples.shares > 0.0), len(at_work) - 1)
+        near = samples.distances < np.where(careful[samples.frames], _SEEN_FROM, 2.0 * WANTED)
+        near &= at_work[samples.frames] | at_work[last]
         within = _SEEN_FROM if (careful & at_work).any() else WATCHED
-        touches = self._whole.touches(looks.frames[near], looks.arms, looks.shares[near], within=within)
+        terms = self._model.terms(samples.frames[near], samples.arms, samples.shares[near], within=within)
         trusted: Array = np.asarray(np.where(careful, _CAREFUL, TRUSTED), dtype=np.float64)
-        arms = self._solved(
-            self._problem, looks.arms, at_work, touches=touches, shares=shares, trusted=trusted
-        )
-        return look(self._whole, arms, looks)
+        arms = self._solved(self._problem, samples.arms, at_work, terms=terms, shares=shares, trusted=trusted)
+        return sample_clearance(self._model, arms, samples)
 
     def _solved(
         self,
@@ -137,7 +139,7 @@ class _Work:
         arms: Array,
         at_work: NDArray[np.bool_],
         *,
-        touches: Touches | None = None,
+        terms: CollisionTerms | None = None,
         shares: Array | None = None,
         trusted: Array | None = None,
     ) -> Array:
@@ -151,7 +153,7 @@ class _Work:
                 self._times[part],
                 self._bounds,
                 arms[part],
-                touches=None if touches is None else touches.between(part),
+                terms=None if terms is None else terms.between(part),
                 shares=None if shares is None else shares[part],
                 trusted=TRUSTED if trusted is None else trusted[part, None],
                 held=~at_work[part],
@@ -168,9 +170,9 @@ def _widened(times: Array, frames: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return widened
 
 
-def _badness(looks: Looks) -> tuple[float, float]:
+def _shortfall(samples: ClearanceSamples) -> tuple[float, float]:
     """Frames first, then what is between."""
-    return max(LEAST - float(looks.in_frames.min()), 0.0), max(float(looks.short.max()), 0.0)
+    return max(LEAST - float(samples.in_frames.min()), 0.0), max(float(samples.short.max()), 0.0)
 
 
 def _around(times: Array, tight: NDArray[np.bool_]) -> Array:

@@ -11,33 +11,33 @@ from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.clearance import Clearance, Contact
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.retarget.arm_kinematics import WRIST, ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import JOINTS, Quadratic
-from teo_sign_capture.retarget.batched_arm_kinematics import WRIST, ArmChain
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
 Array = NDArray[np.float64]
 
+# [m] Parts that come nearer than this are pushed apart.
 WANTED = 0.014
-"""[m] Parts that come nearer than this are pushed apart."""
+# [m] Parts are never nearer than this: a touch is shown by a gap that nobody sees, and that curves between
+# knots do not close.
 LEAST = 0.010
-"""[m] Parts are never nearer than this: a touch is shown by a gap that nobody sees, and that curves between
-knots do not close."""
+# [m] Parts nearer than this are watched, so that what is pushed off one is not pushed into another.
 WATCHED = 0.030
-"""[m] Parts nearer than this are watched, so that what is pushed off one is not pushed into another."""
+# [1/m] A millimetre too near costs as much as a hand 2 cm off its place.
 _PRICE = 200.0
-"""[1/m] A millimetre too near costs as much as a hand 2 cm off its place."""
 
+# [m] Tip of a stretched finger, from the palm's middle along the hand.
 _TIP = np.array([0.12, 0.0, 0.0])
-"""[m] Tip of a stretched finger, from the palm's middle along the hand."""
+# [m] From its knuckle to its tip.
 _FINGER = 0.10
-"""[m] From its knuckle to its tip."""
 
 _ARM = {"right": RIGHT_ARM, "left": LEFT_ARM}
 _HAND = {"right": RIGHT_HAND, "left": LEFT_HAND}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Touches:
+class CollisionTerms:
     """Distances of parts of the robot, each about the arms at which it was measured.
 
     Attributes:
@@ -54,11 +54,11 @@ class Touches:
     slopes: Array
     positions: Array
 
-    def between(self, part: slice) -> Touches:
+    def between(self, part: slice) -> CollisionTerms:
         """Those in some frames one after the other, and on the ways between these."""
         last = self.frames + (self.shares > 0.0)
         inside = (self.frames >= part.start) & (last < part.stop)
-        return Touches(
+        return CollisionTerms(
             frames=self.frames[inside] - part.start,
             shares=self.shares[inside],
             distances=self.distances[inside],
@@ -100,13 +100,13 @@ def between(rows: Array, frames: NDArray[np.intp], shares: Array) -> Array:
     return found
 
 
-class WholeRobot:
+class CollisionModel:
     """All joints of TEO over a motion of the arms."""
 
     def __init__(
         self,
         robot: Robot,
-        chain: ArmChain,
+        chain: ArmKinematics,
         sides: tuple[str, ...],
         hands: tuple[Array, ...],
         others: dict[str, Array],
@@ -143,7 +143,7 @@ class WholeRobot:
         return pose
 
     def ways(self, arms: Array) -> Array:
-        """How far the hands move from each frame to the next, added up [m]; arms as in `touches`."""
+        """How far the hands move from each frame to the next, added up [m]; arms as in `terms`."""
         total = np.zeros(len(arms) - 1)
         for index, hand in enumerate(self._hands):
             poses = self._chain.poses(arms[:, JOINTS * index : JOINTS * (index + 1)])
@@ -157,14 +157,14 @@ class WholeRobot:
         """Smallest distance between parts that must not touch; arguments as for `pose`."""
         return self._robot.clearance(self._robot.configuration(self.pose(frame, arms, share)))
 
-    def touches(
+    def terms(
         self,
         frames: NDArray[np.intp],
         arms: Array,
         shares: Array | None = None,
         *,
         within: float = WATCHED,
-    ) -> Touches:
+    ) -> CollisionTerms:
         """What is near in some frames, or on the straight ways from them to the next.
 
         Args:
@@ -199,7 +199,7 @@ class WholeRobot:
                 placed = np.einsum("kij,kj->ki", turns[:, :3, :3], np.array(points)) + turns[:, :3, 3]
                 slopes += sign * self._approach(links, placed, normals, positions)
         distances = np.array([contact.distance for _, contact in found])
-        return Touches(
+        return CollisionTerms(
             frames=frames[where],
             shares=shares[where],
             distances=distances,

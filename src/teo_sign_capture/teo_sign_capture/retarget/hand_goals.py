@@ -21,21 +21,21 @@ from teo_sign_capture.tracks.hand_model import palm_axes
 
 Array = NDArray[np.float64]
 
+# [m] Points of a hand that are nearer or farther by this share the contact: about a finger's width.
 _BLEND = 0.015
-"""[m] Points of a hand that are nearer or farther by this share the contact: about a finger's width."""
+# [m] A keypoint nearer than this to the skin is on it (a finger tip's is 1 cm below its own skin, a palm's 2
+# cm); farther than the other the hand is in the air.
 _ON_BODY, _OFF_BODY = 0.03, 0.12
-"""[m] A keypoint nearer than this to the skin is on it (a finger tip's is 1 cm below its own skin, a palm's
-2 cm); farther than the other the hand is in the air."""
+# [m] The same between keypoints of two hands.
 _TOGETHER, _APART = 0.05, 0.15
-"""[m] The same between keypoints of two hands."""
+# [m] The same between forearms and hands of both sides: TEO's are thicker than a person's by a half.
 _BESIDE, _ASUNDER = 0.15, 0.30
-"""[m] The same between forearms and hands of both sides: TEO's are thicker than a person's by a half."""
+# [s] Deviation of the Gaussian over which that way is smoothed: where fingers pass it turns about.
 _STEADY = 0.15
-"""[s] Deviation of the Gaussian over which that way is smoothed: where fingers pass it turns about."""
+# By this much the right hand is in front where neither is: hands that pass through each other choose.
 _UNDECIDED = 0.2
-"""By this much the right hand is in front where neither is: hands that pass through each other choose."""
+# Points of a forearm from elbow to wrist that are looked at; elbows themselves stay on their sides.
 _FOREARM = np.linspace(0.3, 0.9, 5)
-"""Points of a forearm from elbow to wrist that are looked at; elbows themselves stay on their sides."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -12,9 +12,9 @@ from teo_motion.trajectory.waypoint_states import waypoint_states
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+# [rad] 9 mm at the end of TEO's stretched arm for one joint, below what retargeting errs by; fewer knots
+# leave the planner more room to make the motion smooth.
 TOLERANCE = np.radians(1.0)
-"""[rad] 9 mm at the end of TEO's stretched arm for one joint, below what retargeting errs by; fewer knots
-leave the planner more room to make the motion smooth."""
 
 
 def reduce_to_knots(times: Array, positions: Array, tolerance: float = TOLERANCE) -> Indices:

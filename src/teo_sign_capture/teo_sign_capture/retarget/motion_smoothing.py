@@ -19,18 +19,18 @@ from teo_description import joint_limits
 
 Array = NDArray[np.float64]
 
+# [rad] Arms, head, trunk: with all joints of an arm at its edge the hand is 2 cm off.
 BODY_TUBE = np.radians(2.0)
-"""[rad] Arms, head, trunk: with all joints of an arm at its edge the hand is 2 cm off."""
+# [rad] Axes of the hands: half of what handshapes that people tell apart differ by (15 deg, `lut nearest`),
+# and as well as bends are known from keypoints that are 4 mm off.
 FINGER_TUBE = np.radians(8.0)
-"""[rad] Axes of the hands: half of what handshapes that people tell apart differ by (15 deg, `lut nearest`),
-and as well as bends are known from keypoints that are 4 mm off."""
 
 
+# Of the least squares: accelerations come out a billionth from the least, in the time of an exact search.
 _TOLERANCE = 1e-12
-"""Of the least squares: accelerations come out a billionth from the least, in the time of an exact search."""
 
 
-def gentlest(times: Array, joints: tuple[str, ...], positions: Array, *, share: float = 1.0) -> Array:
+def smoothest_motion(times: Array, joints: tuple[str, ...], positions: Array, *, share: float = 1.0) -> Array:
     """Find the motion of least acceleration in the tube, within the joints' limits.
 
     Args:

@@ -1,1 +1,1 @@
-"""Directions in words, places of articulation, points of a hand that meet them."""
+"""Where signs are made: directions in words, places of articulation, points of a hand that meet them."""

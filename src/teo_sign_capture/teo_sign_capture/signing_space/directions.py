@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: Seen from the right hand, in ``base_link`` (REP-103: x front, y left, z up). The left hand mirrors them, so
-#: that `in` is always towards the other side of the body and `out` away from it.
+# Seen from the right hand, in ``base_link`` (REP-103: x front, y left, z up). The left hand mirrors them, so
+# that `in` is always towards the other side of the body and `out` away from it.
 WORDS: dict[str, tuple[float, float, float]] = {
     "front": (1.0, 0.0, 0.0),
     "back": (-1.0, 0.0, 0.0),

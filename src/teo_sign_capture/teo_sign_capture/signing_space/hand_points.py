@@ -11,20 +11,20 @@ Array = NDArray[np.float64]
 
 WRIST, KNUCKLES = 0, (5, 9, 13, 17)
 _MIDDLES, _TIPS = (6, 10, 14, 18), (8, 12, 16, 20)
+# Rows of the 21 keypoints.
 _THUMB_JOINT, _THUMB_TIP = 3, 4
-"""Rows of the 21 keypoints."""
 
+# Rows of the points below: the middle of the palm, and the end of the hand at the wrist.
 PALM, HEEL = 0, 1
-"""Rows of the points below: the middle of the palm, and the end of the hand at the wrist."""
 
+# Makes a left hand a right one.
 MIRROR = np.array([1.0, -1.0, 1.0])
-"""Makes a left hand a right one."""
 
+# Palm, heel, knuckles, middle joints and tips of the fingers, joint and tip of the thumb.
 COUNT = 2 + 3 * 4 + 2
-"""Palm, heel, knuckles, middle joints and tips of the fingers, joint and tip of the thumb."""
 
+# The middle of the palm lies so far from the wrist to the knuckles, as on TEO.
 _PALM_SHARE = 0.55
-"""The middle of the palm lies so far from the wrist to the knuckles, as on TEO."""
 
 # In the axes of TEO's palm [m]: the middle of the palm's box, whose face carries the frame, and the plate on
 # which the hand is mounted. The wrist's joint is 9 cm farther up the arm, where no hand of a person is.

@@ -65,7 +65,7 @@ _PLACES: dict[str, tuple[tuple[float, float, float], tuple[float, float, float],
     "beside_head": ((0.100, -0.200, 0.740), _OUT, False),
 }
 
-#: Points of the other hand that a hand may be at; resolved when the other hand is placed.
+# Points of the other hand that a hand may be at; resolved when the other hand is placed.
 OTHER_HAND = ("other_palm", "other_back", "other_fingertips", "other_index_side", "other_wrist")
 
 NAMES = (*_PLACES, *OTHER_HAND)

@@ -1,1 +1,4 @@
-"""A person's keypoints over time: axes, smoothing, cutting, body, hands, head."""
+"""A person's keypoints over time [m].
+
+Axes of the body, smoothing, cutting into signs, measures of body, hands and head.
+"""

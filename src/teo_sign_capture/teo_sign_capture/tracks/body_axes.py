@@ -21,16 +21,16 @@ from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# Up in an upright camera's optical frame (x right, y down, z forward).
 CAMERA_UP = (0.0, -1.0, 0.0)
-"""Up in an upright camera's optical frame (x right, y down, z forward)."""
 
+# [s] Deviation of the Gaussian: what sways below 1 Hz, as people do, is followed; the tremble of a detector
+# from frame to frame is not.
 _SMOOTHED_FOR = 0.15
-"""[s] Deviation of the Gaussian: what sways below 1 Hz, as people do, is followed; the tremble of a detector
-from frame to frame is not."""
+# Share of the frames in which the hips must be known to be believed: behind a table they come and go.
 _HIPS_SEEN = 0.3
-"""Share of the frames in which the hips must be known to be believed: behind a table they come and go."""
+# The trunk and the line of the shoulders are never this close to parallel.
 _LEAST_SINE = 0.1
-"""The trunk and the line of the shoulders are never this close to parallel."""
 
 
 def in_body_axes(

@@ -10,13 +10,13 @@ from teo_sign_capture.tracks.hand_model import palm_axes
 
 Array = NDArray[np.float64]
 
+# [rad] What knuckle, middle and last joint seem bent by in a straight finger, where the signer shows none:
+# joint centres do not lie on a line. Means over the synthetic signer's flat hands.
 _STRAIGHT = np.radians([5.0, 8.0, 5.0])
-"""[rad] What knuckle, middle and last joint seem bent by in a straight finger, where the signer shows none:
-joint centres do not lie on a line. Means over the synthetic signer's flat hands."""
+# [rad] A joint that is never less bent than this has not been seen straight.
 _SEEN_STRAIGHT = np.radians(20.0)
-"""[rad] A joint that is never less bent than this has not been seen straight."""
+# [%] Of the frames a finger is taken for straight in, if it ever is.
 _STRAIGHTEST = 5.0
-"""[%] Of the frames a finger is taken for straight in, if it ever is."""
 
 
 def in_palm(hand: Array) -> Array:

@@ -16,9 +16,9 @@ from scipy.spatial.transform import Rotation
 
 Array = NDArray[np.float64]
 
+# MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
+# each.
 WRIST, THUMB, INDEX, MIDDLE, RING, LITTLE = 0, 1, 5, 9, 13, 17
-"""MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
-each."""
 KNUCKLES = (INDEX, MIDDLE, RING, LITTLE)
 PALM = (WRIST, *KNUCKLES)
 

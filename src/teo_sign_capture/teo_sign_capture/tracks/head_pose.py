@@ -16,10 +16,10 @@ Array = NDArray[np.float64]
 # Keypoints of the head that keep their places to each other: of the body nose, eyes, ears; of the face the
 # bridge of the nose and the corners of the eyes. Rows of body and face, one after the other.
 _RIGID = (NOSE, *EYE.values(), *EAR.values(), *(BODY + row for row in (27, 28, 29, 30, 36, 39, 42, 45)))
+# Among these: right and left ear, eye, outer corner of the eye.
 _PAIRS = ((3, 4), (1, 2), (9, 12))
-"""Among these: right and left ear, eye, outer corner of the eye."""
+# Alignment and mean shape are found in turns; after the third neither moves by 0.1 mm.
 _PASSES = 3
-"""Alignment and mean shape are found in turns; after the third neither moves by 0.1 mm."""
 
 
 class HeadPose(NamedTuple):

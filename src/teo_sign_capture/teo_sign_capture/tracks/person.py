@@ -25,16 +25,16 @@ from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# Rows of `head_shape`.
 _CHIN, _LIPS, _BROWS = BODY + 8, (BODY + 51, BODY + 57), (BODY + 21, BODY + 22)
-"""Rows of `head_shape`."""
 
 # Proportions of adults: means of the six bodies of the synthetic signer (MakeHuman's, CC0), measured on their
 # skin. Lengths in lengths of the trunk, between shoulders and hips; places from between the shoulders.
+# Length of the trunk over that of the upper arm, where no hips are seen.
 _TRUNK_OF_UPPER_ARM = 1.7
-"""Length of the trunk over that of the upper arm, where no hips are seen."""
 _FORE_OF_UPPER_ARM, _PALM_OF_UPPER_ARM = 0.87, 0.25
+# Skin before the shoulder's joint, from the joint.
 _SHOULDER_FRONT = (0.13, -0.01, 0.04)
-"""Skin before the shoulder's joint, from the joint."""
 _TORSO = {
     "throat": (0.13, 0.0, 0.11),
     "upper_chest": (0.24, 0.0, -0.10),
@@ -50,8 +50,8 @@ _HEAD = {
     "mouth": (0.28, 0.0, 0.33),
     "brow": (0.26, 0.0, 0.50),
 }
+# The middle of the forehead is above the brows by so much of their height above the tip of the nose.
 _FOREHEAD = 0.8
-"""The middle of the forehead is above the brows by so much of their height above the tip of the nose."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -67,8 +67,8 @@ class Person:
         head_shape: Keypoints of the head, as `head_pose.head_shape` finds them [m]. Shape (95, 3).
         straight: What knuckle, middle and last joint of index ... little finger seem bent by while they are
             straight [rad]. Shape (4, 3).
-        places: Places of articulation on the skin by their names in `score.places`, the head held straight;
-            those aside are the right ones, the left ones mirror them. Shape (3,) each.
+        places: Places of articulation on the skin by their names in `signing_space.places`, the head held
+            straight; those aside are the right ones, the left ones mirror them. Shape (3,) each.
     """
 
     shoulder: float

@@ -22,45 +22,45 @@ from teo_signs.sign_schema import Handedness
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
+# Shoulder, elbow and wrist in BODY_25.
 _ARMS = {"right": (2, 3, 4), "left": (5, 6, 7)}
-"""Shoulder, elbow and wrist in BODY_25."""
+# [m] Shoulder to wrist of an adult, where the arm's own length is not seen.
 _REACH = 0.52
-"""[m] Shoulder to wrist of an adult, where the arm's own length is not seen."""
 
 # Lengths below are in reaches.
+# Hands rest lower than this below the shoulders: in the lap, folded before the belly, hanging. The space in
+# which people sign ends at the waist.
 _LOW = 0.6
-"""Hands rest lower than this below the shoulders: in the lap, folded before the belly, hanging. The space in
-which people sign ends at the waist."""
+# Rest is no higher than this above the lowest place.
 _REST_BAND = 0.25
-"""Rest is no higher than this above the lowest place."""
+# A hand this far from rest has left it; one this near has returned: 10 and 8 cm. Hands at rest sway by 3.
 _LEAVES, _RETURNS = 0.20, 0.16
-"""A hand this far from rest has left it; one this near has returned: 10 and 8 cm. Hands at rest sway by 3."""
+# A hand that gets no farther than this from rest was no sign: 18 cm, a scratch or a shift of weight.
 _LEAST_WAY = 0.35
-"""A hand that gets no farther than this from rest was no sign: 18 cm, a scratch or a shift of weight."""
+# Share of the greatest distance from rest: a recording that begins with hands farther out begins within a
+# sign.
 _WITHIN = 0.6
-"""Share of the greatest distance from rest: a recording that begins with hands farther out begins within a
-sign."""
+# Where somebody chose to cut, hands farther from rest sign: 20 cm, beyond what is left of a way down.
 _CUT = 0.4
-"""Where somebody chose to cut, hands farther from rest sign: 20 cm, beyond what is left of a way down."""
+# Share of the greatest distance from rest: where nothing slows down, the sign is what lies beyond it.
 _FAR = 0.85
-"""Share of the greatest distance from rest: where nothing slows down, the sign is what lies beyond it."""
 
+# [m/s] Hands at rest are slower.
 _SLOW = 0.25
-"""[m/s] Hands at rest are slower."""
+# A speed that falls below this share of the fastest so far ends the way up.
 _DIP = 0.35
-"""A speed that falls below this share of the fastest so far ends the way up."""
+# [m/s], of the fastest so far: a hand slower than both has arrived.
 _STILL, _STILL_SHARE = 0.08, 0.10
-"""[m/s], of the fastest so far: a hand slower than both has arrived."""
+# [s] Width of the Gaussian by which the speed is smoothed: keypoints tremble by 0.1 m/s.
 _SPEED_WIDTH = 0.033
-"""[s] Width of the Gaussian by which the speed is smoothed: keypoints tremble by 0.1 m/s."""
+# [s] A shorter stay at rest is part of a sign that begins at rest and beats.
 _LEAST_REST = 0.35
-"""[s] A shorter stay at rest is part of a sign that begins at rest and beats."""
+# [s] Up and down in less is no sign.
 _LEAST_SIGN = 0.25
-"""[s] Up and down in less is no sign."""
+# [s] A sign that is but a touch lasts so long: four images at 30 Hz.
 _LEAST_STROKE = 0.12
-"""[s] A sign that is but a touch lasts so long: four images at 30 Hz."""
+# [s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several.
 LONGEST_SIGN = 4.0
-"""[s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,8 +11,8 @@ from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# Keypoints of OpenPose's BODY_25, of a hand (OpenPose's and MediaPipe's order) and of OpenPose's face.
 BODY, HAND, FACE = 25, 21, 70
-"""Keypoints of OpenPose's BODY_25, of a hand (OpenPose's and MediaPipe's order) and of OpenPose's face."""
 
 NOSE, NECK, MID_HIP = 0, 1, 8
 SHOULDER = {"right": 2, "left": 5}
@@ -20,8 +20,8 @@ ELBOW = {"right": 3, "left": 6}
 WRIST = {"right": 4, "left": 7}
 HIP = {"right": 9, "left": 12}
 EYE = {"right": 15, "left": 16}
+# Where a keypoint stands in BODY_25.
 EAR = {"right": 17, "left": 18}
-"""Where a keypoint stands in BODY_25."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -22,33 +22,33 @@ Flags = NDArray[np.bool_]
 Part = Literal["body", "left_hand", "right_hand", "face"]
 PARTS: tuple[Part, ...] = ("body", "left_hand", "right_hand", "face")
 
+# [m^2/s^5] With keypoints of 10 mm at 30 Hz the cut-off is 8 Hz: a stroke of 3 Hz, the fastest that hands
+# shake at, keeps 99.7 % of its way; with 30 mm it is 5.5 Hz, and it keeps 97 %.
 JERK_POWER = 5.0e4
-"""[m^2/s^5] With keypoints of 10 mm at 30 Hz the cut-off is 8 Hz: a stroke of 3 Hz, the fastest that hands
-shake at, keeps 99.7 % of its way; with 30 mm it is 5.5 Hz, and it keeps 97 %."""
 
+# [s] A keypoint that is lost for longer is not guessed: within that time a hand begins and ends a move.
 LONGEST_FILLED = 0.4
-"""[s] A keypoint that is lost for longer is not guessed: within that time a hand begins and ends a move."""
+# [s] So long a hand is taken to keep its shape and direction if its wrist is seen meanwhile and both are the
+# same before and after: hands that hide each other hold still.
 LONGEST_KEPT = 1.2
-"""[s] So long a hand is taken to keep its shape and direction if its wrist is seen meanwhile and both are the
-same before and after: hands that hide each other hold still."""
+# [s] So long before it is first seen, and after it is last seen, a hand is taken to have the shape that it
+# has then, at its wrist: hands that come up from below the image are found some frames after they are there.
 LONGEST_EDGE = 0.2
-"""[s] So long before it is first seen, and after it is last seen, a hand is taken to have the shape that it
-has then, at its wrist: hands that come up from below the image are found some frames after they are there."""
+# [m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found.
 _SAME_SHAPE = 0.03
-"""[m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found."""
 
+# [m] Of truth, which says 0; of measurements that say nothing: what good keypoints have.
 _LEAST_SIGMA, _UNKNOWN_SIGMA = 0.002, 0.010
-"""[m] Of truth, which says 0; of measurements that say nothing: what good keypoints have."""
+# [m/s], [m/s^2] Before the first measurement nothing is known: what hands reach in fast signing.
 _START_SPEED, _START_ACCELERATION = 3.0, 40.0
-"""[m/s], [m/s^2] Before the first measurement nothing is known: what hands reach in fast signing."""
+# Measurements farther from the smooth motion than so many sigmas count less, as the square of the excess: a
+# keypoint that jumps to the other hand for an image is not followed.
 _DOUBTED = 3.0
-"""Measurements farther from the smooth motion than so many sigmas count less, as the square of the excess:
-a keypoint that jumps to the other hand for an image is not followed."""
 _PASSES = 3
+# Of BODY_25.
 _WRISTS = {"right_hand": 4, "left_hand": 7}
-"""Of BODY_25."""
+# [m] Of a hand that is put where its wrist is, in the shape it has before and after.
 _FILLED_SIGMA = 0.030
-"""[m] Of a hand that is put where its wrist is, in the shape it has before and after."""
 
 
 @dataclass(frozen=True, kw_only=True)

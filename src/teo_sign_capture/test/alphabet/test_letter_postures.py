@@ -16,9 +16,9 @@ from scipy.spatial.transform import Rotation
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import FINGERS, PHALANGES, DextraHand, segment_distances
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.face import shift_off_face
-from teo_sign_capture.alphabet.posture_arm import fit_arm, spelling_bounds
-from teo_sign_capture.alphabet.posture_hand import fit_dextra
+from teo_sign_capture.alphabet.face_visibility import shift_off_face
+from teo_sign_capture.alphabet.spelling_arm import fit_arm, spelling_bounds
+from teo_sign_capture.alphabet.spelling_hand import fit_dextra
 from teo_sign_capture.alphabet.stroke import find_stroke
 from teo_sign_capture.cli.capture_table import letters_main
 from teo_sign_capture.recordings.letter_clips import DEPTH_SCALE, LetterClip, load_letter_clips

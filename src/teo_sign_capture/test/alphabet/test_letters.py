@@ -15,7 +15,7 @@ from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import DextraHand, thumb_clearances
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import SPELLING_POSES
-from teo_sign_capture.alphabet.face import shift_off_face
+from teo_sign_capture.alphabet.face_visibility import shift_off_face
 from teo_sign_capture.alphabet.letters import JOINTS, capture_letter, read_alphabet
 from teo_sign_capture.alphabet.stroke import find_stroke, palm_centres
 from teo_sign_capture.recordings.letter_clips import load_letter_clips

@@ -6,10 +6,10 @@ from scipy.optimize import minimize
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import arm_bounds
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import refine_arms, solve_arms
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
-from teo_sign_capture.retarget.collision_terms import WANTED, Touches
+from teo_sign_capture.retarget.collision_terms import WANTED, CollisionTerms
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
@@ -19,7 +19,7 @@ BOUNDS = [arm_bounds("right"), arm_bounds("left")]
 
 @pytest.fixture(scope="module")
 def chain():
-    return ArmChain(Robot.load())
+    return ArmKinematics(Robot.load())
 
 
 def goals_of(chain, arms, shift=(0.0, 0.0, 0.0), contact=1.0):
@@ -156,13 +156,13 @@ def test_touches_on_ways_are_pushed_apart_in_one_go(chain):
     """Two frames, a distance half way that grows with the first joint of either: both give half of it."""
     problem = ArmProblem(chain, (goals_of(chain, ARMS[:2]),), None)
     start = solve_arms(problem, TIMES[:2], BOUNDS[:1])
-    touches = Touches(
+    terms = CollisionTerms(
         frames=np.array([0]),
         shares=np.array([0.5]),
         distances=np.array([WANTED - 0.02]),
         slopes=np.eye(1, 6) * 0.5,
         positions=start.mean(axis=0)[None],
     )
-    found = refine_arms(problem, TIMES[:2], BOUNDS[:1], start, touches=touches)
+    found = refine_arms(problem, TIMES[:2], BOUNDS[:1], start, terms=terms)
     assert (found - start)[:, 0].mean() * 0.5 == pytest.approx(0.02, abs=0.002)
     assert (found - start)[0, 0] == pytest.approx((found - start)[1, 0], abs=0.01)

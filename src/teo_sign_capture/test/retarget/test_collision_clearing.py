@@ -6,10 +6,10 @@ from robot_person import JOINTS, keypoints, track_of
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import arm_bounds
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
 from teo_sign_capture.retarget.collision_clearing import clear_arms
-from teo_sign_capture.retarget.collision_terms import LEAST, WholeRobot
+from teo_sign_capture.retarget.collision_terms import LEAST, CollisionModel
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_signs.errors import LutError
 
@@ -37,7 +37,7 @@ def track(robot):
 @pytest.fixture(scope="module")
 def wanted(robot):
     """A problem that wants the hand to go into the belly, and the robot."""
-    chain = ArmChain(robot)
+    chain = ArmKinematics(robot)
     poses = chain.poses(ARMS)
     upper, fore = poses.origins[:, 3] - chain.shoulder, poses.origins[:, 5] - poses.origins[:, 3]
     goals = HandGoals(
@@ -50,15 +50,15 @@ def wanted(robot):
         fore_arm=fore / np.linalg.norm(fore, axis=1, keepdims=True),
     )
     hand = np.tile(np.radians([10.0, -60.0, 7.0, 7.0, 7.0, 7.0]), (FRAMES, 1))
-    return ArmProblem(chain, (goals,), None), WholeRobot(robot, chain, ("right",), (hand,), {})
+    return ArmProblem(chain, (goals,), None), CollisionModel(robot, chain, ("right",), (hand,), {})
 
 
 def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
-    problem, whole = wanted
-    assert min(whole.clearance(frame, ARMS[frame]).distance for frame in range(FRAMES)) < -0.02
-    arms, distances = clear_arms(problem, whole, track, [arm_bounds("right")], ARMS)
+    problem, model = wanted
+    assert min(model.clearance(frame, ARMS[frame]).distance for frame in range(FRAMES)) < -0.02
+    arms, distances = clear_arms(problem, model, track, [arm_bounds("right")], ARMS)
     assert distances.min() >= LEAST
-    measured = [whole.clearance(frame, arms[frame]).distance for frame in range(FRAMES)]
+    measured = [model.clearance(frame, arms[frame]).distance for frame in range(FRAMES)]
     assert distances == pytest.approx(np.array(measured), abs=2e-4)
     # What was free stays where it was; what was not is near the body still.
     assert np.degrees(np.abs(arms[0] - ARMS[0])).max() < 5.0
@@ -66,16 +66,16 @@ def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
 
 
 def test_arms_that_touch_nothing_stay_as_they_are(wanted, track):
-    problem, whole = wanted
+    problem, model = wanted
     free = np.tile(OFF, (FRAMES, 1))
-    arms, _ = clear_arms(problem, whole, track, [arm_bounds("right")], free)
+    arms, _ = clear_arms(problem, model, track, [arm_bounds("right")], free)
     assert arms is free
 
 
 def test_a_posture_without_a_way_out_is_refused_with_its_time_and_parts(wanted, track):
-    problem, whole = wanted
+    problem, model = wanted
     stuck = np.tile(INSIDE, (FRAMES, 1))
     held = (INSIDE - 1e-6, INSIDE + 1e-6)
     with pytest.raises(LutError, match=r"belly: .* at 0\.\d\d s, .*Right.*Trunk_link") as error:
-        clear_arms(problem, whole, track, [held], stuck)
+        clear_arms(problem, model, track, [held], stuck)
     assert error.value.code == "self_collision"

@@ -5,9 +5,9 @@ import pytest
 
 from teo_description import HEAD, TRUNK
 from teo_description.robot import Robot
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import Quadratic
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
-from teo_sign_capture.retarget.collision_terms import WANTED, Touches, WholeRobot
+from teo_sign_capture.retarget.collision_terms import WANTED, CollisionModel, CollisionTerms
 
 # Both hands before the chest, near it and each other [deg], the left one as in a mirror.
 NEAR = np.radians([-29.0, -2.0, 54.0, -61.0, 0.0, 10.0, -25.0, 0.0, 50.0, -72.0, -25.0, 11.0])
@@ -15,40 +15,40 @@ HAND = np.tile(np.radians([45.0, -15.0, 40.0, 40.0, 40.0, 40.0]), (2, 1))
 
 
 @pytest.fixture(scope="module")
-def whole():
+def model():
     robot = Robot.load()
     others = dict(zip(HEAD + TRUNK, np.radians([[20.0] * 2, [5.0] * 2, [15.0] * 2, [12.0] * 2]), strict=True))
-    return WholeRobot(robot, ArmChain(robot), ("right", "left"), (HAND, HAND), others)
+    return CollisionModel(robot, ArmKinematics(robot), ("right", "left"), (HAND, HAND), others)
 
 
-def test_slopes_say_how_each_distance_changes(whole):
+def test_slopes_say_how_each_distance_changes(model):
     arms = np.stack([NEAR, NEAR])
-    touches = whole.touches(np.array([0]), arms)
-    assert len(touches.frames) > 3
+    terms = model.terms(np.array([0]), arms)
+    assert len(terms.frames) > 3
     step = 1e-3
     for joint in range(12):
         moved = arms.copy()
         ends = []
         for sign in (1.0, -1.0):
             moved[0] = NEAR + sign * step * np.eye(12)[joint]
-            ends.append(whole.touches(np.array([0]), moved))
-        if not len(ends[0].frames) == len(ends[1].frames) == len(touches.frames):
+            ends.append(model.terms(np.array([0]), moved))
+        if not len(ends[0].frames) == len(ends[1].frames) == len(terms.frames):
             continue  # a pair has come near or gone
         slope = (ends[0].distances - ends[1].distances) / (2.0 * step)
         # Where witness points lie on flat faces they jump, and one or two pairs have no slope.
-        assert np.median(np.abs(slope - touches.slopes[:, joint])) < 0.01
-        assert np.percentile(np.abs(slope - touches.slopes[:, joint]), 80) < 0.05
+        assert np.median(np.abs(slope - terms.slopes[:, joint])) < 0.01
+        assert np.percentile(np.abs(slope - terms.slopes[:, joint]), 80) < 0.05
 
 
-def test_the_nearest_of_them_is_the_clearance(whole):
+def test_the_nearest_of_them_is_the_clearance(model):
     arms = np.stack([NEAR, NEAR])
-    assert whole.touches(np.array([1]), arms).distances.min() == pytest.approx(
-        whole.clearance(1, NEAR).distance, abs=1e-6
+    assert model.terms(np.array([1]), arms).distances.min() == pytest.approx(
+        model.clearance(1, NEAR).distance, abs=1e-6
     )
 
 
 def test_only_what_is_too_near_costs():
-    touches = Touches(
+    terms = CollisionTerms(
         frames=np.array([0, 1]),
         shares=np.zeros(2),
         distances=np.array([WANTED - 0.01, WANTED + 0.01]),
@@ -56,23 +56,23 @@ def test_only_what_is_too_near_costs():
         positions=np.zeros((2, 12)),
     )
     nothing = Quadratic(np.zeros(2), np.zeros((2, 12)), np.zeros((2, 12, 12)))
-    cost = touches.added(nothing, np.zeros((2, 12)))
+    cost = terms.added(nothing, np.zeros((2, 12)))
     assert cost.cost[0] > 0.0
     assert cost.cost[1] == 0.0
     assert (cost.gradient[0] < 0.0).all()  # the joints that take it away pay off
-    off = touches.added(nothing, np.full((2, 12), 0.01))
+    off = terms.added(nothing, np.full((2, 12), 0.01))
     assert off.cost[0] == pytest.approx(0.0, abs=1e-12)
 
 
-def test_arms_that_hang_are_near_to_nothing_that_matters(whole):
+def test_arms_that_hang_are_near_to_nothing_that_matters(model):
     hanging = np.tile(np.radians([0.0, -30.0, 0.0, -20.0, 0.0, 0.0] * 2), (2, 1))
-    touches = whole.touches(np.array([0, 1]), hanging)
-    assert touches.slopes.shape == (len(touches.frames), 12)
+    terms = model.terms(np.array([0, 1]), hanging)
+    assert terms.slopes.shape == (len(terms.frames), 12)
 
 
 def test_what_touches_on_a_way_between_frames_moves_the_frames_before_and_after():
     random = np.random.default_rng(1)
-    touches = Touches(
+    terms = CollisionTerms(
         frames=np.array([0, 1, 1, 2]),
         shares=np.array([0.0, 0.25, 0.5, 0.0]),
         distances=np.full(4, WANTED - 0.02),
@@ -82,11 +82,11 @@ def test_what_touches_on_a_way_between_frames_moves_the_frames_before_and_after(
     nothing = Quadratic(np.zeros(3), np.zeros((3, 6)), np.zeros((3, 6, 6)))
 
     def cost(rows):
-        return touches.added(nothing, rows.reshape(3, 6)).cost.sum()
+        return terms.added(nothing, rows.reshape(3, 6)).cost.sum()
 
     # The price is a sum of squares of what is linear: differences of it are exact.
     rows, step = random.normal(0.0, 1e-3, 18), 1e-4
-    here = touches.added(nothing, rows.reshape(3, 6))
+    here = terms.added(nothing, rows.reshape(3, 6))
     bends = np.zeros((18, 18))
     for one in range(18):
         ahead, behind = (rows + sign * step * np.eye(18)[one] for sign in (1.0, -1.0))
@@ -107,20 +107,20 @@ def test_what_touches_on_a_way_between_frames_moves_the_frames_before_and_after(
     assert told.reshape(18, 18) == pytest.approx(bends, abs=1e-3)
 
 
-def test_a_posture_on_the_way_is_between_those_of_the_frames(whole):
+def test_a_posture_on_the_way_is_between_those_of_the_frames(model):
     arms = np.stack([NEAR, NEAR + 0.1])
-    first, middle, second = (whole.pose(0, NEAR + 0.1 * share, share) for share in (0.0, 0.5, 1.0))
+    first, middle, second = (model.pose(0, NEAR + 0.1 * share, share) for share in (0.0, 0.5, 1.0))
     assert middle == pytest.approx({joint: (first[joint] + second[joint]) / 2.0 for joint in first})
-    touches = whole.touches(np.array([0]), arms, np.array([0.5]))
-    assert touches.distances.min() == pytest.approx(whole.clearance(0, NEAR + 0.05, 0.5).distance, abs=1e-6)
+    terms = model.terms(np.array([0]), arms, np.array([0.5]))
+    assert terms.distances.min() == pytest.approx(model.clearance(0, NEAR + 0.05, 0.5).distance, abs=1e-6)
 
 
-def test_the_way_of_the_hands_is_no_shorter_than_that_of_their_knuckles(whole):
+def test_the_way_of_the_hands_is_no_shorter_than_that_of_their_knuckles(model):
     arms = NEAR + np.random.default_rng(2).uniform(-0.2, 0.2, (2, 12))
     robot = Robot.load()
-    ends = [robot.configuration(whole.pose(frame, arms[frame])) for frame in (0, 1)]
+    ends = [robot.configuration(model.pose(frame, arms[frame])) for frame in (0, 1)]
     moved = 0.0
     for side in ("Right", "Left"):
         places = [robot.placement(q, f"{side}MiddleFinger_link")[:3, 3] for q in ends]
         moved += float(np.linalg.norm(places[1] - places[0]))
-    assert 0.8 * moved < whole.ways(arms)[0] < 3.0 * moved
+    assert 0.8 * moved < model.ways(arms)[0] < 3.0 * moved

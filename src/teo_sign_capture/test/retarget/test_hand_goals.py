@@ -6,7 +6,7 @@ from robot_person import JOINTS, keypoints, track_of
 
 from teo_description.hand_geometry import DextraTable
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.hand_goals import hand_goals, pair_goals
 from teo_sign_capture.retarget.head_motion import follow_head
@@ -27,7 +27,7 @@ class Scene:
         points = keypoints(robot, JOINTS, np.zeros((1, len(JOINTS))))
         track = track_of(np.zeros(1), points)
         person = measure_person(track)
-        self.body = BodyMap(robot, ArmChain(robot), person)
+        self.body = BodyMap(robot, ArmKinematics(robot), person)
         self.head = follow_head(robot, head_pose(track, person.head_shape), person)
         straight = np.radians([[10.0, -60.0, 7.0, 7.0, 7.0, 7.0]])
         self.teo = teo_hand_points(DextraTable(robot), straight)

@@ -13,7 +13,7 @@ from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, jo
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_bounds import mirrored
-from teo_sign_capture.retarget.motion import retarget_motion
+from teo_sign_capture.retarget.robot_motion import retarget_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.skeleton_track import Keypoints
 from teo_signs.errors import LutError

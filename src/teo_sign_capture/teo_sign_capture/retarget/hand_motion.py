@@ -1,42 +1,113 @@
-"""A person's thumb over time on TEO's hand.
+"""A person's fingers and thumb over time on TEO's hand.
+
+TEO's finger has one motor for three joints that bend alike. The flexion sought is the one with which the last
+phalanx lies, in the plane in which the finger bends, most like the person's: both its ends, on phalanges as
+long as TEO's.
 
 TEO's thumb has an abductor and one motor for both its joints. Its tip and joint are sought relative to the
 knuckle of the index, in finger lengths; its tip as far from the other tips as the person's where they nearly
 touch; and outside of fingers and palm. The same tip can be nearly reached from several sides, so that what
-is best frame by frame jumps: the cheapest way through time is taken (Viterbi).
+is best frame by frame jumps: the cheapest path through time is taken (Viterbi).
+
+`alphabet.spelling_hand` does the same for single letters that one camera has seen, where the line of sight
+counts.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description.hand_geometry import DextraTable
+from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES, DextraTable
+from teo_sign_capture.signing_space.hand_points import KNUCKLES
 from teo_sign_capture.tracks.body_axes import smoothed
+from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
 from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
 
+
+class HandMotion(NamedTuple):
+    """A hand of TEO over time.
+
+    Attributes:
+        axes: Of `RIGHT_HAND` [rad]; a left hand's are the same numbers. Shape (T, 6).
+        bends: Of the person's fingers, knuckle, middle and last joint, calibrated [rad]. Shape (T, 4, 3).
+        error: Mean over the fingers of the difference of the whole bend, one joint's share [rad]. Shape (T,).
+    """
+
+    axes: Array
+    bends: Array
+    error: Array
+
+
+def follow_hand(table: DextraTable, times: Array, hand: Array, straight: Array) -> HandMotion:
+    """Find TEO's hand in each frame.
+
+    Args:
+        table: TEO's hand.
+        times: Of the frames [s]. Shape (T,).
+        hand: 21 keypoints of a right hand, or of a left one in a mirror, none NaN [m]. Shape (T, 21, 3).
+        straight: `Person.straight` [rad]. Shape (4, 3).
+    """
+    local = in_palm(hand)
+    bends = finger_bends(local) - straight
+    fingers = finger_flexions(table, bends)
+    bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
+    scaled = local * (FINGER_LENGTH / float(np.median(bones)))
+    thumb = follow_thumb(table, times, fingers, scaled - scaled[:, KNUCKLES[0], None])
+    error = np.abs(bends.sum(axis=2) / 3.0 - fingers).mean(axis=1)
+    return HandMotion(np.concatenate([thumb, fingers], axis=1), bends, error)
+
+
+def finger_flexions(table: DextraTable, bends: Array) -> Array:
+    """Flexion of each of TEO's fingers that looks most like a person's [rad]. (T, 4, 3) gives (T, 4)."""
+    total = np.cumsum(bends, axis=2)
+    steps = PHALANGES[:, None] * np.stack([np.cos(total), np.sin(total)], axis=-1)
+    wanted = np.cumsum(steps, axis=2)[:, :, 1:]
+    found = np.empty(bends.shape[:2])
+    for finger in range(4):
+        points = table.fingers[:, finger]
+        reached = (points[:, 2:] - points[:, :1])[..., (0, 2)]
+        cost = ((wanted[:, finger, None] - reached) ** 2).sum(axis=(2, 3))
+        found[:, finger] = _lowest(table.flexions, cost)
+    return found
+
+
+def _lowest(grid: Array, cost: Array) -> Array:
+    """Where costs on an even grid are least, by the parabola through the least and its neighbours."""
+    best = np.clip(cost.argmin(axis=1), 1, len(grid) - 2)
+    rows = np.arange(len(cost))
+    before, at, after = (cost[rows, best + step] for step in (-1, 0, 1))
+    curve = before - 2.0 * at + after
+    shift = np.where(curve > 0.0, 0.5 * (before - after) / np.where(curve > 0.0, curve, 1.0), 0.0)
+    places = grid[best] + np.clip(shift, -1.0, 1.0) * (grid[1] - grid[0])
+    lowest: Array = np.clip(places, grid[0], grid[-1])
+    return lowest
+
+
 _JOINT, _TIP = 3, 4
+# Rows of the 21 keypoints.
 _FINGER_TIPS = (8, 12, 16, 20)
-"""Rows of the 21 keypoints."""
 
 # Weights of squares: of a metre at the thumb's joint (1 at its tip), at the distance to a tip that it
 # touches, inside of a finger or the palm; of a radian of way from frame to frame: 6 deg cost as much as 2 mm.
 _JOINT_WEIGHT, _TOUCH_WEIGHT, _INSIDE_WEIGHT, _WAY_WEIGHT = 0.3, 3.0, 60.0, 4e-4
+# [m] As in `alphabet.spelling_hand`: tips farther apart are not meant to touch; distance of their axes when
+# they do; a smaller gap is a contact, two keypoints being off by 3 mm each.
 _NEAR, _TOUCH, _SURELY_APART = 0.045, 0.018, 0.006
-"""[m] As in `hand_retarget`: tips farther apart are not meant to touch; distance of their axes when they do;
-a smaller gap is a contact, two keypoints being off by 3 mm each."""
+# [m] Radii of a phalanx of thumb and finger together; height over the palm at which the thumb touches it.
 _RADII, _PALM_FRONT = 0.018, 0.006
-"""[m] Radii of a phalanx of thumb and finger together; height over the palm at which the thumb touches it."""
+# [m] The palm along and across the hand, the thumb's radius added (`teo_description.hand_geometry`).
 _PALM_TO, _PALM_HALF_WIDTH = 0.032, 0.047
-"""[m] The palm along and across the hand, the thumb's radius added (`dextra`)."""
+# Thumbs looked at closely in each frame: those whose tip is best.
 _CANDIDATES = 32
-"""Thumbs looked at closely in each frame: those whose tip is best."""
+# Of the table's steps of 2 deg; in between it is smoothed.
 _EVERY = 2
-"""Of the table's steps of 2 deg; in between it is smoothed."""
+# [s] Deviation of the Gaussian that takes the steps away.
 _TREMBLE = 0.04
-"""[s] Deviation of the Gaussian that takes the steps away."""
 
 
 def follow_thumb(table: DextraTable, times: Array, fingers: Array, person: Array) -> Array:

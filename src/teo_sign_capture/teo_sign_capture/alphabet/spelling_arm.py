@@ -13,17 +13,17 @@ from scipy.spatial.transform import Rotation
 
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds
+from teo_sign_capture.retarget.arm_kinematics import ELBOW, ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
-from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, ArmChain
 from teo_sign_capture.retarget.hand_goals import HandGoals
 
 Array = NDArray[np.float64]
 
 PALM_FRAME = "right_palm"
 
+# [rad] Mean of the poses in which TEO's own demonstration spells T, E and O. Shape (6,).
 SPELLING_ARM = np.radians([-74.0, 11.2, 11.1, -80.5, 48.9, 1.1])
-"""[rad] Mean of the poses in which TEO's own demonstration spells T, E and O. Shape (6,)."""
 
 # The elbow is bent by as much at least [rad]: nobody spells with a straight arm.
 _BENT = np.radians(-46.0)
@@ -104,7 +104,7 @@ def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[
 
 def arm_fits(robot: Robot, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
     """How well arms do; arguments of n poses as for `follow_arm`."""
-    poses = ArmChain(robot).poses(positions)
+    poses = ArmKinematics(robot).poses(positions)
     angles = Rotation.from_matrix(palms.transpose(0, 2, 1) @ poses.rotation).magnitude()
     away = np.linalg.norm(poses.place - places, axis=1)
     rows = zip(positions, poses.rotation, poses.place, angles.tolist(), away.tolist(), strict=True)
@@ -125,4 +125,4 @@ def _problem(robot: Robot, palms: Array, places: Array) -> ArmProblem:
         upper_arm=none,
         fore_arm=none,
     )
-    return ArmProblem(ArmChain(robot), (goals,), weights=_WEIGHTS)
+    return ArmProblem(ArmKinematics(robot), (goals,), weights=_WEIGHTS)

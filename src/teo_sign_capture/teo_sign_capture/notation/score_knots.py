@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_sign_capture.notation.arm_solver import Reach
+from teo_sign_capture.notation.arm_solver import ArmCandidate
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture
 from teo_sign_capture.retarget.arm_bounds import Side, arm_bounds, mirrored
@@ -18,7 +18,7 @@ _HAND_SWINGS = {"thumb": 1, "index": 2, "middle": 3, "ring": 4, "little": 5}
 
 
 def knots_of(
-    score: Score, moments: list[Posture], rights: list[Reach], lefts: list[Reach]
+    score: Score, moments: list[Posture], rights: list[ArmCandidate], lefts: list[ArmCandidate]
 ) -> tuple[tuple[str, ...], Array]:
     """Joints that take part, and their positions at every moment [rad]. Shape (moments, joints).
 
@@ -30,13 +30,14 @@ def knots_of(
     """
     joints = RIGHT_ARM + RIGHT_HAND
     rows = [
-        _limb(moment, moment.right, reach, "right") for moment, reach in zip(moments, rights, strict=True)
+        _limb(moment, moment.right, candidate, "right")
+        for moment, candidate in zip(moments, rights, strict=True)
     ]
     if score.hands != "right":
         joints += LEFT_ARM + LEFT_HAND
         others = [
-            _limb(moment, moment.left, reach, "left")
-            for moment, reach in zip(moments, lefts or rights, strict=True)
+            _limb(moment, moment.left, candidate, "left")
+            for moment, candidate in zip(moments, lefts or rights, strict=True)
         ]
         rows = [np.concatenate([row, other]) for row, other in zip(rows, others, strict=True)]
     if any(moment.turn or moment.bow for moment in moments):
@@ -49,10 +50,10 @@ def knots_of(
     return joints, np.array(rows)
 
 
-def _limb(moment: Posture, target: HandTarget | None, reach: Reach, side: Side) -> Array:
+def _limb(moment: Posture, target: HandTarget | None, candidate: ArmCandidate, side: Side) -> Array:
     """Arm and hand in a moment [rad]. Shape (12,)."""
     assert target is not None
-    arm, hand = reach.positions.copy(), target.shape.copy()
+    arm, hand = candidate.positions.copy(), target.shape.copy()
     hand_limits = joint_limits(RIGHT_HAND)
     lower, upper = arm_bounds(side)
     for name, angle in moment.swings:

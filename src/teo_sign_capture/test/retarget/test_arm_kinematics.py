@@ -6,7 +6,7 @@ import pytest
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import DextraHand, DextraTable
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, ArmChain
+from teo_sign_capture.retarget.arm_kinematics import ELBOW, ArmKinematics
 
 
 @pytest.fixture(scope="module")
@@ -17,7 +17,7 @@ def robot():
 def test_many_arms_at_once_are_where_pinocchio_has_each(robot):
     limits = joint_limits(RIGHT_ARM)
     positions = np.random.default_rng(0).uniform(limits.lower, limits.upper, (50, 6))
-    chain = ArmChain(robot)
+    chain = ArmKinematics(robot)
     poses = chain.poses(positions)
     local = np.array([0.08, -0.02, 0.03])
     points = poses.points(np.tile(local, (50, 1)))
@@ -37,7 +37,7 @@ def test_many_arms_at_once_are_where_pinocchio_has_each(robot):
 
 
 def test_reach_is_the_arm_stretched_out(robot):
-    chain = ArmChain(robot)
+    chain = ArmKinematics(robot)
     hanging = chain.poses(np.zeros((1, 6)))
     assert chain.reach == pytest.approx(np.linalg.norm(hanging.place[0] - chain.shoulder), abs=0.001)
 

@@ -16,26 +16,26 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
+# [m] Unit of places: two fingers' breadth.
 _PLACE = 0.03
-"""[m] Unit of places: two fingers' breadth."""
+# [rad] Unit of directions and bends, as in `lut nearest`.
 _TURN = np.radians(15.0)
-"""[rad] Unit of directions and bends, as in `lut nearest`."""
+# A take that is farther from the others than this many times what they usually are is another sign, or a
+# mistake.
 _OUTLIER = 2.0
-"""A take that is farther from the others than this many times what they usually are is another sign, or a
-mistake."""
+# [unit] Takes within a unit of each other are never outliers.
 _ALIKE = 1.0
-"""[unit] Takes within a unit of each other are never outliers."""
+# [rad] Joints that differ by more between takes are two ways of making a sign: their mean may be neither.
 _AGREE = np.radians(15.0)
-"""[rad] Joints that differ by more between takes are two ways of making a sign: their mean may be neither."""
+# The mean of two is half of a mistake.
 _LEAST_AVERAGED = 3
-"""The mean of two is half of a mistake."""
+# [%] Of the differences between takes, so that one image does not decide.
 _SPREAD = 95.0
-"""[%] Of the differences between takes, so that one image does not decide."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -13,8 +13,8 @@ from teo_description.robot import Robot
 
 Array = NDArray[np.float64]
 
+# Poses from one knot to the next at which the clearance is measured.
 _SAMPLES = 5
-"""Poses from one knot to the next at which the clearance is measured."""
 
 
 def least_clearance(robot: Robot, joints: tuple[str, ...], knots: Sequence[Array] | Array) -> float:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_sign_capture.entries.takes import combine, warp
-from teo_sign_capture.retarget.motion import RobotMotion
+from teo_sign_capture.entries.take_combination import combine, warp
+from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]

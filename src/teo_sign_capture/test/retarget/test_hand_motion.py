@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import DextraTable, HandPoints, dextra_table, thumb_clearances
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.hand_flexion import follow_hand
+from teo_sign_capture.retarget.hand_motion import follow_hand
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm, straight_bends
 
 JOINTS = RIGHT_ARM + RIGHT_HAND

@@ -38,40 +38,40 @@ from teo_sign_capture.tracks.hand_model import HandPose, finger_directions
 
 Array = NDArray[np.float64]
 
+# Weights of the bending plane and of the viewer's plane; chosen by eye on pictures of the thirty letters.
 _SHAPE, _SEEN = 0.6, 1.0
-"""Weights of the bending plane and of the viewer's plane; chosen by eye on pictures of the thirty letters."""
+# Weight of a contact of thumb and finger, at distance 0.
 _CONTACT = 8.0
-"""Weight of a contact of thumb and finger, at distance 0."""
+# Weight of the side on which the thumb is of a finger that it is at.
 _SIDE = 1.0
-"""Weight of the side on which the thumb is of a finger that it is at."""
+# [cm/rad] Weight of the differences of neighbouring fingers' flexion: a hand looks torn where one finger of
+# four in a claw falls into a fist.
 _EVEN = 3.0
-"""[cm/rad] Weight of the differences of neighbouring fingers' flexion: a hand looks torn where one finger of
-four in a claw falls into a fist."""
+# Share of depth, left and up in the distance of thumb and finger: a gap along the line of sight is hardly
+# seen, and in the recordings it is the uncertain part.
 _FLAT = np.array([0.5, 1.0, 1.0])
-"""Share of depth, left and up in the distance of thumb and finger: a gap along the line of sight is hardly
-seen, and in the recordings it is the uncertain part."""
+# [cm/rad] Pull of abductor and thumb towards `HOME`: chooses among thumbs that look alike the one that has
+# the least way to go, and moves its tip by a millimetre or so.
 _REST = 0.1
-"""[cm/rad] Pull of abductor and thumb towards `HOME`: chooses among thumbs that look alike the one that
-has the least way to go, and moves its tip by a millimetre or so."""
 _HOME_THUMB = np.array([HOME[joint] for joint in RIGHT_HAND[:2]])
+# Weight of the place of neighbouring tips to each other, as seen: parted in U, together in P.
 _PARTED = 1.0
-"""Weight of the place of neighbouring tips to each other, as seen: parted in U, together in P."""
+# [m] Tips farther apart than this, on TEO's scale, are not meant to touch.
 _NEAR = 0.045
-"""[m] Tips farther apart than this, on TEO's scale, are not meant to touch."""
+# Weight of overlap: stronger than any wish.
 _OVERLAP = 15.0
-"""Weight of overlap: stronger than any wish."""
+# [rad] Spread is no longer seen in a finger that is bent so much in all.
 _SPREAD_ENDS = np.radians(60.0)
-"""[rad] Spread is no longer seen in a finger that is bent so much in all."""
+# [rad] Abductor and thumb from which the search sets out: it has several valleys.
 _STARTS = np.radians(
     [[abductor, thumb] for abductor in (2.0, 30.0, 60.0, 88.0) for thumb in (-60.0, -15.0, 20.0, 55.0)]
 )
-"""[rad] Abductor and thumb from which the search sets out: it has several valleys."""
+# The search sets out from so many of the starts, the best ones: more found nothing better.
 _SEARCHES = 10
-"""The search sets out from so many of the starts, the best ones: more found nothing better."""
+# [m] Distance of the tips' axes when thumb and finger touch: two radii.
 _TOUCH = 0.018
-"""[m] Distance of the tips' axes when thumb and finger touch: two radii."""
+# [m] A gap smaller than this is a contact: two landmarks are off by 3 mm each.
 _SURELY_APART = 0.006
-"""[m] A gap smaller than this is a contact: two landmarks are off by 3 mm each."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,17 +8,16 @@ from numpy.typing import NDArray
 from teo_description import RIGHT_ARM, RIGHT_HAND
 from teo_description.hand_geometry import FINGERS
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import PALM_FRAME
+from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME
 
 Array = NDArray[np.float64]
 
+# [m] TEO's face in ``base_link`` at home: half its width, its lower and upper edge, how far before the axis.
 _HALF_WIDTH, _CHIN, _TOP, _PLANE = 0.10, 0.625, 0.80, 0.09
-"""[m] TEO's face in ``base_link`` at home: half its width, its lower and upper edge, how far before the
-axis."""
+# [m] A viewer at conversation distance, at the height of TEO's eyes.
 _EYE = np.array([2.2, 0.0, 0.72])
-"""[m] A viewer at conversation distance, at the height of TEO's eyes."""
+# [m] Half the thickness of a finger, and a little.
 _RADIUS = 0.012
-"""[m] Half the thickness of a finger, and a little."""
 
 _FRAMES = (
     PALM_FRAME,

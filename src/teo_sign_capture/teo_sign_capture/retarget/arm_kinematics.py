@@ -5,7 +5,7 @@ starts asks for thousands of poses a step. Here they are all worked out together
 robot's model: every joint of the arm turns about one of the axes of its link, and all links are parallel to
 the base while the arm hangs.
 
-The left arm is the right one in a mirror (`score.arm_solver.mirrored`): what is said here of the right arm is
+The left arm is the right one in a mirror (`arm_bounds.mirrored`): what is said here of the right arm is
 used for both.
 """
 
@@ -21,8 +21,8 @@ from teo_description.robot import Robot
 
 Array = NDArray[np.float64]
 
+# Joints whose axes go through the elbow and the wrist.
 ELBOW, WRIST = 3, 5
-"""Joints whose axes go through the elbow and the wrist."""
 
 
 class ArmPoses(NamedTuple):
@@ -56,7 +56,7 @@ class ArmPoses(NamedTuple):
         return _cross(self.axes[:, :joints], directions[:, None])
 
 
-class ArmChain:
+class ArmKinematics:
     """The right arm of one robot."""
 
     def __init__(self, robot: Robot) -> None:

@@ -15,26 +15,26 @@ from scipy.optimize import least_squares
 
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
-from teo_sign_capture.alphabet.posture_hand import HandProblem, fit_dextra
+from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
+from teo_sign_capture.alphabet.spelling_hand import HandProblem, fit_dextra
 from teo_sign_capture.tracks.hand_model import HandPose
 
 Array = NDArray[np.float64]
 
+# [1/cm] Weight of a centimetre at a finger tip: about the angle in radians under which a finger's length sees
+# it.
 _HAND = 0.1
-"""[1/cm] Weight of a centimetre at a finger tip: about the angle in radians under which a finger's length
-sees it."""
+# [rad/m] Weight of the place, as long as it is near.
 _PLACE = 1.0
-"""[rad/m] Weight of the place, as long as it is near."""
+# [m], [rad/m] Beyond this from where a letter belongs the place counts before anything else.
 _FAR, _FAR_WEIGHT = 0.30, 20.0
-"""[m], [rad/m] Beyond this from where a letter belongs the place counts before anything else."""
 _POSTURE = 0.03
 # Hand before the right breast, back of the hand to the viewer, elbow half out [deg]. Of the valleys that the
 # search falls into it is the one in which the fingers can be counted from the front; the others hold the arm
 # out sideways, the hand at the hip, or the palm towards the viewer.
 _START = np.radians([-78.0, 12.0, 54.0, -50.0, 15.0, 43.0])
+# [rad] The search stays within this of `_START`, joint by joint: M, N and Ñ get one arm.
 _VALLEY = np.radians(10.0)
-"""[rad] The search stays within this of `_START`, joint by joint: M, N and Ñ get one arm."""
 
 
 def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:

@@ -11,14 +11,14 @@ from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TR
 from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import Side, arm_bounds, mirrored
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
-from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.collision_clearing import clear_arms
-from teo_sign_capture.retarget.collision_terms import WholeRobot
-from teo_sign_capture.retarget.hand_flexion import HandMotion, follow_hand
+from teo_sign_capture.retarget.collision_terms import CollisionModel
 from teo_sign_capture.retarget.hand_goals import HandGoals, hand_goals, pair_goals
+from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
 from teo_sign_capture.signing_space.hand_points import MIRROR, teo_hand_points
 from teo_sign_capture.tracks.body_axes import filled
@@ -87,7 +87,7 @@ def retarget_motion(
             a posture without touching itself.
     """
     sides = _SIDES[handedness]
-    chain, table = ArmChain(robot), dextra_table(robot)
+    chain, table = ArmKinematics(robot), dextra_table(robot)
     hands = {side: _hand(track, side) for side in sides}
     person = person or measure_person(track)
     head = follow_head(robot, head_pose(track, person.head_shape), person)
@@ -111,9 +111,9 @@ def retarget_motion(
         others |= dict(zip(HEAD, head.axes.T, strict=True))
     if trunk.moves:
         others |= dict(zip(TRUNK, trunk.axes.T, strict=True))
-    whole = WholeRobot(robot, chain, sides, tuple(shapes[side].axes for side in sides), others)
+    collisions = CollisionModel(robot, chain, sides, tuple(shapes[side].axes for side in sides), others)
     arms = solve_arms(problem, track.times, bounds)
-    arms, clearance = clear_arms(problem, whole, track, bounds, arms)
+    arms, clearance = clear_arms(problem, collisions, track, bounds, arms)
     joints = tuple(joint for side in sides for joint in _JOINTS[side]) + tuple(others)
     parts = [_limb(side, arms[:, at : at + JOINTS], shapes[side]) for at, side in _starts(sides)]
     place, palm, fingers, flexion = _errors(chain, sides, goals, shapes, arms)
@@ -168,7 +168,7 @@ def _limb(side: str, arm: Array, hand: HandMotion) -> Array:
 
 
 def _errors(
-    chain: ArmChain,
+    chain: ArmKinematics,
     sides: tuple[Side, ...],
     goals: tuple[HandGoals, ...],
     shapes: dict[Side, HandMotion],
