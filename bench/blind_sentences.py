@@ -17,7 +17,7 @@ from report import Figure, share
 from translation_systems import SENTENCES, judged, systems
 
 from teo_sign_translator.model_files import models_directory
-from teo_sign_translator.pointer.training.metrics import fewest_edits
+from teo_sign_translator.training.metrics import fewest_edits
 
 _RECORD = SENTENCES / "blind.json"
 

@@ -19,8 +19,9 @@ from signer_tracks import signer_track
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget import motion as motion_retarget
+from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
-from teo_sign_capture.retarget.arm_trajectory import Bounds, solve_arms
+from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import WholeRobot
 from teo_sign_capture.retarget.motion import RobotMotion

@@ -31,7 +31,7 @@ from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.pointer.training.metrics import overlap, score
+from teo_sign_translator.training.metrics import overlap, score
 
 HELD_OUT = 1000
 """Most sentences of each held-out part."""
@@ -56,7 +56,7 @@ def measure() -> list[Figure]:
         *_taught(every),
         *_known(every),
         *_held_out(every),
-        *_constructions(),
+        *constructions(),
         *blind_sentences.figures(),
         *_signed(every),
         *_speed(),
@@ -91,7 +91,8 @@ def _held_out(systems: Mapping[str, System]) -> Iterable[Figure]:
         yield from _exact(part, pairs, systems)
 
 
-def _constructions() -> Iterable[Figure]:
+def constructions() -> Iterable[Figure]:
+    """Of a model that was trained without them, if there is one."""
     what = f"generated, {_PARTS['test_constructions']}"
     if not (_WITHOUT_CONSTRUCTIONS / "pointer.safetensors").is_file():
         yield Figure(what, "not measured: train that model first, see the translator's README")

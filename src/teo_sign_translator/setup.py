@@ -7,7 +7,7 @@ PACKAGE = "teo_sign_translator"
 setup(
     name=PACKAGE,
     version="0.1.0",
-    packages=find_packages(exclude=["test"]),
+    packages=find_packages(exclude=["test", "test.*"]),
     package_data={PACKAGE: ["py.typed"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
@@ -21,13 +21,17 @@ setup(
             for folder in (Path("data"), *sorted(path for path in Path("data").iterdir() if path.is_dir()))
         ),
     ],
-    install_requires=["setuptools"],
+    install_requires=["setuptools", "numpy", "rich", "safetensors", "threadpoolctl", "typer"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="Spanish text to Spanish Sign Language (LSE) tokens: models and translator node.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={
+        # Makes and measures models; what translates needs none of it.
+        "train": ["matplotlib", "PyYAML", "sacrebleu", "torch"],
+        "test": ["hypothesis", "pytest", "simplemma"],
+    },
     entry_points={
         "console_scripts": [
             "translator_node = teo_sign_translator.node.translator_node:main",

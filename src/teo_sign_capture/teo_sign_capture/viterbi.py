@@ -1,7 +1,8 @@
-"""The cheapest way through time over candidates (Viterbi, IEEE Trans. Inf. Theory 1967)."""
+"""The cheapest path through time over candidates (Viterbi, IEEE Trans. Inf. Theory 1967)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -10,34 +11,36 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def cheapest_way(
-    cost: Array, values: Array, price: float, *, farthest: Array | None = None, haste: float = 0.0
-) -> Array:
-    """One candidate at each moment, such that their costs and the ways between them are least together.
+def cheapest_path(
+    costs: Sequence[Array] | Array,
+    values: Sequence[Array] | Array,
+    price: float,
+    *,
+    farthest: Array | None = None,
+    haste: float = 0.0,
+) -> NDArray[np.intp]:
+    """Choose one candidate at each of n moments: least sum of their costs and of the steps between them.
 
     Args:
-        cost: Of c candidates at n moments. Shape (n, c).
-        values: What they are. Shape (n, c, k).
-        price: Of the square of the way from one moment to the next.
+        costs: Of the c candidates at each moment; c may differ from moment to moment. n arrays of shape (c,).
+        values: What the candidates are. n arrays of shape (c, k).
+        price: Of the square of the step from one moment to the next.
         farthest: How far each of the k values goes from one moment to the next without haste; None for as
             far as it likes. Shape (n - 1,).
         haste: Price of the square of what is beyond.
 
     Returns:
-        The values chosen. Shape (n, k).
+        Index of the candidate chosen at each moment. Shape (n,).
     """
-    total = cost[0]
+    total = costs[0]
     origins = []
-    reach = np.full(len(cost) - 1, np.inf) if farthest is None else farthest
-    for (before, now), own, far in zip(pairwise(values), cost[1:], reach, strict=True):
-        way = np.abs(now[:, None] - before[None])
-        through = total[None] + (price * way**2 + haste * np.maximum(way - far, 0.0) ** 2).sum(axis=2)
+    reach = np.full(len(costs) - 1, np.inf) if farthest is None else farthest
+    for (before, now), own, far in zip(pairwise(values), costs[1:], reach, strict=True):
+        step = np.abs(now[:, None] - before[None])
+        through = total[None] + (price * step**2 + haste * np.maximum(step - far, 0.0) ** 2).sum(axis=2)
         origins.append(through.argmin(axis=1))
         total = through.min(axis=1) + own
-    index = int(total.argmin())
-    chosen = [index]
+    chosen = [int(total.argmin())]
     for origin in reversed(origins):
-        index = int(origin[index])
-        chosen.append(index)
-    path: Array = values[np.arange(len(values)), chosen[::-1]]
-    return path
+        chosen.append(int(origin[chosen[-1]]))
+    return np.array(chosen[::-1], dtype=np.intp)

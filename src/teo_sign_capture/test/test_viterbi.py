@@ -3,11 +3,10 @@ from __future__ import annotations
 from itertools import pairwise, product
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_sign_capture.viterbi import cheapest_way
+from teo_sign_capture.viterbi import cheapest_path
 
 
 @settings(max_examples=30, deadline=None)
@@ -32,5 +31,11 @@ def test_no_other_way_is_cheaper(seed, moments, price, haste):
         return cost[np.arange(moments), way].sum() + price * ways + haste * beyond
 
     best = min((list(way) for way in product(range(3), repeat=moments)), key=total)
-    found = cheapest_way(cost, values, price, farthest=farthest, haste=haste)
-    assert found == pytest.approx(values[np.arange(moments), best])
+    found = cheapest_path(cost, values, price, farthest=farthest, haste=haste)
+    assert found.tolist() == best
+
+
+def test_candidates_may_be_as_many_as_there_are_at_each_moment():
+    costs = [np.array([0.0, 0.1]), np.array([0.0]), np.array([0.5, 0.3, 0.0])]
+    values = [np.array([[0.0], [1.0]]), np.array([[1.0]]), np.array([[1.0], [2.0], [9.0]])]
+    assert cheapest_path(costs, values, 1.0).tolist() == [1, 0, 0]

@@ -1,1 +1,36 @@
-"""Spanish text to Spanish Sign Language (LSE) tokens."""
+"""Spanish text to Spanish Sign Language (LSE): which signs are made, in which order, for which words.
+
+    >>> print(Translator.load().translate("Mañana no voy al colegio."))
+    MAÑANA YO COLEGIO IR NO
+
+Each room imports only rooms above it in this list; the README says more of each.
+
+    morphology  what a Spanish word may be, and how a lemma is inflected
+    text        typed text as sentences, clauses and words
+    output      what is signed: glosses, letters, numbers, pauses
+    corpus      a grammar that makes sentence pairs, and the paper's pairs
+    pointer     the default model
+    lstm256     the published model
+    training    from pairs to models; the only room that needs PyTorch
+    pipeline    from text through a model to what is signed
+    node, cli   the ROS node, the commands
+"""
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.model_files import available_models
+from teo_sign_translator.output import Kind, Origin, Sentence, Token, Translation
+from teo_sign_translator.pipeline import DEFAULT_MODEL, Translator
+from teo_sign_translator.text import SentenceType
+
+__all__ = [
+    "DEFAULT_MODEL",
+    "Kind",
+    "Origin",
+    "Sentence",
+    "SentenceType",
+    "Token",
+    "Translation",
+    "TranslationError",
+    "Translator",
+    "available_models",
+]

@@ -14,9 +14,9 @@ from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.training.fitting import Fit, fit
-from teo_sign_translator.pointer.training.memorised_pairs import MemorisedPair
 from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.training.fitting import Fit, fit
+from teo_sign_translator.training.memorised_pairs import MemorisedPair
 
 NOUNS = ("pan", "vaso", "libro", "coche", "gato", "perro")
 VERBS = ("com", "beb", "le", "vend")

@@ -19,7 +19,7 @@ from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved
 from teo_skeleton_retriever.output.messages import skeleton_array
-from teo_skeleton_retriever.output.skeleton_bag import SkeletonBag
+from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
@@ -119,7 +119,7 @@ def retrieve_recording(
         bag = Bag(recording)
         topics = choose_topics(bag, color=color_topic, depth=depth_topic, camera_info=camera_info_topic)
         reader = BagImages(bag, topics, slop=round(slop * 1e9), rectified=rectified)
-        skeletons = stack.enter_context(SkeletonBag(out)) if out is not None else None
+        skeletons = stack.enter_context(skeleton_bag(out)) if out is not None else None
         total = sum(bag.counts.get(topic, 0) for topic in topics)
         tally = _Tally()
 

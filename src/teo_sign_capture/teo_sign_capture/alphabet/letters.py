@@ -15,13 +15,13 @@ from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import SPELLING_POSES
 from teo_sign_capture.alphabet.face import shift_off_face
-from teo_sign_capture.alphabet.knots import reduce_knots
 from teo_sign_capture.alphabet.letter_notes import NOTES
 from teo_sign_capture.alphabet.posture_arm import PALM_FRAME, ArmFit, fit_arm, follow_arm
 from teo_sign_capture.alphabet.posture_hand import HandFit, fit_dextra
 from teo_sign_capture.alphabet.posture_whole import fit_whole
 from teo_sign_capture.alphabet.stroke import Stroke, find_stroke, palm_centres, reaches, tilts
 from teo_sign_capture.recordings.letter_clips import LICENCE, PACKAGE, LetterClip, clips_version
+from teo_sign_capture.retarget.knot_reduction import reduce_to_knots
 from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
 from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, measure_signer
 from teo_signs.sign import Sign
@@ -108,7 +108,7 @@ def capture_letter(robot: Robot, alphabet: Alphabet, letter: str) -> Sign:
             break
         shift = shift + more
     times = (frames - frames[0]) / clip.rate
-    kept = reduce_knots(times, positions, _TOLERANCE)
+    kept = reduce_to_knots(times, positions, _TOLERANCE)
     knots = positions[kept]
     return Sign(
         gloss=letter,
@@ -167,7 +167,8 @@ def _retarget(
         tilt = tilts(clip.hand)[frames]
         rocking = Rotation.from_rotvec(np.outer(tilt - np.median(tilt), [1.0, 0.0, 0.0])).as_matrix()
         # About what can be reached, so that the movement is whole where the pose is not.
-        return follow_arm(robot, rocking @ first.palm, first.place + places - middle, first), [hand]
+        arms = follow_arm(robot, rocking @ first.palm, first.place + places - middle, first)
+        return arms, [hand]
     edges = [frame for span in spans for frame in span]
     held = Rotation.from_matrix(np.array([pose.rotation for pose in poses for _ in range(2)]))
     palms = Slerp(edges, held)(np.clip(frames, edges[0], edges[-1])).as_matrix()

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.posture_arm import ArmFit, fit_arm
+from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
@@ -90,7 +91,7 @@ def _number(robot: Robot, digit: str) -> Sign:
     joints, pose = RIGHT_ARM + RIGHT_HAND, np.concatenate([arm.positions, _hand(digit)])
     if two_handed:
         joints += LEFT_ARM + LEFT_HAND
-        pose = np.concatenate([pose, mirrored_arm(arm.positions), _hand("5")])
+        pose = np.concatenate([pose, mirrored(arm.positions), _hand("5")])
     knots = np.stack([pose, pose])
     return Sign(
         gloss=digit,
@@ -116,13 +117,6 @@ def _number(robot: Robot, digit: str) -> Sign:
         ),
         quality=_quality(robot, joints, knots, arm),
     )
-
-
-def mirrored_arm(right: Array) -> Array:
-    """Left arm that mirrors the right [rad]: only frontal axes turn the same way. Shape (6,)."""
-    same = np.array([1.0 if joint.startswith("Frontal") else -1.0 for joint in RIGHT_ARM])
-    mirrored: Array = same * right
-    return mirrored
 
 
 def _hand(digit: str) -> Array:

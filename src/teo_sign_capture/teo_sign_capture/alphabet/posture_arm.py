@@ -1,8 +1,6 @@
-"""Where the hand is and how the palm is turned, on TEO's right arm.
+"""Where the hand is and how the palm is turned, on TEO's right arm: letters and numbers.
 
-Bounded least squares with Pinocchio's Jacobian. TEO's arm has six joints, so a reachable pose of the hand has
-few answers; where it is out of reach, the orientation of the palm goes before the place, and the elbow stays
-where a person's would.
+Where a palm is out of reach its orientation goes before the place.
 """
 
 from __future__ import annotations
@@ -10,45 +8,39 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import pinocchio as pin
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
 
-from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_description.robot import Robot
+from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds
+from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, ArmWeights
+from teo_sign_capture.retarget.arm_search import search_arms
+from teo_sign_capture.retarget.batched_arm_kinematics import ELBOW, ArmChain
+from teo_sign_capture.retarget.hand_goals import HandGoals
 
 Array = NDArray[np.float64]
 
 PALM_FRAME = "right_palm"
 
-MARGIN = np.radians(1.0)
-"""[rad] Distance kept from every limit, so that a planner may overshoot by its rounding."""
-
-# TEO's joints go farther than a person's: an elbow that bends backwards puts the hand in place and looks
-# absurd. The bounds that TEO's makers call "human-inspired" (developer manual, motores-motores.csv), in the
-# order of RIGHT_ARM [deg]; they lie within the robot's limits, or the limits are used.
-_HUMAN_LOWER = np.radians([-98.1, -75.5, -40.0, -99.6, -80.4, -70.0])
-# The elbow's upper bound there is 5: it is kept bent here, for nobody spells with a straight arm.
-_HUMAN_UPPER = np.radians([45.0, 22.4, 55.0, -45.0, 90.0, 44.7])
-
 SPELLING_ARM = np.radians([-74.0, 11.2, 11.1, -80.5, 48.9, 1.1])
-"""[rad] Mean of the poses in which TEO's own demonstration spells T, E and O."""
+"""[rad] Mean of the poses in which TEO's own demonstration spells T, E and O. Shape (6,)."""
 
-_PLACE = 2.0
-"""[rad/m] The palm 10 cm out of place counts as much as 11 deg out of orientation."""
-_POSTURE = 0.03
-"""Pull towards `SPELLING_ARM`: chooses among equals, moves a reachable hand by less than 1 deg."""
+# The elbow is bent by as much at least [rad]: nobody spells with a straight arm.
+_BENT = np.radians(-46.0)
 
-# The search has several valleys; these lead into them: spelling, palm in, elbow out with the hand hanging,
-# hand at the chest, palm up [deg].
-_STARTS = np.radians(
-    [
-        [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],
-        [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],
-        [-42.0, -74.0, 54.0, -98.0, 20.0, -20.0],
-        [-60.0, -40.0, 20.0, -60.0, 0.0, 0.0],
-        [-60.0, -10.0, -20.0, -90.0, 40.0, -40.0],
-    ]
+_WEIGHTS = ArmWeights(
+    # The palm 10 cm out of place counts as much as 11 deg out of orientation.
+    in_air=np.full(3, 2.0),
+    on_body=2.0,
+    # A turn counts by about its angle: both directions together change by sqrt(1 + n^2) of it, n being the
+    # share of its axis to the little finger's side.
+    palm=0.77,
+    fingers=0.77,
+    upper_arm=0.0,
+    fore_arm=0.0,
+    # Chooses among equals, moves a reachable hand by less than 1 deg.
+    easy=np.full(JOINTS, 0.03),
+    easy_arm=SPELLING_ARM,
 )
 
 
@@ -62,7 +54,6 @@ class ArmFit:
         place: Middle of the palm reached, in ``base_link`` [m]. Shape (3,).
         angle_error: Angle between the orientation reached and the one wanted [rad].
         place_error: Distance from the place wanted [m].
-        cost: Half the squared residual.
     """
 
     positions: Array
@@ -70,31 +61,20 @@ class ArmFit:
     place: Array
     angle_error: float
     place_error: float
-    cost: float
 
 
-def arm_bounds(*, both_sides: bool = False) -> tuple[Array, Array]:
-    """Bounds kept by the search.
+def spelling_bounds(*, both_sides: bool = False) -> Bounds:
+    """Lower and upper bounds of an arm that spells [rad]. Shapes (6,).
 
     Args:
         both_sides: Whether the left arm must be able to mirror the pose.
-
-    Returns:
-        Lower and upper bounds [rad]. Shapes (6,).
     """
-    limits = joint_limits(RIGHT_ARM)
-    lower, upper = np.maximum(limits.lower, _HUMAN_LOWER), np.minimum(limits.upper, _HUMAN_UPPER)
-    if both_sides:
-        left = joint_limits(LEFT_ARM)
-        # Frontal axes turn the same way on both sides, the others the other way.
-        frontal = np.array([joint.startswith("Frontal") for joint in RIGHT_ARM])
-        lower = np.maximum(lower, np.where(frontal, left.lower, -left.upper))
-        upper = np.minimum(upper, np.where(frontal, left.upper, -left.lower))
-    return lower + MARGIN, upper - MARGIN
+    lower, upper = arm_bounds("both" if both_sides else "right")
+    return lower, np.where(np.arange(JOINTS) == ELBOW, np.minimum(upper, _BENT), upper)
 
 
 def fit_arm(robot: Robot, palm: Array, place: Array, *, both_sides: bool = False) -> ArmFit:
-    """Find the arm that holds the palm so, from several starts.
+    """Find the arm that holds the palm so, from all starts.
 
     Args:
         robot: The robot; head and trunk are at home.
@@ -102,61 +82,47 @@ def fit_arm(robot: Robot, palm: Array, place: Array, *, both_sides: bool = False
         place: Where the middle of the palm should be, in ``base_link`` [m]. Shape (3,).
         both_sides: Whether the left arm must be able to mirror the pose.
     """
-    bounds = arm_bounds(both_sides=both_sides)
-    fits = [_search(robot, palm, place, start, bounds) for start in _STARTS]
-    return min(fits, key=lambda fit: fit.cost)
+    problem = _problem(robot, palm[None], place[None])
+    bounds = spelling_bounds(both_sides=both_sides)
+    found, costs = search_arms(problem, 0, np.zeros(1, np.intp), bounds)
+    return arm_fits(robot, found[0, costs[0].argmin()][None], palm[None], place[None])[0]
 
 
 def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[ArmFit]:
-    """Find the arm along a path, each pose from the one before.
+    """Find the arm along a path.
 
     Args:
         robot: The robot.
         palms: Orientations wanted. Shape (n, 3, 3).
         places: Places wanted [m]. Shape (n, 3).
-        near: A pose from which the first one is sought.
+        near: A pose from which all are sought.
     """
-    bounds = arm_bounds()
-    fits = [_search(robot, palms[0], places[0], near.positions, bounds)]
-    for palm, place in zip(palms[1:], places[1:], strict=True):
-        fits.append(_search(robot, palm, place, fits[-1].positions, bounds))
-    return fits
+    problem, frames = _problem(robot, palms, places), np.arange(len(places))
+    found, _ = search_arms(problem, 0, frames, spelling_bounds(), starts=near.positions[None])
+    return arm_fits(robot, found[:, 0], palms, places)
 
 
-def _search(robot: Robot, palm: Array, place: Array, start: Array, bounds: tuple[Array, Array]) -> ArmFit:
-    lower, upper = bounds
+def arm_fits(robot: Robot, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
+    """How well arms do; arguments of n poses as for `follow_arm`."""
+    poses = ArmChain(robot).poses(positions)
+    angles = Rotation.from_matrix(palms.transpose(0, 2, 1) @ poses.rotation).magnitude()
+    away = np.linalg.norm(poses.place - places, axis=1)
+    rows = zip(positions, poses.rotation, poses.place, angles.tolist(), away.tolist(), strict=True)
+    return [
+        ArmFit(positions=arm, palm=palm, place=place, angle_error=angle, place_error=far)
+        for arm, palm, place, angle, far in rows
+    ]
 
-    def pose(positions: Array) -> tuple[Array, Array, Array]:
-        q = robot.configuration(dict(zip(RIGHT_ARM, positions.tolist(), strict=True)))
-        reached = robot.placement(q, PALM_FRAME)
-        return q, reached[:3, :3], reached[:3, 3]
 
-    def residuals(positions: Array) -> Array:
-        _, turned, moved = pose(positions)
-        away = pin.log3(palm.T @ turned)
-        return np.concatenate([away, _PLACE * (moved - place), _POSTURE * (positions - SPELLING_ARM)])
-
-    def derivatives(positions: Array) -> Array:
-        q, turned, _ = pose(positions)
-        jacobian = robot.jacobian(q, PALM_FRAME, RIGHT_ARM)
-        away = palm.T @ turned
-        return np.vstack(
-            [
-                pin.Jlog3(away) @ turned.T @ jacobian[3:],
-                _PLACE * jacobian[:3],
-                _POSTURE * np.eye(len(RIGHT_ARM)),
-            ]
-        )
-
-    inside = np.clip(start, lower + 1e-3, upper - 1e-3)
-    fit = least_squares(residuals, inside, jac=derivatives, bounds=(lower, upper))
-    positions = np.clip(fit.x, lower, upper)
-    _, turned, moved = pose(positions)
-    return ArmFit(
-        positions=positions,
-        palm=turned,
-        place=moved,
-        angle_error=float(np.linalg.norm(pin.log3(palm.T @ turned))),
-        place_error=float(np.linalg.norm(moved - place)),
-        cost=float(fit.cost),
+def _problem(robot: Robot, palms: Array, places: Array) -> ArmProblem:
+    none = np.zeros_like(places)
+    goals = HandGoals(
+        local=none,
+        place=places,
+        contact=np.zeros(len(places)),
+        palm=palms[:, :, 2],
+        fingers=palms[:, :, 0],
+        upper_arm=none,
+        fore_arm=none,
     )
+    return ArmProblem(ArmChain(robot), (goals,), weights=_WEIGHTS)

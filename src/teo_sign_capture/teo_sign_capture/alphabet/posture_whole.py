@@ -15,7 +15,7 @@ from scipy.optimize import least_squares
 
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
-from teo_sign_capture.alphabet.posture_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_bounds
+from teo_sign_capture.alphabet.posture_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
 from teo_sign_capture.alphabet.posture_hand import HandProblem, fit_dextra
 from teo_sign_capture.tracks.hand_model import HandPose
 
@@ -46,7 +46,7 @@ def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
         place: Where the middle of the palm should be, in ``base_link`` [m]. Shape (3,).
     """
     hand_limits = joint_limits(RIGHT_HAND)
-    arm_lower, arm_upper = arm_bounds()
+    arm_lower, arm_upper = spelling_bounds()
     arm_lower, arm_upper = np.maximum(arm_lower, _START - _VALLEY), np.minimum(arm_upper, _START + _VALLEY)
     lower, upper = (
         np.concatenate([arm_lower, hand_limits.lower]),
@@ -76,12 +76,4 @@ def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
     start = np.clip(np.concatenate([_START, guess]), lower + 1e-3, upper - 1e-3)
     fit = least_squares(residuals, start, bounds=(lower, upper), diff_step=1e-3)
     arm = np.clip(fit.x[:arm_count], arm_lower, arm_upper)
-    reached = palm(arm)
-    return ArmFit(
-        positions=arm,
-        palm=reached[:3, :3],
-        place=reached[:3, 3],
-        angle_error=float(np.linalg.norm(pin.log3(pose.rotation.T @ reached[:3, :3]))),
-        place_error=float(np.linalg.norm(reached[:3, 3] - place)),
-        cost=float(fit.cost),
-    )
+    return arm_fits(robot, arm[None], pose.rotation[None], place[None])[0]

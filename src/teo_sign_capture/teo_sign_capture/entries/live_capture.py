@@ -50,9 +50,9 @@ def default_recordings() -> Path:
 
 def write_skeletons(path: Path, messages: Sequence[Any]) -> None:
     """Write `SkeletonArray` messages as a bag, whole or not at all."""
-    from teo_skeleton_retriever.output.skeleton_bag import SkeletonBag
+    from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
 
-    with SkeletonBag(path) as bag:
+    with skeleton_bag(path) as bag:
         for message in messages:
             stamp = message.header.stamp
             bag.write(message, stamp.sec * 1_000_000_000 + stamp.nanosec)

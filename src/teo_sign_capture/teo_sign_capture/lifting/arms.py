@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from teo_sign_capture.lifting.body_measure import BodyMeasure
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
-from teo_sign_capture.viterbi import cheapest_way
+from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
 
@@ -117,7 +117,8 @@ def lift_arm(
     known = np.isfinite(costs).all(axis=1)
     if known.any():
         reached = np.cumsum(candidates[known], axis=2)
-        places[known] = cheapest_way(costs[known], reached, 1.0 / (_JITTER + _SPEED * period) ** 2)
+        path = cheapest_path(costs[known], reached, 1.0 / (_JITTER + _SPEED * period) ** 2)
+        places[known] = reached[np.arange(len(path)), path]
     sigma[:, 1] = np.hypot(sigma[:, 0], sigma[:, 1])
     places[:, 1], sigma[:, 1] = _with_usual(places[:, 1], sigma[:, 1], across, lengths)
     places[:, 1] = np.maximum(places[:, 1], _least_depth(wrist))

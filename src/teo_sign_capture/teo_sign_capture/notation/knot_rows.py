@@ -9,7 +9,7 @@ from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, jo
 from teo_sign_capture.notation.arm_solver import Reach
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture
-from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
+from teo_sign_capture.retarget.arm_bounds import Side, arm_bounds, mirrored
 
 Array = NDArray[np.float64]
 
@@ -49,7 +49,7 @@ def knots_of(
     return joints, np.array(rows)
 
 
-def _limb(moment: Posture, target: HandTarget | None, reach: Reach, side: str) -> Array:
+def _limb(moment: Posture, target: HandTarget | None, reach: Reach, side: Side) -> Array:
     """Arm and hand in a moment [rad]. Shape (12,)."""
     assert target is not None
     arm, hand = reach.positions.copy(), target.shape.copy()

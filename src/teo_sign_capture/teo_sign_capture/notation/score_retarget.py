@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Iterable
 from dataclasses import replace
 from itertools import pairwise
 
@@ -17,8 +16,8 @@ from teo_sign_capture.notation.arm_solver import ArmSolver, Reach, smoothest
 from teo_sign_capture.notation.knot_rows import knots_of
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
-from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
-from teo_sign_capture.retarget.measures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored
+from teo_sign_capture.retarget.measures import clearance_mm, least_clearance, limit_margin_deg
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
@@ -35,8 +34,6 @@ _TOUCH = 0.5
 """What an arm that touches the body or the other arm costs: as much as a palm that is turned by 60 deg."""
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
 """[rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body."""
-_LOOKS = 6
-"""Poses at which the way from one knot to the next is looked at."""
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 _OUT = np.array([0.0, -1.0, 0.0])
@@ -54,7 +51,7 @@ def score_sign(robot: Robot, score: Score) -> Sign:
     place_errors = performance.place_errors(rights, lefts)
     joints, knots = knots_of(score, moments, rights, lefts)
     times = np.array([moment.time for moment in moments])
-    times, knots = _round_obstacles(performance, joints, times, knots)
+    times, knots = _round_obstacles(robot, score.gloss, joints, times, knots)
     reached = (*rights, *lefts)
     return Sign(
         gloss=score.gloss,
@@ -81,18 +78,13 @@ class _Performance:
     """Arms for all moments of a score, moved off what they would go into."""
 
     def __init__(self, robot: Robot, score: Score, moments: list[Posture]) -> None:
-        self.gloss = score.gloss
         self._robot = robot
         self._score = score
         self._moments = moments
         self._solver = ArmSolver(robot)
         self._known: dict[tuple[object, ...], list[Reach]] = {}
-        lower, upper = arm_bounds("right")
         self._left_bounds = arm_bounds("left")
-        if score.hands == "mirrored":
-            lower = np.maximum(lower, self._left_bounds[0])
-            upper = np.minimum(upper, self._left_bounds[1])
-        self._right_bounds = (lower, upper)
+        self._right_bounds = arm_bounds("both" if score.hands == "mirrored" else "right")
 
     def solve(self) -> tuple[list[Reach], list[Reach]]:
         """Right and left arms for every moment; the left ones are empty where the left arm takes no part.
@@ -143,20 +135,12 @@ class _Performance:
         pose = dict(zip(joints, row.tolist(), strict=True))
         return self._robot.clearance(self._robot.configuration(pose))
 
-    def nearest(self, joints: tuple[str, ...], rows: Iterable[Array]) -> float:
-        """Smallest distance between parts of the robot on straight ways from pose to pose [m]."""
-        return min(
-            self.clearance(joints, first + share * (second - first)).distance
-            for first, second in pairwise(rows)
-            for share in np.linspace(0.0, 1.0, _LOOKS)
-        )
-
     def _arms(self, pushes: Array) -> tuple[list[Reach], list[Reach]]:
         if self._score.hands != "both":
             targets = [
                 _pushed(moment.right, push) for moment, push in zip(self._moments, pushes, strict=True)
             ]
-            rights = smoothest([self._reaches(target, self._right_bounds, "right") for target in targets])
+            rights = smoothest(self._reaches(targets, self._right_bounds, "right"))
             return rights, []
         left_targets = [moment.left for moment in self._moments if moment.left is not None]
         # Where the right hand is on the left one, the right hand gives way.
@@ -165,14 +149,20 @@ class _Performance:
             target if stay else _pushed(target, push)
             for target, stay, push in zip(left_targets, stays, pushes, strict=True)
         ]
-        lefts = smoothest([self._reaches(target, self._left_bounds, "left") for target in left_targets])
+        lefts = smoothest(self._reaches(left_targets, self._left_bounds, "left"))
         targets = [
             _pushed(self._resolved(moment.right, left, reach), push)
             for moment, left, reach, push in zip(self._moments, left_targets, lefts, pushes, strict=True)
         ]
         candidates = [
-            self._beside(target, self._reaches(target, self._right_bounds, "right"), moment, left)
-            for target, moment, left in zip(targets, self._moments, lefts, strict=True)
+            self._beside(target, reaches, moment, left)
+            for target, reaches, moment, left in zip(
+                targets,
+                self._reaches(targets, self._right_bounds, "right"),
+                self._moments,
+                lefts,
+                strict=True,
+            )
         ]
         return smoothest(candidates), lefts
 
@@ -182,20 +172,22 @@ class _Performance:
             return right
         point = _MIRROR * self._solver.hand_point(reach.positions, left, right.other)
         wanted = point + right.point
-        away = wanted - _MIRROR * self._solver.palm(reach.positions)[:3, 3]
+        away = wanted - _MIRROR * self._solver.palm(reach.positions)[1]
         # The hand comes from where its own palm does not look.
         outward = away / max(float(np.linalg.norm(away)), 1e-6) - right.palm
         return replace(right, point=wanted, outward=outward / max(float(np.linalg.norm(outward)), 1e-6))
 
-    def _reaches(self, target: HandTarget, bounds: tuple[Array, Array], side: str) -> list[Reach]:
-        arrays = (target.shape, target.point, target.palm, target.fingers)
-        key = (side, target.part, target.meets, *(np.round(array, 6).tobytes() for array in arrays))
-        if key not in self._known:
-            reaches = self._solver.reaches(target, bounds)
-            self._known[key] = [
-                replace(reach, cost=reach.cost + self._touch(target, reach, side)) for reach in reaches
-            ]
-        return self._known[key]
+    def _reaches(self, targets: list[HandTarget], bounds: Bounds, side: str) -> list[list[Reach]]:
+        """Arms for each target; those that were sought before are known."""
+        keys = [_key(target, side) for target in targets]
+        new = {key: target for key, target in zip(keys, targets, strict=True) if key not in self._known}
+        if new:
+            found = self._solver.reaches(list(new.values()), bounds)
+            for (key, target), reaches in zip(new.items(), found, strict=True):
+                self._known[key] = [
+                    replace(reach, cost=reach.cost + self._touch(target, reach, side)) for reach in reaches
+                ]
+        return [self._known[key] for key in keys]
 
     def _beside(self, target: HandTarget, reaches: list[Reach], moment: Posture, left: Reach) -> list[Reach]:
         """Right arms, those that touch the left one at a higher cost."""
@@ -218,6 +210,11 @@ class _Performance:
         return _TOUCH if near < _CLEARANCE else 0.0
 
 
+def _key(target: HandTarget, side: str) -> tuple[object, ...]:
+    arrays = (target.shape, target.point, target.palm, target.fingers)
+    return (side, target.part, target.meets, *(np.round(array, 6).tobytes() for array in arrays))
+
+
 def _pushed(target: HandTarget, push: Array) -> HandTarget:
     """A target off the body, and off the other hand: out to its own side, or away from what it is on."""
     if not push.any():
@@ -227,7 +224,7 @@ def _pushed(target: HandTarget, push: Array) -> HandTarget:
 
 
 def _round_obstacles(
-    performance: _Performance, joints: tuple[str, ...], times: Array, knots: Array
+    robot: Robot, gloss: str, joints: tuple[str, ...], times: Array, knots: Array
 ) -> tuple[Array, Array]:
     """Leave out moments without time, and add a knot where the straight way between two would touch.
 
@@ -238,8 +235,8 @@ def _round_obstacles(
     for (start, first), (end, second) in pairwise(zip(times, knots, strict=True)):
         if end <= start:
             continue
-        if performance.nearest(joints, [first, second]) < _CLEARANCE / 2.0:
-            kept.append(_way_round(performance, joints, first, second, float(start)))
+        if least_clearance(robot, joints, [first, second]) < _CLEARANCE / 2.0:
+            kept.append(_way_round(robot, gloss, joints, first, second, float(start)))
             kept_times.append(float(start + end) / 2.0)
         kept.append(second)
         kept_times.append(float(end))
@@ -247,7 +244,7 @@ def _round_obstacles(
 
 
 def _way_round(
-    performance: _Performance, joints: tuple[str, ...], first: Array, second: Array, start: float
+    robot: Robot, gloss: str, joints: tuple[str, ...], first: Array, second: Array, start: float
 ) -> Array:
     """Half-way between two knots: the elbows opened until nothing touches, or one arm before the other."""
     limits = joint_limits(joints)
@@ -256,11 +253,11 @@ def _way_round(
     middle: Array
     opened = [np.minimum((first + second) / 2.0 + angle * elbows, limits.upper) for angle in _OPENED_ELBOWS]
     for middle in (*opened, np.where(left, first, second), np.where(left, second, first)):
-        if performance.nearest(joints, [first, middle, second]) >= _CLEARANCE / 2.0:
+        if least_clearance(robot, joints, [first, middle, second]) >= _CLEARANCE / 2.0:
             return middle
     raise LutError(
         "self_collision",
-        f"{performance.gloss}: expected a way that TEO can go from {start:.2f} s on, got one that touches: "
+        f"{gloss}: expected a way that TEO can go from {start:.2f} s on, got one that touches: "
         "add a step that leads round",
     )
 

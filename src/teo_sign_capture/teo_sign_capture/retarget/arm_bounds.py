@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
 
 Array = NDArray[np.float64]
+Bounds = tuple[Array, Array]
+Side = Literal["right", "left"]
 
+# Distance kept from every limit, so that a planner may overshoot by its rounding [rad].
 MARGIN = np.radians(1.0)
-"""[rad] Distance kept from every limit, so that a planner may overshoot by its rounding."""
 
 # Beyond these bounds, in the order of RIGHT_ARM [deg], the arm looks like no person's: shoulder and elbow as
 # TEO's makers call "human-inspired" (developer manual, motores-motores.csv); a hand that hangs, as a
@@ -18,20 +22,28 @@ MARGIN = np.radians(1.0)
 # its limits alone: nobody sees where they end.
 _LIKE_A_PERSON_LOWER = np.radians([-98.1, -75.5, -180.0, -99.6, -180.0, -90.0])
 _LIKE_A_PERSON_UPPER = np.radians([45.0, 22.4, 180.0, -5.0, 180.0, 44.7])
+# Only frontal axes turn the same way on both sides.
+_SAME = np.array([1.0 if joint.startswith("Frontal") else -1.0 for joint in RIGHT_ARM])
 
 
-def arm_bounds(side: str) -> tuple[Array, Array]:
-    """Bounds kept by an arm, seen as a right arm [rad]. Shapes (6,)."""
+def arm_bounds(side: Side | Literal["both"]) -> Bounds:
+    """Lower and upper bounds kept by an arm, seen as a right arm [rad]. Shapes (6,).
+
+    Args:
+        side: Which arm; "both" for a right arm that the left one can mirror.
+    """
+    if side == "both":
+        (right_lower, right_upper), (left_lower, left_upper) = arm_bounds("right"), arm_bounds("left")
+        return np.maximum(right_lower, left_lower), np.minimum(right_upper, left_upper)
     limits = joint_limits(RIGHT_ARM if side == "right" else LEFT_ARM)
     lower, upper = limits.lower, limits.upper
     if side == "left":
-        lower, upper = mirrored(upper), mirrored(lower)
-        lower, upper = np.minimum(lower, upper), np.maximum(lower, upper)
+        ends = np.stack([mirrored(lower), mirrored(upper)])
+        lower, upper = ends.min(axis=0), ends.max(axis=0)
     return np.maximum(lower, _LIKE_A_PERSON_LOWER) + MARGIN, np.minimum(upper, _LIKE_A_PERSON_UPPER) - MARGIN
 
 
 def mirrored(arm: Array) -> Array:
-    """The arm that mirrors another: only frontal axes turn the same way on both sides [rad]. Shape (6,)."""
-    same = np.array([1.0 if joint.startswith("Frontal") else -1.0 for joint in RIGHT_ARM])
-    swapped: Array = same * arm
+    """The arm, or arms, of the other side that mirror some [rad]. Shape (6,) or (n, 6)."""
+    swapped: Array = _SAME * arm
     return swapped

@@ -7,7 +7,7 @@ fingers point. The elbow where a person has it and an easy arm choose among what
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -23,20 +23,56 @@ Goals = TypeVar("Goals", HandGoals, PairGoals)
 
 JOINTS = len(RIGHT_ARM)
 
-_IN_AIR = np.array([1.5, 3.0, 3.0])
-"""[rad/m] 10 cm beside its place in the air count as much as a palm turned by 29 deg; forwards, along the
-line of sight of whom is signed to, less than half of it. TEO's elbow keeps its hand 46 cm off its shoulder,
-where a person signs at 30: what is too near goes forwards rather than aside or turned."""
-_ON_BODY, _TOGETHER = 12.0, 12.0
-"""[rad/m] A contact is kept to a centimetre or two before the palm is."""
-_PALM, _FINGERS = 1.0, 0.7
-_UPPER_ARM, _FORE_ARM = 0.15, 0.4
-"""An arm that goes where a person's does: a forearm that lies across where a person's stands up costs as much
-as a palm turned by 33 deg."""
-_POSTURE = np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25])
-"""Pull towards an easy arm: moves a reachable hand by less than 1 deg. The wrist bends to the side, which a
-person's hardly does: 60 deg of it cost as much as a palm turned by 15 deg."""
-EASY = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
+_TOGETHER = 12.0
+"""[rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two."""
+EASY_ARM = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
+"""[rad] An arm that signs at ease. Shape (6,)."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ArmWeights:
+    """What counts how much, beside an angle of one radian.
+
+    Attributes:
+        in_air: Weight of the place of a hand that meets nothing: forwards, left, up [rad/m]. Shape (3,).
+        on_body: The same where it meets something [rad/m].
+        palm: Weight of the direction that the palm faces.
+        fingers: Weight of the direction from wrist to knuckles.
+        upper_arm: Weight of the direction from shoulder to elbow.
+        fore_arm: Weight of the direction from elbow to wrist.
+        easy: Pull of each joint towards `easy_arm`. Shape (6,).
+        easy_arm: An arm at ease [rad]. Shape (6,).
+    """
+
+    in_air: Array
+    on_body: float
+    palm: float
+    fingers: float
+    upper_arm: float
+    fore_arm: float
+    easy: Array
+    easy_arm: Array
+
+
+CAPTURED = ArmWeights(
+    # 10 cm beside its place in the air count as much as a palm turned by 29 deg; forwards, along the line of
+    # sight of whom is signed to, less than half of it. TEO's elbow keeps its hand 46 cm off its shoulder,
+    # where a person signs at 30: what is too near goes forwards rather than aside or turned.
+    in_air=np.array([1.5, 3.0, 3.0]),
+    # A contact is kept to a centimetre or two before the palm is.
+    on_body=12.0,
+    palm=1.0,
+    fingers=0.7,
+    # An arm that goes where a person's does: a forearm that lies across where a person's stands up costs as
+    # much as a palm turned by 33 deg.
+    upper_arm=0.15,
+    fore_arm=0.4,
+    # The pull moves a reachable hand by less than 1 deg. The wrist bends to the side, which a person's hardly
+    # does: 60 deg of it cost as much as a palm turned by 15 deg.
+    easy=np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25]),
+    easy_arm=EASY_ARM,
+)
+"""Weights for a motion captured from a person."""
 
 
 class Quadratic(NamedTuple):
@@ -59,22 +95,31 @@ class Quadratic(NamedTuple):
 class ArmProblem:
     """One arm, or two, over a motion; a left arm is seen as a right one in a mirror."""
 
-    def __init__(self, chain: ArmChain, hands: tuple[HandGoals, ...], pair: PairGoals | None) -> None:
+    def __init__(
+        self,
+        chain: ArmChain,
+        hands: tuple[HandGoals, ...],
+        pair: PairGoals | None = None,
+        weights: ArmWeights = CAPTURED,
+    ) -> None:
         """State it.
 
         Args:
             chain: The arm.
             hands: What is wanted of each hand; the right one first if there are two.
             pair: What is wanted of two hands together; None if one takes part, or nothing is.
+            weights: What counts how much.
         """
         self._chain = chain
         self._hands = hands
         self._pair = pair
+        self._weights = weights
 
     def between(self, part: slice) -> ArmProblem:
         """What is wanted in some frames one after the other."""
         pair = None if self._pair is None else _cut(self._pair, part)
-        return ArmProblem(self._chain, tuple(_cut(goals, part) for goals in self._hands), pair)
+        hands = tuple(_cut(goals, part) for goals in self._hands)
+        return ArmProblem(self._chain, hands, pair, self._weights)
 
     def opened(self, amount: Array) -> ArmProblem:
         """The same with hands away from everything, each on the side of the other on which it belongs.
@@ -94,7 +139,7 @@ class ArmProblem:
             replace(goals, place=goals.place + shift)
             for goals, shift in zip(self._hands, shifts, strict=False)
         )
-        return ArmProblem(self._chain, hands, None)
+        return ArmProblem(self._chain, hands, None, self._weights)
 
     def of_hand(self, hand: int, positions: Array, frames: NDArray[np.intp]) -> Quadratic:
         """One arm by itself, at any positions [rad], shape (n, 6), each for one of the frames, shape (n,)."""
@@ -137,30 +182,31 @@ class ArmProblem:
     def _single(
         self, goals: HandGoals, frames: NDArray[np.intp], poses: ArmPoses, positions: Array
     ) -> Quadratic:
+        weights = self._weights
         points = poses.points(goals.local[frames])
         palm, fingers = poses.rotation[:, :, 2], poses.rotation[:, :, 0]
         upper_arm = _unit(poses.origins[:, ELBOW] - self._chain.shoulder)
         fore_arm = _unit(poses.origins[:, WRIST] - poses.origins[:, ELBOW])
-        at_place = _IN_AIR + (_ON_BODY - _IN_AIR) * goals.contact[frames, None]
+        at_place = weights.in_air + (weights.on_body - weights.in_air) * goals.contact[frames, None]
         residuals = np.concatenate(
             [
                 at_place * (points - goals.place[frames]),
-                _PALM * (palm - goals.palm[frames]),
-                _FINGERS * (fingers - goals.fingers[frames]),
-                _UPPER_ARM * (upper_arm - goals.upper_arm[frames]),
-                _FORE_ARM * (fore_arm - goals.fore_arm[frames]),
-                _POSTURE * (positions - EASY),
+                weights.palm * (palm - goals.palm[frames]),
+                weights.fingers * (fingers - goals.fingers[frames]),
+                weights.upper_arm * (upper_arm - goals.upper_arm[frames]),
+                weights.fore_arm * (fore_arm - goals.fore_arm[frames]),
+                weights.easy * (positions - weights.easy_arm),
             ],
             axis=1,
         )
         slopes = np.concatenate(
             [
                 at_place[..., None] * poses.point_jacobian(points),
-                _PALM * poses.direction_jacobian(palm),
-                _FINGERS * poses.direction_jacobian(fingers),
-                _UPPER_ARM * poses.direction_jacobian(upper_arm) * (np.arange(JOINTS) < ELBOW),
-                _FORE_ARM * poses.direction_jacobian(fore_arm) * (np.arange(JOINTS) < WRIST - 1),
-                np.broadcast_to(np.diag(_POSTURE), (len(positions), JOINTS, JOINTS)),
+                weights.palm * poses.direction_jacobian(palm),
+                weights.fingers * poses.direction_jacobian(fingers),
+                weights.upper_arm * poses.direction_jacobian(upper_arm) * (np.arange(JOINTS) < ELBOW),
+                weights.fore_arm * poses.direction_jacobian(fore_arm) * (np.arange(JOINTS) < WRIST - 1),
+                np.broadcast_to(np.diag(weights.easy), (len(positions), JOINTS, JOINTS)),
             ],
             axis=1,
         )

@@ -1,10 +1,9 @@
 """The motion of the arms as one whole.
 
-First each arm is sought by itself, in every third frame, from eight starts at once (the search has that many
-valleys), and of what is found the cheapest way through time is taken (Viterbi). Then all frames and both arms
-are solved together, with a price on speed that ties the frames to each other, by Newton's method projected
-onto the bounds (Bertsekas, SIAM J. Control 1982) with Gauss and Newton's curvature: a frame's joints are
-coupled only to the next frame's, so that a step costs one banded Cholesky decomposition.
+First each arm is sought by itself, in every third frame, from all starts at once (`arm_search`), and of what
+is found the cheapest path through time is taken (Viterbi). Then all frames and both arms are solved together,
+with a price on speed that ties the frames to each other, by the same method: a frame's joints are coupled
+only to the next frame's, so that a step costs one banded Cholesky decomposition.
 """
 
 from __future__ import annotations
@@ -13,30 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, Quadratic
+from teo_sign_capture.retarget.arm_bounds import Bounds
+from teo_sign_capture.retarget.arm_residuals import ArmProblem, Quadratic
+from teo_sign_capture.retarget.arm_search import ON_BOUND, search_arms
 from teo_sign_capture.retarget.collision_terms import Touches
-from teo_sign_capture.viterbi import cheapest_way
+from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
-Bounds = tuple[Array, Array]
 
-# Into the valleys: easy, spelling, hand at the chest, elbow out, palm up, forearm across, hand at the head,
-# hanging [deg].
-_STARTS = np.radians(
-    [
-        [-45.0, -12.0, 10.0, -80.0, 20.0, 0.0],
-        [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],
-        [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],
-        [-42.0, -74.0, 50.0, -95.0, 20.0, -20.0],
-        [-30.0, -10.0, -20.0, -80.0, 70.0, 10.0],
-        [-55.0, -5.0, 52.0, -95.0, -56.0, 7.0],
-        [-90.0, -20.0, 30.0, -95.0, 60.0, -30.0],
-        [0.0, -5.0, 0.0, -15.0, 0.0, 0.0],
-    ]
-)
 _EVERY = 0.1
 """[s] From one frame to the next that is sought from all starts: valleys change slower than hands move."""
 _SEARCH_STEPS = 12
+"""The search from all starts ends after so many steps: what follows refines what it finds."""
 _JUMP = 0.5
 """[1/rad^2] Price of the way from one of these frames to the next: to change the valley, 2 rad away, costs as
 much as a palm turned by 60 deg for 0.4 s; at 50 deg/s TEO takes 2 s for it."""
@@ -62,7 +49,6 @@ _MOST_DAMPING = 1e6
 """Ten times what the price of touches bends the sum by: where no smaller step helps, none does."""
 TRUSTED = np.radians(12.0)
 """[rad] How far from where a distance was measured its slope is believed."""
-_ON_BOUND = 1e-9
 
 
 def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:
@@ -79,10 +65,11 @@ def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array
     frames = _sought(times)
     arms = []
     for hand, arm_bounds in enumerate(bounds):
-        found, cost = _valleys(problem, hand, frames, arm_bounds)
+        found, cost = search_arms(problem, hand, frames, arm_bounds, steps=_SEARCH_STEPS)
         farthest = SWIFT * (np.diff(times[frames]) + _SPREAD)
         lasting = np.gradient(times[frames]) / _EVERY if len(frames) > 1 else np.ones(1)
-        path = cheapest_way(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=HASTE)
+        chosen = cheapest_path(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=HASTE)
+        path = found[np.arange(len(found)), chosen]
         arms.append(np.stack([np.interp(times, times[frames], joint) for joint in path.T], axis=1))
     return refine_arms(problem, times, bounds, np.concatenate(arms, axis=1))
 
@@ -190,8 +177,8 @@ def _newton_step(
     ties = ties + HASTE * hasty
     gradient[:-1] -= pull
     gradient[1:] += pull
-    held = ((positions <= lower + _ON_BOUND) & (gradient > 0.0)) | (
-        (positions >= upper - _ON_BOUND) & (gradient < 0.0)
+    held = ((positions <= lower + ON_BOUND) & (gradient > 0.0)) | (
+        (positions >= upper - ON_BOUND) & (gradient < 0.0)
     )
     free = ~held
     curvature = here.curvature * (free[:, :, None] & free[:, None])
@@ -214,33 +201,3 @@ def _newton_step(
         band[width - size, size:] -= np.where(free[:-1] & free[1:], ties, 0.0).ravel()
     step: Array = solveh_banded(band, np.where(free, -gradient, 0.0).ravel(), check_finite=False)
     return step.reshape(count, size)
-
-
-def _valleys(problem: ArmProblem, hand: int, frames: NDArray[np.intp], bounds: Bounds) -> tuple[Array, Array]:
-    """Where the search ends for each frame from each start, and what it costs there. (n, s, 6) and (n, s)."""
-    lower, upper = bounds
-    count, starts = len(frames), len(_STARTS)
-    where = np.repeat(frames, starts)
-    positions = np.clip(np.tile(_STARTS, (count, 1)), lower, upper)
-    here = problem.of_hand(hand, positions, where)
-    damping = np.full(len(positions), 1e-2)
-    every = np.arange(JOINTS)
-    for _ in range(_SEARCH_STEPS):
-        free = ~(
-            ((positions <= lower + _ON_BOUND) & (here.gradient > 0.0))
-            | ((positions >= upper - _ON_BOUND) & (here.gradient < 0.0))
-        )
-        curvature = here.curvature * (free[:, :, None] & free[:, None])
-        curvature[:, every, every] += np.where(free, damping[:, None], 1.0)
-        step = np.linalg.solve(curvature, np.where(free, -here.gradient, 0.0)[..., None])[..., 0]
-        moved = np.clip(positions + step, lower, upper)
-        there = problem.of_hand(hand, moved, where)
-        better = there.cost < here.cost
-        positions = np.where(better[:, None], moved, positions)
-        here = Quadratic(
-            np.where(better, there.cost, here.cost),
-            np.where(better[:, None], there.gradient, here.gradient),
-            np.where(better[:, None, None], there.curvature, here.curvature),
-        )
-        damping = np.where(better, damping * 0.3, damping * 8.0)
-    return positions.reshape(count, starts, JOINTS), here.cost.reshape(count, starts)

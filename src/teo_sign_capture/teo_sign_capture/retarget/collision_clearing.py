@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
-from teo_sign_capture.retarget.arm_trajectory import TRUSTED, Bounds, refine_arms
+from teo_sign_capture.retarget.arm_trajectory import TRUSTED, refine_arms
 from teo_sign_capture.retarget.clearance_samples import Looks, look
 from teo_sign_capture.retarget.collision_terms import LEAST, WANTED, WATCHED, Touches, WholeRobot
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack

@@ -43,8 +43,7 @@ class HandGoals:
     """What is wanted of one hand, seen as a right hand, in ``base_link`` with the trunk at home.
 
     Attributes:
-        part: Shares of the hand's points in the one that counts. Shape (T, COUNT).
-        local: Where that is on TEO's hand, in the palm's axes [m]. Shape (T, 3).
+        local: The point of TEO's hand that counts, in the palm's axes [m]. Shape (T, 3).
         place: Where it should be [m]. Shape (T, 3).
         contact: How much it is on the body, 0 to 1. Shape (T,).
         palm: Way the palm faces, unit vector. Shape (T, 3).
@@ -53,7 +52,6 @@ class HandGoals:
         fore_arm: Way from elbow to wrist, unit vector. Shape (T, 3).
     """
 
-    part: Array
     local: Array
     place: Array
     contact: Array
@@ -108,7 +106,6 @@ def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Arr
     limbs = np.diff(arm, axis=1) * flip
     limbs /= np.linalg.norm(limbs, axis=2, keepdims=True)
     return HandGoals(
-        part=part,
         local=(part[:, :, None] * teo).sum(axis=1),
         place=place * flip,
         contact=contact,

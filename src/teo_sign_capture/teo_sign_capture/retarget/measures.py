@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -16,8 +17,8 @@ _SAMPLES = 5
 """Poses from one knot to the next at which the clearance is measured."""
 
 
-def clearance_mm(robot: Robot, joints: tuple[str, ...], knots: Array) -> float:
-    """Smallest distance between parts of TEO over a motion in straight lines between its knots [mm].
+def least_clearance(robot: Robot, joints: tuple[str, ...], knots: Sequence[Array] | Array) -> float:
+    """Smallest distance between parts of TEO over a motion in straight lines between its knots [m].
 
     Args:
         robot: The robot; joints not named are at home.
@@ -26,11 +27,15 @@ def clearance_mm(robot: Robot, joints: tuple[str, ...], knots: Array) -> float:
     """
     steps = np.linspace(0.0, 1.0, _SAMPLES, endpoint=False)
     poses = [first + step * (second - first) for first, second in pairwise(knots) for step in steps]
-    distances = [
+    return min(
         robot.clearance(robot.configuration(dict(zip(joints, pose.tolist(), strict=True)))).distance
         for pose in (*poses, knots[-1])
-    ]
-    return round(1000.0 * min(distances), 1)
+    )
+
+
+def clearance_mm(robot: Robot, joints: tuple[str, ...], knots: Array) -> float:
+    """`least_clearance` as entries give it [mm]."""
+    return round(1000.0 * least_clearance(robot, joints, knots), 1)
 
 
 def limit_margin_deg(joints: tuple[str, ...], knots: Array) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
 from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import arm_bounds, mirrored
+from teo_sign_capture.retarget.arm_bounds import Side, arm_bounds, mirrored
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
@@ -30,7 +30,7 @@ from teo_signs.sign_schema import Handedness
 
 Array = NDArray[np.float64]
 
-_SIDES: dict[Handedness, tuple[str, ...]] = {
+_SIDES: dict[Handedness, tuple[Side, ...]] = {
     "right": ("right",),
     "left": ("left",),
     "both": ("right", "left"),
@@ -157,21 +157,21 @@ def _arm(track: SkeletonTrack, side: str) -> Array:
     return filled(track.times, flat).reshape(joints.shape)
 
 
-def _starts(sides: tuple[str, ...]) -> list[tuple[int, str]]:
+def _starts(sides: tuple[Side, ...]) -> list[tuple[int, Side]]:
     return [(JOINTS * index, side) for index, side in enumerate(sides)]
 
 
 def _limb(side: str, arm: Array, hand: HandMotion) -> Array:
     if side == "left":
-        arm = np.stack([mirrored(row) for row in arm])
+        arm = mirrored(arm)
     return np.concatenate([arm, hand.axes], axis=1)
 
 
 def _errors(
     chain: ArmChain,
-    sides: tuple[str, ...],
+    sides: tuple[Side, ...],
     goals: tuple[HandGoals, ...],
-    shapes: dict[str, HandMotion],
+    shapes: dict[Side, HandMotion],
     arms: Array,
 ) -> tuple[Array, Array, Array, Array]:
     place, palm, fingers, flexion = (np.full((len(arms), 2), np.nan) for _ in range(4))

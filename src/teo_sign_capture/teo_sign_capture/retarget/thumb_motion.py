@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from teo_description.hand_geometry import DextraTable
 from teo_sign_capture.tracks.body_axes import smoothed
-from teo_sign_capture.viterbi import cheapest_way
+from teo_sign_capture.viterbi import cheapest_path
 
 Array = NDArray[np.float64]
 
@@ -61,7 +61,8 @@ def follow_thumb(table: DextraTable, times: Array, fingers: Array, person: Array
     rough += _JOINT_WEIGHT * _apart(person[:, _JOINT] + knuckle, grid[:, 1])
     chosen = np.argpartition(rough, _CANDIDATES, axis=1)[:, :_CANDIDATES]
     cost = np.take_along_axis(rough, chosen, axis=1) + _meeting(grid[chosen], points, person)
-    return smoothed(times, cheapest_way(cost, angles[chosen], _WAY_WEIGHT), _TREMBLE)
+    path = cheapest_path(cost, angles[chosen], _WAY_WEIGHT)
+    return smoothed(times, angles[chosen[np.arange(len(path)), path]], _TREMBLE)
 
 
 def _apart(wanted: Array, reached: Array) -> Array:

@@ -17,8 +17,7 @@ from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import FINGERS, PHALANGES, DextraHand, segment_distances
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.face import shift_off_face
-from teo_sign_capture.alphabet.knots import reduce_knots
-from teo_sign_capture.alphabet.posture_arm import arm_bounds, fit_arm
+from teo_sign_capture.alphabet.posture_arm import fit_arm, spelling_bounds
 from teo_sign_capture.alphabet.posture_hand import fit_dextra
 from teo_sign_capture.alphabet.stroke import find_stroke
 from teo_sign_capture.cli.capture_table import letters_main
@@ -241,7 +240,7 @@ def test_a_fist_is_a_fist_and_a_flat_hand_flat(robot: Robot) -> None:
 @given(share=st.lists(st.floats(0.1, 0.9), min_size=6, max_size=6))
 def test_a_palm_that_teo_can_hold_is_found_or_bettered(share: list[float]) -> None:
     robot = Robot.load()
-    lower, upper = arm_bounds()
+    lower, upper = spelling_bounds()
     arm = lower + np.array(share) * (upper - lower)
     wanted = robot.placement(
         robot.configuration(dict(zip(RIGHT_ARM, arm.tolist(), strict=True))), "right_palm"
@@ -274,32 +273,6 @@ def test_a_hand_before_the_face_is_moved_off_it_and_one_beside_it_is_not(robot: 
     shift = shift_off_face(robot, np.concatenate([before.positions, beside[0, 6:]])[None])
     assert shift[1] < -0.01 or shift[2] < -0.01
     assert shift[0] == 0.0
-
-
-# --- knots
-
-
-def test_corners_are_kept_and_straight_parts_are_not() -> None:
-    times = np.linspace(0.0, 1.0, 11)
-    positions = np.abs(times - 0.5)[:, None]
-    assert reduce_knots(times, positions, 0.01).tolist() == [0, 5, 10]
-
-
-def test_a_constant_motion_keeps_its_ends_only() -> None:
-    assert reduce_knots(np.arange(5.0), np.ones((5, 3)), 0.01).tolist() == [0, 4]
-
-
-def test_one_and_two_samples_are_kept() -> None:
-    assert reduce_knots(np.zeros(1), np.zeros((1, 2)), 0.1).tolist() == [0]
-    assert reduce_knots(np.arange(2.0), np.zeros((2, 2)), 0.1).tolist() == [0, 1]
-
-
-@given(values=st.lists(st.floats(-1.0, 1.0), min_size=2, max_size=30), tolerance=st.floats(0.001, 0.5))
-def test_lines_between_knots_stay_within_the_tolerance(values: list[float], tolerance: float) -> None:
-    times, positions = np.arange(float(len(values))), np.array(values)
-    kept = reduce_knots(times, positions[:, None], tolerance)
-    again = np.interp(times, times[kept], positions[kept])
-    assert np.abs(again - positions).max() <= tolerance + 1e-12
 
 
 # --- the command

@@ -11,7 +11,7 @@ from teo_sign_capture.retarget.arm_trajectory import refine_arms, solve_arms
 from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
 from teo_sign_capture.retarget.collision_terms import WANTED, Touches
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
-from teo_sign_capture.signing_space.hand_points import COUNT, MIRROR
+from teo_sign_capture.signing_space.hand_points import MIRROR
 
 TIMES = np.arange(40) / 30.0
 BOUNDS = [arm_bounds("right"), arm_bounds("left")]
@@ -28,7 +28,6 @@ def goals_of(chain, arms, shift=(0.0, 0.0, 0.0), contact=1.0):
     elbow, wrist = poses.origins[:, 3], poses.origins[:, 5]
     upper, fore = elbow - chain.shoulder, wrist - elbow
     return HandGoals(
-        part=np.eye(1, COUNT).repeat(len(arms), axis=0),
         local=np.tile((0.05, 0.0, 0.01), (len(arms), 1)),
         place=poses.points(np.tile((0.05, 0.0, 0.01), (len(arms), 1))) + np.array(shift),
         contact=np.full(len(arms), contact),

@@ -11,7 +11,6 @@ from teo_sign_capture.retarget.batched_arm_kinematics import ArmChain
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import LEAST, WholeRobot
 from teo_sign_capture.retarget.hand_goals import HandGoals
-from teo_sign_capture.signing_space.hand_points import COUNT
 from teo_signs.errors import LutError
 
 FRAMES = 12
@@ -42,7 +41,6 @@ def wanted(robot):
     poses = chain.poses(ARMS)
     upper, fore = poses.origins[:, 3] - chain.shoulder, poses.origins[:, 5] - poses.origins[:, 3]
     goals = HandGoals(
-        part=np.eye(1, COUNT).repeat(FRAMES, axis=0),
         local=np.zeros((FRAMES, 3)),
         place=poses.place,
         contact=np.ones(FRAMES),

@@ -1,1 +1,1 @@
-"""The commands of the translator."""
+"""The commands: translate, and those that make and measure models. Each module is one command."""

@@ -18,9 +18,9 @@ from teo_common.atomic_files import write_atomically
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig, network_config
-from teo_sign_translator.pointer.training.devices import named_device
-from teo_sign_translator.pointer.training.run import TrainedModel, load_training_data, train_model
 from teo_sign_translator.text.source_words import source_words
+from teo_sign_translator.training.devices import named_device
+from teo_sign_translator.training.run import TrainedModel, load_training_data, train_model
 
 
 def run(

@@ -20,10 +20,10 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.decoding import ZooModel
 from teo_sign_translator.pointer.store import load_sentence_model
-from teo_sign_translator.pointer.training.corpus_files import read_splits, sample
-from teo_sign_translator.pointer.training.examples import Reader
-from teo_sign_translator.pointer.training.metrics import Score, score
 from teo_sign_translator.text.source_words import source_words
+from teo_sign_translator.training.corpus_files import read_splits, sample
+from teo_sign_translator.training.examples import Reader
+from teo_sign_translator.training.metrics import Score, score
 
 # Sentences translated between two moves of the progress bar.
 _CHUNK = 512

@@ -19,7 +19,7 @@ from teo_common.atomic_files import write_atomically
 from teo_sign_translator.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.tokens import Vocabulary, published_tokens
-from teo_sign_translator.lstm256.training import Example, Training, TrainingConfig, train
+from teo_sign_translator.training.lstm256_fitting import Example, Training, TrainingConfig, train
 
 #: The two step sizes that the paper compares; its predictions are made with the first.
 LEARNING_RATES = (0.0001, 0.001)

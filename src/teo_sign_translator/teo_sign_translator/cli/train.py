@@ -11,13 +11,13 @@ import typer
 from rich.console import Console
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.train_published import SHIPPED_CONFIG, train_published
 from teo_sign_translator.model_files import models_directory
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import POINTER, ZOO, TrainingConfig, network_config
-from teo_sign_translator.pointer.training.devices import named_device
-from teo_sign_translator.pointer.training.run import load_training_data, train_model
 from teo_sign_translator.text.source_words import source_words
+from teo_sign_translator.training.devices import named_device
+from teo_sign_translator.training.lstm256_run import SHIPPED_CONFIG, train_published
+from teo_sign_translator.training.run import load_training_data, train_model
 
 #: The published model; it needs no corpus.
 PUBLISHED = "lstm256"

@@ -1,4 +1,4 @@
-"""Who chooses at each place of a sentence: chance, or an example."""
+"""Choices while a sentence is made: by chance for a corpus, as given for an example of the grammar."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ class Sentence(NamedTuple):
 
 @dataclass
 class Derivation:
-    """Makes one sentence after another.
+    """Derives sentences from rules; a `Chooser` decides at each place.
 
     Attributes:
         grammar: Rules.

@@ -1,4 +1,4 @@
-"""Says the two sides of a rule whose slots are filled."""
+"""From a rule whose slots are filled to its Spanish words and its glosses."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _COLUMNS = ("ms", "fs", "mp", "fp")
 
 @dataclass
 class Sides:
-    """A rule on the way to be said.
+    """The two sides of a rule whose slots are filled.
 
     Attributes:
         rule: Whose sides.

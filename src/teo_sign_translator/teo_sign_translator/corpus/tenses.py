@@ -23,7 +23,7 @@ _PLANS = (
 
 @dataclass
 class Tenses:
-    """The shapes of a grammar, by what they suit.
+    """Finds the shapes of a grammar that suit a place.
 
     Attributes:
         shapes: All of them.

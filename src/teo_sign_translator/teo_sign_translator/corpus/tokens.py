@@ -78,7 +78,7 @@ class Phrase:
     verb: SaidVerb | None = None
 
     def say(self, pending: str, token: Token) -> None:
-        """Add a word to the signs that wait for it."""
+        """Make a word a source of the signs that are pending for it."""
         for sign in self.signs:
             if sign.pending == pending:
                 sign.sources.append(token)

@@ -109,7 +109,7 @@ def tense_signs(verb: SaidVerb | None, time: Phrase | None, says: Collection[str
 
 
 def marked_once(signs: Sequence[Sign]) -> list[Sign]:
-    """Signs without the marks of a tense that is marked already.
+    """The signs without PASADO or FUTURO where that time has been said already.
 
     LSE sets the time once, for all that follows.
     """

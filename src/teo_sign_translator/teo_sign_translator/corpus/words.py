@@ -67,7 +67,7 @@ class Pool:
 
 
 def is_held_out(lemma: str) -> bool:
-    """Whether a word's hash holds it out."""
+    """Whether a word is held out of training: by its hash, so the same words in every run."""
     return int.from_bytes(hashlib.sha256(lemma.encode()).digest()[:4], "big") % HELD_OUT_ONE_IN == 0
 
 
@@ -118,7 +118,7 @@ class WordLists:
         )
 
     def inflect(self, lemma: str, tag: str) -> str:
-        """A form, remembered.
+        """The form of a lemma that a tag names, from a cache if it was asked for before.
 
         Raises:
             TranslationError: "no_form".

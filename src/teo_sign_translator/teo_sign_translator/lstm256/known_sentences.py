@@ -1,4 +1,4 @@
-"""Asking the model, and checking what it says."""
+"""Asks the published model, and takes its answer only if the sentence accounts for it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MIN_PROBABILITY = 0.5
 
 
 class KnownSentences:
-    """Translates what the model can be asked for."""
+    """Translates sentences of the training data, and others of the same words, with the model."""
 
     def __init__(self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
         """Take the parts together.
@@ -191,7 +191,7 @@ def _output_words(
 
 
 def _unclaimed(sources: Sequence[tuple[int, ...]], count: int) -> list[list[int]]:
-    """For each gloss the places that nobody claims and that go with it: those before the next it claims."""
+    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word."""
     owner: dict[int, int] = {}
     for index, places in enumerate(sources):
         for place in places:

@@ -55,7 +55,7 @@ class Match:
 
 
 class Phrasebook:
-    """Patterns by their words, typed in any way."""
+    """Finds sentences of the training data, however they are typed."""
 
     def __init__(self, pairs: Iterable[AlignedPair], glosses: GlossList) -> None:
         """Index the pairs.
@@ -90,7 +90,7 @@ class Phrasebook:
     def match(
         self, words: Sequence[Word], *, crosses_stop: bool = False, crosses_pause: bool = False
     ) -> Match | None:
-        """The pattern that the words are, as a whole.
+        """The pattern that all the words together are; None if they are none.
 
         Args:
             words: Of one clause, or of several that follow one another.

@@ -1,4 +1,4 @@
-"""What is said of a sentence that the model does not know: each word for itself, in Spanish order."""
+"""Signing a sentence that the model does not know: each word for itself, in Spanish order."""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Spanish morphology: what a word may be, and how a lemma is inflected."""
+"""Spanish morphology: what a word may be, and how a lemma is inflected.
+
+`Morphology` gives a word's readings (dictionary form, tag, clitics), also where its accents were not typed,
+and the forms of a lemma. Its lists are `data/lexicon` and `data/morphology`.
+"""
 
 from teo_sign_translator.morphology.analyser import Morphology
 from teo_sign_translator.morphology.reading import Reading

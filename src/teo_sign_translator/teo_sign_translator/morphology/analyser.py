@@ -38,7 +38,7 @@ _EXACT, _ACCENTS_MISSING, _ACCENTS_WRONG, _DERIVED, _RARE = range(5)
 
 
 class _Candidate(NamedTuple):
-    """A reading and what its place among the others depends on; small is likely."""
+    """A reading, and the numbers that order it among the others; small is likely."""
 
     effort: int
     source: int
@@ -249,7 +249,7 @@ def _preference(reading: Reading, order: tuple[str, ...]) -> int:
 
 
 def _forms_that_serve(tag: str) -> Iterator[str]:
-    """The tag itself, then those of forms that serve several genders or numbers, this one among them."""
+    """The tag itself, then the tags of forms that serve its gender or number among others."""
     yield tag
     if tag_class(tag) in ("N", "A", "DET", "WH") and tag[-1] in "sp" and tag[-2] in "mfc":
         beginning, gender, number = tag[:-2], tag[-2], tag[-1]

@@ -43,7 +43,7 @@ class VerbForm(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Paradigm:
-    """Endings that verbs share, by tag and by how they are typed without marks."""
+    """Endings that verbs share, by tag, and by the ending without marks."""
 
     infinitive: str
     by_tag: dict[str, tuple[str, ...]]

@@ -1,4 +1,4 @@
-"""What a word that is in no list may be, from its ending."""
+"""Readings of unknown words, guessed from their endings."""
 
 from __future__ import annotations
 

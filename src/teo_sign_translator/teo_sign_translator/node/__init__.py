@@ -1,1 +1,1 @@
-"""The translator as a ROS node."""
+"""The translator as a ROS node: texts in, sign tokens out, in the order in which they come."""

@@ -52,14 +52,14 @@ def quoted(text: str) -> str:
 
 
 def short(text: str) -> str:
-    """A text, or its beginning."""
+    """A text, cut to the length of a log line."""
     return text if len(text) <= _LENGTH else text[: _LENGTH - 1] + "…"
 
 
 def to_diagnostics(
     statistics: Statistics, *, model: str, active: bool, waiting: int, signs: int | None, stamp: Time
 ) -> DiagnosticArray:
-    """How the translator is.
+    """The state of the translator as a diagnostics message.
 
     Args:
         statistics: What it has done.

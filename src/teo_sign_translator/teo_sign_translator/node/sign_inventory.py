@@ -1,4 +1,4 @@
-"""Which glosses have signs, as the executor says it."""
+"""Which glosses have signs, as the executor's `list_signs` answers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SIGNS_PERIOD = 2.0
 
 
 class SignInventory:
-    """Asks `list_signs` again and again, so that signs may come and go."""
+    """Asks `list_signs` periodically, so that signs may be added and removed while the node runs."""
 
     def __init__(self, node: Node, listed: frozenset[str] | None) -> None:
         """Begin to ask.
@@ -34,7 +34,7 @@ class SignInventory:
         return self._listed if self._answered is None else self._answered
 
     def list(self, listed: frozenset[str] | None) -> None:
-        """Take other glosses until an answer has come."""
+        """Replace the glosses that count until the executor answers."""
         self._listed = listed
 
     def close(self) -> None:

@@ -11,7 +11,7 @@ Item = TypeVar("Item")
 
 
 class TextWorker(Generic[Item]):
-    """Hands items to a function one after the other, in a thread of its own, while others are taken in."""
+    """Hands items to a function one after the other, in a thread of its own; others queue meanwhile."""
 
     def __init__(self, work: Callable[[Item], None], *, size: int) -> None:
         """Start the thread.
@@ -44,7 +44,7 @@ class TextWorker(Generic[Item]):
         return len(self._waiting)
 
     def stop(self, timeout: float) -> list[Item]:
-        """Take nothing more in, and give back what waits.
+        """Accept no more items, and return those that still wait.
 
         Args:
             timeout: How long to wait for the item that is worked on [s].

@@ -83,7 +83,7 @@ class TranslatorNode(LifecycleNode):
         return bool(self.trigger_configure() == success and self.trigger_activate() == success)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
-        """Load the model; serve `translate` and say how things are."""
+        """Load the model; serve `translate` and publish diagnostics."""
         try:
             translator = self._load({})
             listed = listed_signs(self._value("signs_file"))
@@ -117,7 +117,7 @@ class TranslatorNode(LifecycleNode):
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
-        """Let go of the model and of all that was made to use it."""
+        """Release the model, the service, the publishers and the timer."""
         self._let_go()
         return TransitionCallbackReturn.SUCCESS
 
@@ -263,7 +263,7 @@ class TranslatorNode(LifecycleNode):
             self._inventory.list(listed_signs(asked["signs_file"]))
 
     def _load(self, asked: dict[str, Any]) -> Translator:
-        """A translator of the parameters' values, those asked for before those set."""
+        """A translator with the parameters' values, and with those of `asked` that are about to be set."""
         values = {name: self._value(name) for name in ("model", "beam_width", "min_confidence")} | asked
         return Translator.load(
             values["model"], beam_width=values["beam_width"], min_confidence=values["min_confidence"]

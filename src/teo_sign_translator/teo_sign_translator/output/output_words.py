@@ -1,4 +1,4 @@
-"""Output words before they are numbered: signs, spelled words, numbers, pauses, words that go along."""
+"""Output words, before they are numbered tokens: signs, spelled words, numbers, pauses, carried words."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ PAUSE = OutputWord(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origi
 
 
 def carried(word: str, typed: tuple[str, ...]) -> OutputWord:
-    """A word that goes with the next output word that is signed."""
+    """A word without a sign of its own: it is said by the next output word that is signed."""
     return OutputWord(
         signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word
     )
@@ -110,7 +110,7 @@ def name(gloss: str, typed: tuple[str, ...], confidence: float) -> OutputWord:
 
 
 def hand_over(output_words: Sequence[OutputWord], confidence: float) -> list[OutputWord]:
-    """Give the words of output words without signs to the next one that is signed, or to the last.
+    """Give the typed words of carried output words to the next one that is signed, or to the last.
 
     Args:
         output_words: Of one sentence. If none of them is signed, their words are spelled.

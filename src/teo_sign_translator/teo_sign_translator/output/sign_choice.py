@@ -72,7 +72,7 @@ class SignChooser:
     """Chooses signs: the gloss's own, its lemma's, a synonym's, else letters."""
 
     def __init__(self, synonyms: dict[str, tuple[str, ...]], morphology: Morphology | None) -> None:
-        """Take what leads from a gloss without a sign to one that has one.
+        """Take the ways from a gloss without a sign to one that has one.
 
         Args:
             synonyms: For each gloss others that mean the same.

@@ -1,4 +1,4 @@
-"""What a translation is made of."""
+"""A translation: its sentences, their tokens, and the kinds and origins of these."""
 
 from __future__ import annotations
 

@@ -1,1 +1,21 @@
-"""From a model's hypotheses to signs: nothing lost, nothing invented, everything signable."""
+"""From a text to its translation: `Translator` reads it, asks a back end, and finds signs for what it says.
+
+A back end translates sentences with its model. The pointer's (`PointerBackEnd`) divides long sentences, has
+the model's hypotheses repaired, so that no word is lost and no gloss invented, and turns glosses into output
+words. The LSTM's (`LstmBackEnd`) asks its model for sentences that it knows, and looks up all others word by
+word.
+"""
+
+from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
+from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
+from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
+from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
+
+__all__ = [
+    "DEFAULT_MODEL",
+    "BackEnd",
+    "LstmBackEnd",
+    "PointerBackEnd",
+    "TranslatedSentence",
+    "Translator",
+]

@@ -1,4 +1,4 @@
-"""From the clauses of a text to output words of its sentences: what every model has in common."""
+"""The interface of back ends: from the clauses of a text to the output words of its sentences."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class TranslatedSentence:
 
 
 class BackEnd(Protocol):
-    """A way of translating sentences, with its model."""
+    """Translates sentences with a model."""
 
     @property
     def name(self) -> str:

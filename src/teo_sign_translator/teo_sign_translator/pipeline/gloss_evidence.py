@@ -115,12 +115,12 @@ class GlossEvidence:
 
 
 def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
-    """Whether a word that a gloss stands for has so many readings that some may not be given: "bajo"."""
+    """Whether a source of the gloss has as many readings as are kept, so that one may be missing: "bajo"."""
     return any(len(words[place].readings) >= READINGS for place in gloss.sources)
 
 
 def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
-    """The readings that the accents allow: who types accents in a sentence means those left out."""
+    """Readings of each word; if the sentence has accents, only those written as the word is typed."""
     accents = any(word.form != fold(word.form) for word in words)
     return [[reading for reading in word.readings if reading.exact or not accents] for word in words]
 

@@ -92,7 +92,7 @@ def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bo
 
 
 def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
-    """For each gloss the words it stands for, as typed, and those that go with it."""
+    """For each gloss the words, as typed, that it stands for, with the words without a gloss before them."""
     own = [set(places) for places in sources]
     owner = {place: gloss for gloss, places in reversed(list(enumerate(sources))) for place in places}
     following = owner[max(owner)] if owner else len(sources) - 1

@@ -1,4 +1,4 @@
-"""Translating as the published model can: known sentences from it, everything else word by word."""
+"""Back end of the published model: known sentences from the model, everything else word by word."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MOST_CLAUSES = 4
 
 @dataclass(frozen=True, slots=True)
 class _Unit:
-    """Clauses that are translated together, and what that gave.
+    """Clauses that are translated together, and their translation.
 
     Attributes:
         clauses: One, or several that are one sentence of the training data.

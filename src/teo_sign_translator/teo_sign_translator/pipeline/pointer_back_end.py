@@ -1,4 +1,4 @@
-"""Translating with a sentence model: any sentence, known or not; no word of it lost, none invented."""
+"""Back end of the pointer: translates any sentence; no word of it is lost and no gloss invented."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Repaired | 
 
 
 def _with_names(words: Sequence[SourceWord], match: Match) -> tuple[SourceWord, ...]:
-    """The words of a sentence that was taught; in the place of a name they are names, whatever else."""
+    """The words of a taught sentence; those at the place of a name have the reading NAME alone."""
     result = list(words)
     place = 0
     for token, own in zip(match.pattern.tokens, match.words, strict=True):

@@ -60,7 +60,7 @@ class _Read(NamedTuple):
 
 
 class Translator:
-    """Translates text with a model, and says how sure it is of what."""
+    """Translates texts with a back end, each token with a confidence."""
 
     def __init__(
         self, back_end: BackEnd, chooser: SignChooser, *, min_confidence: float = DEFAULT_MIN_CONFIDENCE
@@ -163,7 +163,7 @@ class Translator:
     def _finish(
         self, translated_sentence: TranslatedSentence, text: str, signs: Set[str] | None
     ) -> list[Sentence]:
-        """One sentence as messages hold it; several if it has more tokens than they can hold."""
+        """One sentence; several if it has more tokens than a message can hold."""
         clauses = translated_sentence.clauses
         kind = sentence_type(clauses)
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)

@@ -27,7 +27,7 @@ class Layer(Protocol):
 
 
 class _Weights:
-    """Transposed and contiguous, as the products below want them."""
+    """Weights of a layer, transposed and contiguous for `inputs @ weights`."""
 
     def __init__(self, weights: Mapping[str, Array], prefix: str, suffix: str) -> None:
         self.input: Array = np.ascontiguousarray(weights[f"{prefix}.weight_ih_{suffix}"].T)

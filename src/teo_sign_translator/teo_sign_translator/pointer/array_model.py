@@ -25,7 +25,7 @@ _CACHED_WORDS = 20_000
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """What the decoder looks at: sentences of the same length W, the root included.
+    """What the decoder attends to: sentences of the same length W, the root included.
 
     Attributes:
         words: Outputs of the encoder. Shape (B, W, m).
@@ -51,7 +51,7 @@ class Memory:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What the decoder would say next, of several rows.
+    """Probabilities of the next gloss for several rows.
 
     Attributes:
         probability: Of each closed gloss, then of each candidate's gloss at the first candidate that has it.

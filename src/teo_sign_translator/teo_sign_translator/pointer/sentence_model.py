@@ -1,4 +1,4 @@
-"""What a sentence model is asked and what it answers."""
+"""The interface of sentence models: words with readings in, hypotheses out."""
 
 from __future__ import annotations
 

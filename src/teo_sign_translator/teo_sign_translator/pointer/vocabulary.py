@@ -1,4 +1,4 @@
-"""The closed lists of a model: what it knows forms, lemmas, tags and glosses by."""
+"""The vocabulary of a model: closed lists of the forms, lemmas, tags and glosses that it knows."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ class Vocabulary:
         return {name: list(getattr(self, name)) for name in ("forms", "lemmas", "tags", "parts", "glosses")}
 
     def features(self, word: SourceWord) -> WordFeatures:
-        """What a model reads of a word; any word has features."""
+        """The features of a word, also of one that no list has."""
         readings = word.readings[:READINGS]
         keys = tuple(map(tag_key, readings))
         room = (0,) * (READINGS - len(readings))

@@ -1,4 +1,4 @@
-"""From text as it arrives to text that can be read word by word."""
+"""From text as it arrives to text in one form of Unicode, without invisible characters."""
 
 from __future__ import annotations
 

@@ -191,7 +191,7 @@ class _Reader:
         return found.stop
 
     def _after_number(self) -> bool:
-        """Whether a unit may stand here."""
+        """Whether a number stands just before, so that a unit may follow."""
         return bool(self._words) and (
             self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
         )

@@ -22,3 +22,10 @@ def test_the_grammar_does_not_contradict_the_papers_sentences(tmp_path):
     for pair in read_pairs(tmp_path / FILE_NAME):
         bare = pair.spanish.lower().strip("¿¡.?!…")
         assert made.setdefault(bare, pair.rule == "paper") == (pair.rule == "paper"), pair.spanish
+
+
+def test_constructions_are_held_out_when_asked_alone(tmp_path):
+    for asked, count in ((False, 0), (True, 6)):
+        run(out=tmp_path, pairs=300, seed=1, hold_out_constructions=asked)
+        splits = [pair.split for pair in read_pairs(tmp_path / FILE_NAME)]
+        assert splits.count("test_constructions") == count

@@ -12,8 +12,8 @@ from teo_sign_translator.corpus import Pair, write_pairs
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.store import load_sentence_card
-from teo_sign_translator.pointer.training.corpus_files import corpus_hash, read_splits, sample, without
-from teo_sign_translator.pointer.training.metrics import score
+from teo_sign_translator.training.corpus_files import corpus_hash, read_splits, sample, without
+from teo_sign_translator.training.metrics import score
 
 SUBJECTS = ("Ana", "Pedro", "Lucía", "Carmen")
 OBJECTS = ("pan", "libro", "coche", "vaso", "perro", "gato")

@@ -19,9 +19,9 @@ from teo_sign_translator.corpus.paper_pairs import (
 )
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.lstm256.store import load_card, load_model
-from teo_sign_translator.lstm256.train_published import shipped_examples
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.training.lstm256_run import shipped_examples
 
 # The 39 pairs of arXiv:1907.04198, written here once more so that an edited data file does not go unnoticed.
 PUBLISHED = """\

@@ -15,10 +15,10 @@ from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import POINTER, ZOO
 from teo_sign_translator.pointer.decoding import ZooModel, one_core
-from teo_sign_translator.pointer.training.batches import WordNumbers, batches
-from teo_sign_translator.pointer.training.examples import ExampleReader
-from teo_sign_translator.pointer.training.fitting import make_vocabulary
-from teo_sign_translator.pointer.training.network import Network, TensorBatch
+from teo_sign_translator.training.batches import WordNumbers, batches
+from teo_sign_translator.training.examples import ExampleReader
+from teo_sign_translator.training.fitting import make_vocabulary
+from teo_sign_translator.training.network import Network, TensorBatch
 
 
 @pytest.fixture(scope="module")

@@ -12,9 +12,9 @@ from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
 from teo_sign_translator.pointer.decoding import ZooModel
 from teo_sign_translator.pointer.store import load_sentence_card, sentence_models
-from teo_sign_translator.pointer.training.examples import Reader
-from teo_sign_translator.pointer.training.memorised_pairs import memorised_pairs, not_memorised
 from teo_sign_translator.text.source_words import source_words
+from teo_sign_translator.training.examples import Reader
+from teo_sign_translator.training.memorised_pairs import memorised_pairs, not_memorised
 
 
 @cache

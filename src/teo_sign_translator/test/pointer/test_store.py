@@ -15,7 +15,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import save_sentence_model, sentence_models
-from teo_sign_translator.pointer.training.fitting import Fit
+from teo_sign_translator.training.fitting import Fit
 
 
 def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> Fit:
@@ -92,8 +92,8 @@ def _not_a_number(directory: Path) -> None:
         _card(network={"hidden": 16}),
         _card(network={"width": 16}),
         _card(network=None),
-        _card(vocabulary={}),
-        _card(vocabulary=[]),
+        _card(lexis={}),
+        _card(lexis=[]),
     ],
 )
 def test_a_damaged_model_is_refused(tmp_path: Path, damage: Callable[[Path], None]) -> None:

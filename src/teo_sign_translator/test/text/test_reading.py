@@ -3,11 +3,9 @@ from __future__ import annotations
 import pytest
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.spelling import letters, unsignable
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.numerals import match_digits, read_number_words
 from teo_sign_translator.text.reading import read
-from teo_sign_translator.text.sentence_type import SentenceType, is_negated, sentence_type
 
 
 @pytest.mark.parametrize(
@@ -142,71 +140,3 @@ def test_number_words_are_read(words: str, value: int, used: int) -> None:
 )
 def test_digits_are_read_as_spanish_writes_them(text: str, values: list[str]) -> None:
     assert [part.value for part in match_digits(text, 0)] == values
-
-
-@pytest.mark.parametrize(
-    ("text", "kind"),
-    [
-        ("¿Vienes?", SentenceType.YES_NO_QUESTION),
-        ("Vienes?", SentenceType.YES_NO_QUESTION),
-        ("¿Dónde vives?", SentenceType.WH_QUESTION),
-        ("¿de donde eres?", SentenceType.WH_QUESTION),
-        ("¿Y tú cómo estás?", SentenceType.WH_QUESTION),
-        ("¿Sabes cómo se llama?", SentenceType.YES_NO_QUESTION),
-        ("¿Haces qué?", SentenceType.WH_QUESTION),
-        ("Hola, ¿cuándo vienes?", SentenceType.WH_QUESTION),
-        ("donde vives", SentenceType.WH_QUESTION),
-        ("como estas", SentenceType.WH_QUESTION),
-        ("cuando vienes", SentenceType.WH_QUESTION),
-        ("Cuando llegue, te llamo", SentenceType.STATEMENT),
-        ("Como pan", SentenceType.STATEMENT),
-        ("Que tengas buen día", SentenceType.STATEMENT),
-        ("¡Qué bien!", SentenceType.EXCLAMATION),
-        ("¡¿Vienes?!", SentenceType.YES_NO_QUESTION),
-        ("Vengo.", SentenceType.STATEMENT),
-    ],
-)
-def test_the_type_of_a_sentence(text: str, kind: SentenceType) -> None:
-    assert sentence_type(read(text).clauses) is kind
-
-
-@pytest.mark.parametrize(
-    ("text", "negated"),
-    [
-        ("No vengo", True),
-        ("Nooooo vengo", True),
-        ("Nunca vengo", True),
-        ("No hay nadie", True),
-        ("Vienes, ¿no?", False),
-        ("De nada", False),
-        ("Vengo", False),
-        ("Una nota", False),
-    ],
-)
-def test_whether_a_sentence_is_negated(text: str, negated: bool) -> None:
-    assert is_negated(read(text).clauses) is negated
-
-
-@pytest.mark.parametrize(
-    ("word", "signs"),
-    [
-        ("Ana", "A N A"),
-        ("Guillermo", "G U I LL E R M O"),
-        ("Chorra", "CH O RR A"),
-        ("LLUVIA", "LL U V I A"),
-        ("Ñoño", "Ñ O Ñ O"),
-        ("n\u0303u", "Ñ U"),
-        ("pingüino", "P I N G U I N O"),
-        ("Barça", "B A R C A"),
-        ("Müßig", "M U S S I G"),
-        ("llll", "LL LL"),
-        ("", ""),
-    ],
-)
-def test_spelling(word: str, signs: str) -> None:
-    assert letters(word) == tuple(signs.split())
-    assert unsignable(word) == ()
-
-
-def test_what_no_letter_sign_exists_for_is_named_once() -> None:
-    assert unsignable("Иван и Иван"[:4] + "aИ") == ("И", "в", "а", "н")

@@ -26,7 +26,7 @@ from teo_skeleton_retriever.node.node_parameters import (
     parameters_from_words,
 )
 from teo_skeleton_retriever.output.overlay import Overlay
-from teo_skeleton_retriever.output.overlay_video import OverlayVideo
+from teo_skeleton_retriever.output.overlay_video import OverlayVideo, overlay_video
 from teo_skeleton_retriever.output.skeleton_json import as_json
 from teo_skeleton_retriever.recording import RetrievalReport, retrieve_recording
 
@@ -106,7 +106,7 @@ def _retrieve(
                 _one(images, color, depth, camera_info, as_lines)
                 return
             assert bag is not None
-            film = stack.enter_context(OverlayVideo(video)) if video is not None else None
+            film = stack.enter_context(overlay_video(video)) if video is not None else None
             progress = stack.enter_context(_progress())
             task = progress.add_task("retrieving", total=None)
             report = retrieve_recording(

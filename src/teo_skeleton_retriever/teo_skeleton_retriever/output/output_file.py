@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from teo_common.atomic_files import atomic_path
 from teo_skeleton_retriever.errors import OutputError
 
 
-def temporary_for(path: Path, suffix: str) -> Path:
-    """Name the file to write in the place of another until that is whole.
+@contextmanager
+def output_file(path: Path, suffix: str) -> Iterator[Path]:
+    """Give a temporary file that takes the place of another when the block ends well.
 
     Args:
-        path: where the whole file is to be.
-        suffix: that its name must have.
-
-    Returns:
-        A name in the same folder, so that replacing the one by the other is a single step.
+        path: Where the whole file is to be; replaced if it exists.
+        suffix: That its name must have.
 
     Raises:
         OutputError: there is no such folder, or the name ends otherwise.
@@ -25,4 +25,5 @@ def temporary_for(path: Path, suffix: str) -> Path:
         raise OutputError("bad_name", f"expected a name that ends in {suffix}, got {path.name}")
     if not path.parent.is_dir():
         raise OutputError("missing_folder", f"expected a folder for {path.name}, got {path.parent}")
-    return path.with_name(f".{path.name}.{os.getpid()}")
+    with atomic_path(path) as temporary:
+        yield temporary

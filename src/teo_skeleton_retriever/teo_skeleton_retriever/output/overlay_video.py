@@ -2,46 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from fractions import Fraction
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import av
 import cv2
 
 from teo_skeleton_retriever.camera.color_image import ColorArray
-from teo_skeleton_retriever.output.output_file import temporary_for
+from teo_skeleton_retriever.output.output_file import output_file
 
 _TICKS = 1000  # in a second: a film's times are whole milliseconds
 _LONGEST_GAP = 2.0  # [s] a longer gap between images, or a stamp set back, is not sat through
 
 
 class OverlayVideo:
-    """Writes pictures with their stamps. A context manager: the file appears when the block ends well."""
+    """Writes pictures with their stamps to an MP4 file; see `overlay_video`."""
 
-    def __init__(self, path: Path) -> None:
-        """Write nothing yet.
-
-        Args:
-            path: MP4 file to write, replaced if it exists; its folder exists.
-
-        Raises:
-            OutputError: there is no such folder, or the name does not end in .mp4.
-        """
-        self._path = path
-        self._temporary = temporary_for(path, ".mp4")
-        self._container: Any = None
+    def __init__(self, container: Any) -> None:
+        self._container = container
         self._stream: Any = None
         self._start = 0.0
         self._last = 0.0
         self._ticks = -1
-
-    def __enter__(self) -> Self:
-        # faststart: the index comes first, so that a browser can start before it has everything.
-        options = {"movflags": "faststart"}
-        self._container = av.open(str(self._temporary), "w", format="mp4", options=options)
-        return self
 
     def add(self, picture: ColorArray, stamp: float) -> None:
         """Append a picture; one of another size than the first is scaled to it.
@@ -70,14 +55,34 @@ class OverlayVideo:
         frame.pts, frame.time_base = self._ticks, Fraction(1, _TICKS)
         self._container.mux(self._stream.encode(frame))
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        try:
-            if self._stream is not None:
-                self._container.mux(self._stream.encode(None))
-                self._container.close()
-                if kind is None:
-                    self._temporary.replace(self._path)
-        finally:
-            self._temporary.unlink(missing_ok=True)
+    def finish(self) -> None:
+        """Write what the encoder holds back."""
+        if self._stream is None:
+            raise _NoPictureError
+        self._container.mux(self._stream.encode(None))
+
+
+class _NoPictureError(Exception):
+    """There is nothing to make a film of."""
+
+
+@contextmanager
+def overlay_video(path: Path) -> Iterator[OverlayVideo]:
+    """Write an MP4 file, which appears when the block ends well and there was a picture.
+
+    Args:
+        path: File to write, replaced if it exists; its folder exists.
+
+    Raises:
+        OutputError: there is no such folder, or the name does not end in .mp4.
+    """
+    # faststart: the index comes first, so that a browser can start before it has everything.
+    options = {"movflags": "faststart"}
+    with (
+        suppress(_NoPictureError),
+        output_file(path, ".mp4") as temporary,
+        av.open(str(temporary), "w", format="mp4", options=options) as container,
+    ):
+        film = OverlayVideo(container)
+        yield film
+        film.finish()

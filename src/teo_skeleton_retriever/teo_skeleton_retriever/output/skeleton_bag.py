@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from io import BufferedWriter
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any, BinaryIO
 
 from ament_index_python.packages import get_package_share_directory
 from mcap.writer import CompressionType, Writer
 from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
-from teo_skeleton_retriever.output.output_file import temporary_for
+from teo_skeleton_retriever.output.output_file import output_file
 
 TOPIC = "/skeletons"
 _TYPE = "teo_sign_msgs/msg/SkeletonArray"
@@ -20,30 +21,17 @@ _PARTS = ("teo_sign_msgs/msg/Keypoint3D", "teo_sign_msgs/msg/Skeleton3D", _TYPE)
 
 
 class SkeletonBag:
-    """Writes messages. A context manager: the file appears when the block ends well."""
+    """Writes messages to an MCAP file; see `skeleton_bag`."""
 
-    def __init__(self, path: Path) -> None:
-        """Write nothing yet.
-
-        Args:
-            path: file to write, replaced if it exists; its folder exists.
-
-        Raises:
-            OutputError: there is no such folder, or the name does not end in .mcap.
-        """
-        self._path = path
-        self._temporary = temporary_for(path, ".mcap")
-        self._stream: BufferedWriter | None = None
-
-    def __enter__(self) -> Self:
-        self._stream = self._temporary.open("wb")
-        self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
+    def __init__(self, stream: BinaryIO) -> None:
+        """Begin the file."""
+        self._writer = Writer(stream, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library="teo_skeleton_retriever")
-        definition, type_hash = _definition()
+        types = message_types()
+        definition, _ = types.generate_msgdef(_TYPE, ros_version=2)
         schema = self._writer.register_schema(_TYPE, "ros2msg", definition.encode())
-        metadata = {"topic_type_hash": type_hash, "offered_qos_profiles": "[]"}
+        metadata = {"topic_type_hash": types.hash_rihs01(_TYPE), "offered_qos_profiles": "[]"}
         self._channel = self._writer.register_channel(TOPIC, "cdr", schema, metadata)
-        return self
 
     def write(self, message: Any, time: int) -> None:
         """Append a SkeletonArray.
@@ -56,25 +44,32 @@ class SkeletonBag:
         published = stamp.sec * 1_000_000_000 + stamp.nanosec
         self._writer.add_message(self._channel, time, serialize_message(message), published)
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        assert self._stream is not None
-        try:
-            if kind is None:
-                self._writer.finish()  # type: ignore[no-untyped-call]
-                self._stream.close()
-                self._temporary.replace(self._path)
-        finally:
-            self._stream.close()
-            self._temporary.unlink(missing_ok=True)
+    def finish(self) -> None:
+        """Write the index; nothing can be appended after it."""
+        self._writer.finish()  # type: ignore[no-untyped-call]
 
 
-def _definition() -> tuple[str, str]:
-    """Give the text of the type with all that it refers to, and its hash."""
+@contextmanager
+def skeleton_bag(path: Path) -> Iterator[SkeletonBag]:
+    """Write an MCAP file, which appears when the block ends well.
+
+    Args:
+        path: File to write, replaced if it exists; its folder exists.
+
+    Raises:
+        OutputError: there is no such folder, or the name does not end in .mcap.
+    """
+    with output_file(path, ".mcap") as temporary, temporary.open("wb") as stream:
+        bag = SkeletonBag(stream)
+        yield bag
+        bag.finish()
+
+
+def message_types() -> Typestore:
+    """Give the types of messages of ROS 2 and that of the skeletons, for bags."""
     folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"
     store = get_typestore(Stores.ROS2_JAZZY)
     for name in _PARTS:
         text = (folder / f"{name.rpartition('/')[2]}.msg").read_text(encoding="utf-8")
         store.register(get_types_from_msg(text, name))
-    return store.generate_msgdef(_TYPE, ros_version=2)[0], store.hash_rihs01(_TYPE)
+    return store

@@ -9,6 +9,7 @@ from teo_skeleton_retriever.image_retriever import Retrieved
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.output.messages import PARTS
 from teo_skeleton_retriever.output.overlay import STATUS_COLORS, Overlay
+from teo_skeleton_retriever.output.overlay_video import overlay_video
 
 
 def image(scale: int = 1, stamp: float = 1.0) -> RgbdImage:
@@ -101,3 +102,9 @@ def test_large_pictures_get_thick_lines():
         return int(close_to(picture, STATUS_COLORS[KeypointStatus.MEASURED])[:, 130 * scale].sum())
 
     assert thickness(4) >= 2 * thickness(1)
+
+
+def test_a_film_without_a_picture_leaves_no_file(tmp_path):
+    with overlay_video(tmp_path / "out.mp4"):
+        pass
+    assert not list(tmp_path.iterdir())

@@ -10,13 +10,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from rclpy.serialization import serialize_message
+from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer, WriterError
 
-from teo_ros2cli.bags.metadata import TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord
-from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions.schema_text import schema_of
-from teo_ros2cli.definitions.type_hash import installed_type_hash
-from teo_ros2cli.errors import Ros2CliError
+from teo_skeleton_retriever.output.skeleton_bag import message_types
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take import take_messages
 from teo_synthetic_signer.take.truth import TruthFrame
@@ -26,6 +23,21 @@ START = 1_700_000_000 * 10**9
 
 _INFO, _IMAGE, _COMPRESSED = (
     f"sensor_msgs/msg/{name}" for name in ("CameraInfo", "Image", "CompressedImage")
+)
+
+
+_INFINITE = QosTime(9223372036, 854775807)  # RMW_DURATION_INFINITE [s, ns]
+# Of a default publisher, as rosbag2 records it.
+_DEFAULT_QOS = Qos(
+    history=QosHistory.KEEP_LAST,
+    depth=10,
+    reliability=QosReliability.RELIABLE,
+    durability=QosDurability.VOLATILE,
+    deadline=_INFINITE,
+    lifespan=_INFINITE,
+    liveliness=QosLiveliness.AUTOMATIC,
+    liveliness_lease_duration=_INFINITE,
+    avoid_ros_namespace_conventions=False,
 )
 
 
@@ -83,21 +95,26 @@ def write_take(
     topics = (_TRUTH,) if truth_only else (_CAMERA_INFO, _TRUTH, *(_RAW if raw else small))
     beside = out.parent / f".{out.name}.{os.getpid()}"
     try:
-        writer = BagWriter(beside / out.name, preset="zstd_small", custom_data=about or {})
-        for topic in topics:
-            record = TopicRecord(topic.name, topic.type, installed_type_hash(topic.type), (QosRecord(),))
-            writer.add_topic(record, schema_of(topic.type))
-        for number, frame in enumerate(frames, start=1):
-            time = START + round(frame.stamp * 1e9)
-            at = take_messages.header(time)
-            for topic in topics:
-                writer.write(topic.name, time, time, serialize_message(topic.message(frame, at)))
-            yield number
-        writer.close()
+        writer = Writer(beside / out.name, version=Writer.VERSION_LATEST, storage_plugin=StoragePlugin.MCAP)
+        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        for key, value in (about or {}).items():
+            writer.set_custom_data(key, value)
+        types = message_types()
+        with writer:
+            connections = [
+                writer.add_connection(
+                    topic.name, topic.type, typestore=types, offered_qos_profiles=[_DEFAULT_QOS]
+                )
+                for topic in topics
+            ]
+            for number, frame in enumerate(frames, start=1):
+                time = START + round(frame.stamp * 1e9)
+                at = take_messages.header(time)
+                for topic, connection in zip(topics, connections, strict=True):
+                    writer.write(connection, time, serialize_message(topic.message(frame, at)))
+                yield number
         (beside / out.name).replace(out)
-    except Ros2CliError as error:
-        raise SyntheticError(error.code, str(error)) from error
-    except OSError as error:
+    except (OSError, WriterError) as error:
         raise SyntheticError("not_written", f"{out} cannot be written: {error}") from error
     finally:
         shutil.rmtree(beside, ignore_errors=True)

@@ -16,9 +16,10 @@ from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SPARE
-from teo_sign_translator.pointer.training.batches import WordNumbers, batches
-from teo_sign_translator.pointer.training.devices import best_device, one_thread
-from teo_sign_translator.pointer.training.examples import (
+from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
+from teo_sign_translator.training.batches import WordNumbers, batches
+from teo_sign_translator.training.devices import best_device, one_thread
+from teo_sign_translator.training.examples import (
     VARIANTS,
     AlignedSentence,
     ExampleReader,
@@ -26,9 +27,8 @@ from teo_sign_translator.pointer.training.examples import (
     Reader,
     WordTable,
 )
-from teo_sign_translator.pointer.training.network import Network, TensorBatch
-from teo_sign_translator.pointer.training.typing_noise import Typing, copies, typed_sayably, unsayable
-from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
+from teo_sign_translator.training.network import Network, TensorBatch
+from teo_sign_translator.training.typing_noise import Typing, copies, typed_sayably, unsayable
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
 MIN_FORM, MIN_LEMMA = 10, 3
@@ -43,7 +43,7 @@ _MAX_NORM = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """Where a training is.
+    """State of a training after an epoch.
 
     Attributes:
         epoch: Number of the pass, from 1.
@@ -237,7 +237,7 @@ def make_vocabulary(pairs: Examples, table: WordTable, by_heart: int, *, copy: b
 
 
 def _repeats(others: int, by_heart: int, part: float) -> int:
-    """How often each pair that must be known by heart makes them that part of a pass; at least once."""
+    """How often a pass repeats each memorised pair, so that they are `part` of it; at least once."""
     return max(1, round(part / (1 - part) * others / max(1, by_heart)))
 
 
@@ -246,7 +246,7 @@ def _frequent(counts: Counter[str], least: int) -> list[str]:
 
 
 def _schedule(steps: int) -> Callable[[int], float]:
-    """Step size by number of the step, as a part of the highest."""
+    """Learning rate of a step, as a part of the highest."""
     warm_up = max(1, round(_WARM_UP * steps))
     return lambda step: min((step + 1) / warm_up, max(0.0, (steps - step) / max(1, steps - warm_up)))
 

@@ -18,7 +18,7 @@ from teo_sign_translator.corpus.paper_pairs import (
 )
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.sentence_model import SentenceModel
-from teo_sign_translator.pointer.training.examples import Reader
+from teo_sign_translator.training.examples import Reader
 
 if TYPE_CHECKING:
     from teo_sign_translator.text.source_words import SourceWord

@@ -11,8 +11,8 @@ from small_language import NOUNS, fit_small, read, sentence_pairs, small_config
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import POINTER, NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.training.fitting import fit
-from teo_sign_translator.pointer.training.memorised_pairs import MemorisedPair
+from teo_sign_translator.training.fitting import fit
+from teo_sign_translator.training.memorised_pairs import MemorisedPair
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from teo_sign_translator.corpus import SPLITS, Pair, read_pairs
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.training.memorised_pairs import key
+from teo_sign_translator.training.memorised_pairs import key
 
 
 def corpus_files(corpus: Path) -> tuple[Path, ...]:
@@ -50,7 +50,7 @@ def corpus_hash(corpus: Path) -> str:
 
 
 def sample(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
-    """So many pairs, chosen at random but always the same; all of them if there are no more."""
+    """Pairs chosen at random, the same for the same seed; all of them if there are no more than `count`."""
     if count is None or count >= len(pairs):
         return pairs
     return random.Random(seed).sample(pairs, count)

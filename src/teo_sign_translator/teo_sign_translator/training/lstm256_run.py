@@ -12,7 +12,7 @@ from rich.progress import Progress
 from teo_sign_translator.corpus.paper_pairs import training_data_hash, training_pairs
 from teo_sign_translator.lstm256.store import load_model, save_model
 from teo_sign_translator.lstm256.tokens import Vocabulary, folded_tokens, mark_variants
-from teo_sign_translator.lstm256.training import Example, TrainingConfig, train
+from teo_sign_translator.training.lstm256_fitting import Example, TrainingConfig, train
 
 #: The published model is trained with 20 % held out; what ships must know every sentence, so nothing is held
 #: out. Batches of 8 keep the training short; there are more than 200 examples where the paper has 31.

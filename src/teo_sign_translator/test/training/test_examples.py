@@ -10,24 +10,24 @@ from hypothesis import strategies as st
 from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs, training_pairs
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.training.batches import WordNumbers, batches
-from teo_sign_translator.pointer.training.examples import (
+from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
+from teo_sign_translator.text.source_words import source_words
+from teo_sign_translator.training.batches import WordNumbers, batches
+from teo_sign_translator.training.examples import (
     ExampleReader,
     Examples,
     Reader,
     WordTable,
     spans,
 )
-from teo_sign_translator.pointer.training.fitting import make_vocabulary
-from teo_sign_translator.pointer.training.memorised_pairs import (
+from teo_sign_translator.training.fitting import make_vocabulary
+from teo_sign_translator.training.memorised_pairs import (
     MemorisedPair,
     key,
     memorised_pairs,
     ways_of_typing,
 )
-from teo_sign_translator.pointer.training.typing_noise import Typing, copies, typed, typed_sayably, unsayable
-from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
-from teo_sign_translator.text.source_words import source_words
+from teo_sign_translator.training.typing_noise import Typing, copies, typed, typed_sayably, unsayable
 
 PAIRS = (
     MemorisedPair("¿Cómo está María?", ("MARÍA", "CÓMO"), ((2,), (0,))),

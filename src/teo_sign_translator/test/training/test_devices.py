@@ -6,7 +6,7 @@ import pytest
 import torch
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.training.devices import best_device, named_device, one_thread
+from teo_sign_translator.training.devices import best_device, named_device, one_thread
 
 
 def test_a_device_is_taken_by_its_name_and_the_best_one_without() -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_translator.pointer.training.examples import Examples, Ints, WordTable
+from teo_sign_translator.training.examples import Examples, Ints, WordTable
 
 #: Of the pairs that are not shown as written, how many lose what. Not measured on people: half of each, so
 #: that all eight ways of typing a sentence are about as frequent.

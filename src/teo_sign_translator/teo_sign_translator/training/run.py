@@ -18,15 +18,15 @@ from teo_sign_translator.corpus import Pair
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import ZooModel
 from teo_sign_translator.pointer.store import load_sentence_model, save_sentence_model
-from teo_sign_translator.pointer.training import fitting
-from teo_sign_translator.pointer.training.corpus_files import corpus_hash, read_splits, sample, without
-from teo_sign_translator.pointer.training.examples import Reader
-from teo_sign_translator.pointer.training.memorised_pairs import (
+from teo_sign_translator.training import fitting
+from teo_sign_translator.training.corpus_files import corpus_hash, read_splits, sample, without
+from teo_sign_translator.training.examples import Reader
+from teo_sign_translator.training.memorised_pairs import (
     MemorisedPair,
     memorised_pairs,
     not_memorised,
 )
-from teo_sign_translator.pointer.training.metrics import Score, score
+from teo_sign_translator.training.metrics import Score, score
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
 SCORED = 2000
@@ -53,7 +53,7 @@ class TrainingData:
 
 @dataclass(frozen=True, slots=True)
 class TrainedModel:
-    """What a training left behind.
+    """A model after its training, with its scores.
 
     Attributes:
         model: As loaded from its files.

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_translator.pointer.training.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable
-from teo_sign_translator.pointer.training.typing_noise import copies
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, UNKNOWN_TAG, Vocabulary
+from teo_sign_translator.training.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable
+from teo_sign_translator.training.typing_noise import copies
 
 #: Places of "unknown" in the lists of forms and lemmas.
 _UNKNOWN_FORM, _UNKNOWN_LEMMA = 0, 1
@@ -48,7 +48,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class WordNumbers:
-    """The rows of a `WordTable` in the lists of a `Vocabulary`.
+    """For each word of a `WordTable` its places in the lists of a `Vocabulary`.
 
     Attributes:
         forms: Shape (rows,).

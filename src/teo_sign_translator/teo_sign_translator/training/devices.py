@@ -1,4 +1,4 @@
-"""Where a network is trained, and on how much of it."""
+"""Where a network is trained: the device, and the threads of its CPU."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def named_device(name: str | None) -> torch.device:
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """One thread of the CPU; as many as before afterwards.
+    """Let PyTorch use one thread of the CPU inside the `with`, and as many as before behind it.
 
     The products of a batch are small. One thread needs 0.9 ms of an AMD EPYC for a pair; two, on a machine
     that others use as well, 10.6 ms, since each waits for the other and burns its core meanwhile.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.pointer.training.metrics import fewest_edits, overlap, score
+from teo_sign_translator.training.metrics import fewest_edits, overlap, score
 
 
 def _glosses(*lines: str) -> list[tuple[str, ...]]:

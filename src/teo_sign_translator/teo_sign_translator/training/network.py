@@ -11,8 +11,8 @@ from torch import Tensor, nn
 from torch.nn import functional
 
 from teo_sign_translator.pointer.config import NetworkConfig
-from teo_sign_translator.pointer.training.batches import Batch
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, Vocabulary, tag_parts
+from teo_sign_translator.training.batches import Batch
 
 _CELLS = {"rnn": nn.RNN, "gru": nn.GRU, "lstm": nn.LSTM}
 #: Log-probability of what cannot be; a finite number, whose gradient is 0 and not NaN.
