@@ -11,7 +11,6 @@ from teo_motion.trajectory.waypoint_states import waypoint_states
 
 Array = NDArray[np.float64]
 
-
 # While times are looked for, a segment that fitted is tried again only when the velocity or acceleration at
 # its ends has changed by more than this share of their limits, or its duration by more than this share [1].
 _CHANGE = 1e-3

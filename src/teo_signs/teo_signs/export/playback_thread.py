@@ -20,8 +20,10 @@ from teo_signs.errors import LutError
 from teo_signs.export.sign_motion import PARTS, SignMotion
 
 _HAND_AXES = {"leftHand": LEFT_AXES, "rightHand": RIGHT_AXES}
+
+# Finer than what TEO's drives count in, 5e-4 deg, and than a tick of a Dextra's encoder.
 _DECIMALS = 4
-"""Finer than what TEO's drives count in, 5e-4 deg, and than a tick of a Dextra's encoder."""
+
 _TIME_DECIMALS = 6
 
 
