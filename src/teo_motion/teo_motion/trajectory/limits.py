@@ -79,7 +79,7 @@ class MotionLimits:
         )
 
     def for_points(self, period: float) -> Bounds:
-        """Bounds of a plan such that also what is interpolated between its points keeps the limits.
+        """Bounds of a plan such that the interpolation between its points keeps the limits as well.
 
         Velocity and acceleration are lower by what the interpolation may add. Its jerk is not bounded so: it
         reaches up to 2.2 times the plan's.

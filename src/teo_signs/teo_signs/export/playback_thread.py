@@ -28,7 +28,7 @@ _TIME_DECIMALS = 6
 
 
 def playback_mask(part: str) -> str:
-    """PlaybackThread's option that keeps the time out of what is sent to the axes."""
+    """PlaybackThread's option `mask` for a part: 0 for the time's column, 1 for each axis."""
     return f"({' '.join(['mask', '0', *['1'] * len(PARTS[part])])})"
 
 
