@@ -16,7 +16,6 @@ setup(
     ],
     install_requires=[
         "setuptools",
-        "casadi",
         "distributed",
         "numpy",
         "opencv-python-headless",

@@ -4,14 +4,25 @@ PACKAGE = "teo_synthetic_signer"
 
 setup(
     name=PACKAGE,
-    version="0.1.0",
+    version="0.2.0",
     packages=find_packages(exclude=["test"]),
     package_data={PACKAGE: ["py.typed"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
-    install_requires=["setuptools"],
+    install_requires=[
+        "setuptools",
+        "embreex",
+        "numpy",
+        "opencv-python-headless",
+        "pydantic",
+        "PyYAML",
+        "rich",
+        "rosbags",
+        "scipy",
+        "typer",
+    ],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
