@@ -1,10 +1,10 @@
-# make setup | run | demo TEXT="..." | test | lint | bench
+# make setup | run | demo TEXT="..." | test | lint | bench | docs
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
 ENV := . ./env.sh &&
 
-.PHONY: help setup setup-run run demo test lint bench
+.PHONY: help setup setup-run run demo test lint bench docs
 
 help: ## what can be made
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 10
@@ -26,6 +26,9 @@ test: setup ## all tests
 
 lint: setup ## style, types
 	@$(ENV) scripts/lint.sh
+
+docs: setup ## the pages of docs/ and of the API, in out/docs/
+	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
 
 bench: setup ## the figures of the README
 	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PYTHONPATH" python bench/run.py
