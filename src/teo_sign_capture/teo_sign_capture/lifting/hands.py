@@ -27,10 +27,10 @@ BONES = tuple(
     for bone in range(4)
 )
 
-# [m] Lengths of an adult's bones. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand Segments", Int. J.
-# Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and of 27 mm of carpal
-# bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in the clips of
-# `letter_clips`.
+# [m] Lengths of an adult's bones. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand
+# Segments", Int. J. Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and
+# of 27 mm of carpal bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in
+# the clips of `letter_clips`.
 BONE_LENGTHS = 1e-3 * np.array(
     [
         *(36.0, 46.2, 31.6, 21.7),
