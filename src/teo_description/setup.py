@@ -14,13 +14,13 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/urdf", sorted(map(str, Path("urdf").glob("*.urdf")))),
     ],
-    install_requires=["setuptools"],
+    install_requires=["numpy", "pin", "rich", "typer"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="TEO's URDF, joint groups, limits, self-collision and a renderer without a display.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"pictures": ["av", "matplotlib", "opencv-python-headless", "pillow"], "test": ["pytest"]},
     entry_points={
         "console_scripts": [
             "render = teo_description.pictures.render_cli:main",

@@ -11,13 +11,13 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
-    install_requires=["setuptools", "numpy", "rich", "typer"],
+    install_requires=["numpy", "rich", "typer"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="The executor: sign tokens in, smooth trajectories out; the commands lut and plan.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"test": ["hypothesis", "opencv-python-headless", "pytest", "PyYAML"]},
     entry_points={
         "console_scripts": [
             "capture_demonstration = teo_lut_executor.cli.moved:capture_demonstration",

@@ -11,11 +11,11 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
-    install_requires=["setuptools", "numpy", "ruckig"],
+    install_requires=["numpy", "ruckig"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="From signs to motion: waypoints, timing, collision avoidance, the head's part.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"test": ["hypothesis", "pytest"]},
 )

@@ -15,11 +15,11 @@ setup(
         (f"share/{PACKAGE}/lut", ["lut/sign.schema.json"]),
         (f"share/{PACKAGE}/lut/lse", sorted(map(str, Path("lut/lse").glob("*.json")))),
     ],
-    install_requires=["setuptools", "numpy", "pillow", "pydantic", "scipy"],
+    install_requires=["numpy", "pydantic", "scipy"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="A sign and the table of signs: file, schema, evidence, tokens, lexicon, mirroring, export.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"pictures": ["pillow"], "test": ["hypothesis", "pytest"]},
 )

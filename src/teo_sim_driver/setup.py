@@ -11,13 +11,13 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
-    install_requires=["setuptools"],
+    install_requires=["numpy"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="Simulated joint driver of TEO: executes joint trajectories as the robot would",
     license="Apache-2.0",
-    extras_require={"test": ["pytest"]},
+    extras_require={"test": ["hypothesis", "pytest", "scipy"]},
     entry_points={
         "console_scripts": [
             "driver_node = teo_sim_driver.driver_node:main",

@@ -6,9 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
-
-if TYPE_CHECKING:  # tools that only show parameters need no rclpy
+if TYPE_CHECKING:  # tools that only show parameters need no ROS
+    from rcl_interfaces.msg import ParameterDescriptor
     from rclpy.node import Node
 
 Value = bool | int | float | str | tuple[str, ...]
@@ -32,6 +31,8 @@ class ParameterRow:
 
     def descriptor(self) -> ParameterDescriptor:
         """What ROS checks a value against, and shows."""
+        from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+
         descriptor = ParameterDescriptor(description=self.description, read_only=self.read_only)
         if self.choices:
             descriptor.additional_constraints = f"one of {', '.join(map(repr, self.choices))}"

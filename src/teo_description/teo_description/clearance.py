@@ -39,8 +39,8 @@ class Contact(NamedTuple):
     """Way along which the other link leaves the one, unit vector. Shape (3,)."""
 
 
+# What the joints of the head move.
 HEAD_LINKS = ("AxialNeck_link", "FrontalNeck_link")
-"""What the joints of the head move."""
 
 _TORSO = (
     "root_link",

@@ -18,16 +18,20 @@ from teo_description.robot import Robot
 Array = NDArray[np.float64]
 
 FINGERS = ("Index", "Middle", "Ring", "Pinky")
+
+# Lengths of a finger's phalanges [m], knuckle to tip, alike on the four fingers (Dextra's model).
 PHALANGES = np.array([0.035, 0.025, 0.027])
-"""[m] Lengths of a finger's phalanges, knuckle to tip, alike on the four fingers (Dextra's model)."""
+
 FINGER_LENGTH = float(PHALANGES.sum())
 
+# Thickest phalanges of the collision model [m].
 _FINGER_RADIUS, _THUMB_RADIUS = 0.009, 0.009
-"""[m] Thickest phalanges of the collision model."""
+
+# Height of a thumb's axis over the palm's frame at which its surface touches the palm's box [m].
 _PALM_FRONT = 0.009 - 0.003
-"""[m] Height of a thumb's axis over the palm's frame at which its surface touches the palm's box."""
+
+# The palm's box along and across the hand [m], the thumb's radius added at its sides.
 _PALM_FROM, _PALM_TO, _PALM_HALF_WIDTH = -0.075, 0.032, 0.047
-"""[m] The palm's box along and across the hand, the thumb's radius added at its sides."""
 
 # Step of the table [rad]: between its points it is off by (finger length) * step^2 / 8 < 0.1 mm.
 _STEP = np.radians(2.0)

@@ -9,8 +9,8 @@ from types import MappingProxyType
 from teo_description.joints import ALL_JOINTS
 from teo_description.urdf import figures as tables
 
+# The thumb's flexion at rest [rad]: it lies along the index, 22 mm off; at 0 its last phalanx would be in it.
 THUMB_AT_REST = math.radians(-30.0)
-"""[rad] The thumb lies along the index, 22 mm off; at 0 its last phalanx, bent by 46 deg, would be in it."""
 
 
 def _home() -> Mapping[str, float]:
@@ -24,5 +24,5 @@ def _home() -> Mapping[str, float]:
 
 
 # From the tables and not from the URDF, so that this package can be imported to build a missing URDF.
+# TEO's park pose [rad], 40 joints: fingers at their lower limit of 7 deg, thumbs at -30 deg, others at 0.
 HOME: Mapping[str, float] = _home()
-"""TEO's park pose [rad], 40 joints: fingers at their lower limit of 7 deg, thumbs at -30 deg, others at 0."""

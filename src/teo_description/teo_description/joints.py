@@ -31,17 +31,17 @@ LEFT_ARM, RIGHT_ARM = _side(_ARM, "Left"), _side(_ARM, "Right")
 LEFT_HAND, RIGHT_HAND = _side(_HAND, "Left"), _side(_HAND, "Right")
 LEFT_LEG, RIGHT_LEG = _side(_LEG, "Left"), _side(_LEG, "Right")
 
+# The 16 upper-body joints without the hands.
 BODY_JOINTS = HEAD + TRUNK + LEFT_ARM + RIGHT_ARM
-"""The 16 upper-body joints without the hands."""
 
+# The 28 joints that a sign can move, in the order of every trajectory.
 COMMANDED_JOINTS = BODY_JOINTS + LEFT_HAND + RIGHT_HAND
-"""The 28 joints that a sign can move, in the order of every trajectory."""
 
+# The 12 joints that stand still while TEO signs.
 LEG_JOINTS = LEFT_LEG + RIGHT_LEG
-"""The 12 joints that stand still while TEO signs."""
 
+# The 40 joints of the joint state; the phalanges that follow a tendon are not among them.
 ALL_JOINTS = COMMANDED_JOINTS + LEG_JOINTS
-"""The 40 joints of the joint state; the phalanges that follow a tendon are not among them."""
 
 
 def mirrored_name(name: str) -> str:

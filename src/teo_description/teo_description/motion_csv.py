@@ -13,8 +13,8 @@ from teo_description.errors import DescriptionError
 from teo_description.joints import ALL_JOINTS
 from teo_description.limits import joint_limits
 
+# Positions written with six decimals may end this little outside a limit that they stand on [rad].
 LIMIT_TOLERANCE = 1e-5
-"""[rad] Positions written with six decimals may end this little outside a limit that they stand on."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -130,7 +130,7 @@ class Robot:
         Args:
             q: Configuration, shape (nq,).
             frame: A name of `frame_names`.
-            joints: n names of `ALL_JOINTS`.
+            joints: N names of `ALL_JOINTS`.
 
         Returns:
             Linear velocity of the frame's origin [m/rad] over angular velocity [rad/rad], both in the axes of

@@ -19,23 +19,23 @@ from numpy.typing import NDArray
 from teo_description.errors import DescriptionError
 from teo_description.joints import LEFT_HAND, RIGHT_HAND
 
+# Flexion of a finger's phalanges with a slack tendon [deg].
 EXTENDED_DEG = 7.0
-"""Flexion of a finger's phalanges with a slack tendon [deg]."""
 
+# Flexion of a finger's phalanges with the tendon wound up [deg].
 FLEXED_DEG = 85.0
-"""Flexion of a finger's phalanges with the tendon wound up [deg]."""
 
+# Flexion of the thumb's proximal phalanx with a slack tendon and with the tendon wound up [deg].
 THUMB_EXTENDED_DEG, THUMB_FLEXED_DEG = -90.0, 90.0
-"""Flexion of the thumb's proximal phalanx with a slack tendon and with the tendon wound up [deg]."""
 
+# Tendon travel of a finger [mm].
 FINGER_TENDON_MM = 20.0
-"""Tendon travel of a finger [mm]."""
 
+# Tendon travel of the thumb [mm].
 THUMB_TENDON_MM = 10.0
-"""Tendon travel of the thumb [mm]."""
 
+# Greatest angle of the thumb's abductor [deg].
 ABDUCTOR_DEG = 90.0
-"""Greatest angle of the thumb's abductor [deg]."""
 
 # A thousandth of a degree: more than the driver's position tolerance, less than the servo's step.
 _TOLERANCE_DEG = 1e-3
@@ -91,11 +91,11 @@ def _axis(joint: str) -> HandAxis:
     return HandAxis(joint, "mm", FINGER_TENDON_MM, EXTENDED_DEG, FLEXED_DEG)
 
 
+# The left device's axes, in its order: abductor, thumb, index, middle, ring, pinky.
 LEFT_AXES = tuple(_axis(joint) for joint in LEFT_HAND)
-"""The left device's axes, in its order: abductor, thumb, index, middle, ring, pinky."""
 
+# The right device's axes, in the same order.
 RIGHT_AXES = tuple(_axis(joint) for joint in RIGHT_HAND)
-"""The right device's axes, in the same order."""
 
 # Both devices' axes, in the order of `hand_setpoints`.
 HAND_AXES = LEFT_AXES + RIGHT_AXES

@@ -1,1 +1,29 @@
-"""From signs to motion within the robot's limits. See `planner` for the whole, the rooms for its parts."""
+"""From signs to motion: composition, timing, collision avoidance and the head, within the robot's limits."""
+
+from teo_motion.lone_sign import sign_motion
+from teo_motion.planner import Planner, plan
+from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples, TokenTiming
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType, printed_form
+from teo_motion.trajectory.joint_motion import JointMotion
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import State
+
+__all__ = [
+    "STATEMENT",
+    "HeadGesture",
+    "JointMotion",
+    "MotionLimits",
+    "NearestApproach",
+    "Plan",
+    "Planner",
+    "Samples",
+    "SentenceForm",
+    "SentenceType",
+    "SigningStyle",
+    "State",
+    "TokenTiming",
+    "plan",
+    "printed_form",
+    "sign_motion",
+]

@@ -16,12 +16,12 @@ from teo_signs.tokens import Kind, Token
 
 Array = NDArray[np.float64]
 
+# Between two rows [s]: drives take no more than 50 set-points a second, and straight lines over more than 0.1
+# s cut the corners of a sign by more than 2 deg.
 PERIOD_RANGE = (0.001, 0.1)
-"""[s] Between two rows: drives take no more than 50 set-points a second, and straight lines over more than
-0.1 s cut the corners of a sign by more than 2 deg."""
 
+# Greatest motion of a joint that counts as standing still [rad]: the last digit of an entry.
 _STILL = 1e-6
-"""[rad] A joint that moves less than this, the last digit of an entry, stands still."""
 
 
 def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD) -> SignMotion:

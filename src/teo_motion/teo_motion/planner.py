@@ -29,8 +29,9 @@ from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 from teo_signs.tokens import Token
 
-# TEO's drives take a set-point with every CAN SYNC, 0.02 s apart: more points would not reach them.
-DEFAULT_PERIOD = 0.02  # [s]
+# Most time between two samples of a plan [s]: TEO's drives take a set-point with every CAN SYNC, 0.02 s
+# apart, and more points would not reach them.
+DEFAULT_PERIOD = 0.02
 
 # Longest sentence [s]: some 150 letters. What is longer was not split into sentences, and 15,000 points of
 # 28 joints fill a message of 10 MB.

@@ -12,9 +12,9 @@ from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.planner import Planner
 from teo_motion.sentence.composition import REST
-from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.mirroring import mirrored_positions
 from teo_signs.sign import Sign
 from teo_signs.tokens import Token
 
@@ -41,6 +41,11 @@ def arms(lut: Lut, gloss: str, knot: int) -> tuple[np.ndarray, np.ndarray]:
     return right, left
 
 
+def mirrored_arm(arm: np.ndarray) -> np.ndarray:
+    """The other arm in the mirror image of this one; both have the same axes in the same order."""
+    return mirrored_positions(RIGHT_ARM, arm)
+
+
 def without_looking(signs: dict[str, Sign], glosses: str, robot: Robot) -> float:
     """How near parts come if nobody looks [m]."""
     plan = Planner(signs).plan([Token(gloss=gloss) for gloss in glosses.split()])
@@ -52,7 +57,7 @@ def test_an_idle_left_hand_in_the_way_goes_to_rest_first(make_sign: MakeSign, lu
     signs = {
         "TWO": make_sign("TWO", [[*right, *OPEN, *left, *OPEN]], joints=BOTH),
         # Where the left hand waits in the meantime, seen in a mirror: across the body, on the other's arm.
-        "ONE": make_sign("ONE", [[*mirrored(left), *OPEN]]),
+        "ONE": make_sign("ONE", [[*mirrored_arm(left), *OPEN]]),
     }
     sentence = "TWO ONE TWO"
     assert without_looking(signs, sentence, robot) < -0.005
@@ -68,7 +73,11 @@ def test_two_hands_pass_each_other(make_sign: MakeSign, lut: Lut, robot: Robot) 
     right, left = arms(lut, "TRABAJAR", 0)
     signs = {
         "OVER": make_sign("OVER", [[*right, *OPEN, *left, *OPEN]], joints=BOTH),
-        "UNDER": make_sign("UNDER", [[*mirrored(left), *OPEN, *mirrored(right), *OPEN]], joints=BOTH),
+        "UNDER": make_sign(
+            "UNDER",
+            [[*mirrored_arm(left), *OPEN, *mirrored_arm(right), *OPEN]],
+            joints=BOTH,
+        ),
     }
     sentence = "OVER UNDER OVER"
     assert without_looking(signs, sentence, robot) < -0.005

@@ -17,7 +17,7 @@ class _CodedError(Exception):
         self.code = code
 
     def __reduce__(self) -> tuple[type[_CodedError], tuple[str, str]]:
-        """Both arguments, so that the error can pass from one process to another."""
+        """Pickle with both arguments: the error can pass from one process to another."""
         return type(self), (self.code, str(self))
 
 

@@ -15,9 +15,8 @@ from teo_signs.tokens import Kind, Token, check_tokens
 
 _SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
 
-#: Signs of a lower standing are spelled instead. A sketch has no source: a viewer who knows LSE would read
-#: something
-#: else, or nothing, where letters tell the word.
+# Lowest standing (evidence of the form) with which a lexical sign is used; with a lower one it is spelled. A
+# sketch has no source: whoever knows LSE would read something else, or nothing, where letters tell the word.
 DEFAULT_STANDING: Standing = "described"
 
 # Signs that can spell have names this short: "A", "CH". Longer entries are not read when spelling.

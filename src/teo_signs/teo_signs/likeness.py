@@ -1,9 +1,8 @@
 """How different two signs look: handshape, orientation of the palm, movement, place.
 
-Each is measured on both hands at moments spread over the sign, and counted in the difference that is just
-seen with certainty at conversation distance: the thickness of a finger, 15 deg, or two neighbouring places on
-the face. Signs are told apart by any one of them on either hand, so that the largest is the difference of the
-pair.
+Each is measured on both hands at moments spread over the sign, in units of its just noticeable difference at
+conversation distance: the thickness of a finger, 15 deg, or two neighbouring places on the face. Signs are
+told apart by any one of them on either hand, so that the largest is the difference of the pair.
 """
 
 from __future__ import annotations
@@ -20,13 +19,14 @@ from teo_signs.sign import Sign
 
 Array = NDArray[np.float64]
 
+# Just noticeable difference of a length [m]: the thickness of one of TEO's fingers.
 SEEN_LENGTH = 0.015
-"""[m] The thickness of one of TEO's fingers."""
-SEEN_ANGLE = float(np.radians(15.0))
-"""[rad] A finger's tip moves by a finger's thickness when the hand turns by about this much."""
 
+# Just noticeable difference of an angle [rad]: it moves a finger's tip by about a finger's thickness.
+SEEN_ANGLE = float(np.radians(15.0))
+
+# Just noticeable difference of a place [m]: the distance of TEO's mouth and chin.
 SEEN_PLACE = 0.028
-"""[m] TEO's mouth and chin are so far apart."""
 
 _MOMENTS = 25
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")

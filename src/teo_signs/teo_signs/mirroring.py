@@ -29,13 +29,15 @@ Array = NDArray[np.float64]
 _OTHER_HAND: dict[Handedness, Handedness] = {"right": "left", "left": "right", "both": "both"}
 _ARMS = {"right": RIGHT_ARM, "left": LEFT_ARM}
 
+# Weight of the hand's place against its orientation [rad/m]: 2 cm count as much as 9 deg of the palm.
 _PLACE = 8.0
-"""[rad/m] 2 cm of place count as much as 9 deg of the palm: what is lost is shared out between the two."""
+
+# Weights of the distance from the posture clipped to the limits [1], tried in turn: the first chooses among
+# equally good postures, the others keep the arm nearer to the clipped posture if it would touch something.
 _NEAR = (0.03, 0.3, 1.0, 3.0)
-"""What a radian of way from the posture just within the limits costs: chooses among equals; or more, so that
-the arm stays where it is clear, if it would touch."""
+
+# Distance that parts of the robot keep in a posture [m]: the planner's curves between knots close less.
 _CLEAR = 0.005
-"""[m] Distance that parts of the robot keep in a posture: the planner's curves between knots close less."""
 
 
 class MirroredSigns(Mapping[str, Sign]):

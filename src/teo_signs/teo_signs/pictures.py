@@ -13,7 +13,8 @@ from teo_common.atomic_files import write_atomically
 from teo_description.pictures.rendering import Camera, Image, film_strip, render_pose, save_png, write_video
 from teo_signs.sign import Sign
 
-FRAME_RATE = 25.0  # [Hz]
+# Frames of a film a second [Hz].
+FRAME_RATE = 25.0
 
 # As somebody spoken to sees TEO from the waist up, and that person's look at the right hand.
 FRONT = Camera(
@@ -31,13 +32,17 @@ CLOSE_UP = Camera(
 )
 
 _STRIP_MOMENTS = 6
+
+# Least motion of a joint for which a sign is shown by several moments [rad].
 _MOVES = np.radians(3.0)
-"""[rad] A sign in which no joint moves so far is shown by one moment."""
+
+# Shortest film [s]: a still sign would be over in a blink.
 _STILL_FILM = 1.0
-"""[s] Shortest film: a still sign would be over in a blink."""
+
 _SHEET_COLUMNS = 6
 _OVERVIEW_COLUMNS = 16
-_OVERVIEW_SIZE = 200  # [px]
+# Width and height of a sign in the overview [pixel].
+_OVERVIEW_SIZE = 200
 _OVERVIEW_COLOURS = 128
 
 

@@ -25,7 +25,7 @@ MAX_FILE_BYTES = 1_000_000
 # Entries keep 1e-6 rad; the encoders resolve 1e-5 rad.
 _DECIMALS = 6
 # A knot on a limit that another program rounded may be beyond it by half a digit.
-LIMIT_TOLERANCE = 1e-6  # [rad]
+LIMIT_TOLERANCE = 1e-6
 
 
 def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:

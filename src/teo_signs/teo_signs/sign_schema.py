@@ -48,7 +48,7 @@ Date = Annotated[
 Text = Annotated[str, Field(min_length=1)]
 Gloss = Annotated[str, Field(min_length=1, max_length=MAX_GLOSS_LENGTH), AfterValidator(_gloss)]
 
-#: How well founded a sign's form is, the best first.
+# How well founded a sign's form is, the best first.
 Standing = Literal["recorded", "measured", "described", "sketched"]
 STANDINGS: tuple[Standing, ...] = get_args(Standing)
 STANDING_MEANING = (

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 
 from teo_signs.errors import PlanError
 
-PRINTED_PAUSE = "_"  # as a space inside a gloss is written: the hands stay still
+# A pause in the printed form, written as a space inside a gloss is: the hands stay still.
+PRINTED_PAUSE = "_"
 
+# Least and greatest duration scale: beyond, a sign of half a second takes no time or a minute.
 SCALES = (0.001, 100.0)
-"""Least and greatest duration scale: beyond, a sign of half a second takes no time or a minute."""
 
 # Letters of the Spanish manual alphabet are one or two characters long (CH, LL, RR).
 _LONGEST_LETTER = 2

@@ -12,6 +12,7 @@ from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
 
 TABLE = default_lut_directory()
+SOURCES = Path(__file__).parents[2]
 LETTERS = [
     "A",
     "B",
@@ -136,7 +137,7 @@ def test_the_table_holds_alphabet_digits_demonstrated_signs_and_every_score_with
         *map(str, range(21)),
         *map(str, range(30, 101, 10)),
     }
-    scores = {path.stem for path in (TABLE.parent.parent / "scores" / "lse").glob("*.yaml")}
+    scores = {path.stem for path in (SOURCES / "teo_sign_capture" / "scores" / "lse").glob("*.yaml")}
     assert {gloss for gloss in lut if lut[gloss].kind == "lexical"} == {"HOLA", "MI", "NOMBRE"} | scores
     assert [warning for gloss in lut for warning in sign_warnings(lut[gloss])] == []
 

@@ -1,1 +1,24 @@
 """Simulated joint driver of TEO: executes joint trajectories as the robot would, or says why not."""
+
+from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
+from teo_sim_driver.joint_follower import FollowerReport, JointFollower
+from teo_sim_driver.message import PlainTrajectory, TrajectoryLike, plain_trajectory
+from teo_sim_driver.rules import Rules
+from teo_sim_driver.trajectory import MotionState, Trajectory
+from teo_sim_driver.validation import Scheduled, validate
+
+__all__ = [
+    "DriverError",
+    "FollowerReport",
+    "JointFollower",
+    "MotionState",
+    "PlainTrajectory",
+    "Refusal",
+    "Rules",
+    "Scheduled",
+    "Trajectory",
+    "TrajectoryError",
+    "TrajectoryLike",
+    "plain_trajectory",
+    "validate",
+]

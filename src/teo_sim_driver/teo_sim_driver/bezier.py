@@ -49,9 +49,9 @@ def end_derivatives(
     Args:
         durations: [s]. Shape (n,), all > 0.
         degrees: LINEAR, CUBIC or QUINTIC. Shape (n,).
-        positions: of the points [rad]. Shape (n + 1, joints).
-        velocities: of the points [rad/s], read where the degree is CUBIC or QUINTIC. Shape (n + 1, joints).
-        accelerations: of the points [rad/s^2], read where the degree is QUINTIC. Shape (n + 1, joints).
+        positions: Of the points [rad]. Shape (n + 1, joints).
+        velocities: Of the points [rad/s], read where the degree is CUBIC or QUINTIC. Shape (n + 1, joints).
+        accelerations: Of the points [rad/s^2], read where the degree is QUINTIC. Shape (n + 1, joints).
 
     Returns:
         v0, v1 [rad/s], a0, a1 [rad/s^2]. Shape (n, joints) each.
@@ -120,9 +120,9 @@ def first_excess(control: FloatArray, lower: FloatArray, upper: FloatArray) -> E
     or all the pieces' hulls are inside, so that nothing is missed between samples.
 
     Args:
-        control: control points of n segments. Shape (k + 1, n, joints). Not finite counts as outside.
-        lower: per joint, in the unit of the control points. Shape (joints,).
-        upper: per joint. Shape (joints,).
+        control: Control points of n segments. Shape (k + 1, n, joints). Not finite counts as outside.
+        lower: Per joint, in the unit of the control points. Shape (joints,).
+        upper: Per joint. Shape (joints,).
     """
     with np.errstate(invalid="ignore", over="ignore"):
         return _first_excess(control, lower - _ROUNDING, upper + _ROUNDING)

@@ -9,8 +9,8 @@ class DriverError(Exception):
     """Base of everything this package raises.
 
     Attributes:
-        code: stable reason, for programs.
-        sentence: what was expected, what came and what to do, for people.
+        code: Stable reason, for programs.
+        sentence: What was expected, what came and what to do, for people.
     """
 
     def __init__(self, code: str, sentence: str) -> None:

@@ -19,10 +19,10 @@ def assess(
     """Judge the driver's state.
 
     Args:
-        report: of the follower, now.
-        rate: since the last time.
-        nominal_rate: what the rate should be [Hz].
-        before: the follower's report of the last time; what is new since then is judged.
+        report: Of the follower, now.
+        rate: Since the last time.
+        nominal_rate: What the rate should be [Hz].
+        before: The follower's report of the last time; what is new since then is judged.
     """
     level, message = Level.OK, str(report.activity)
     refused = sum(report.refused.values())
@@ -67,8 +67,8 @@ class RefusalLog:
         """Line to log, or None to be quiet.
 
         Args:
-            refusal: what happened.
-            now: on a clock that nobody sets [s].
+            refusal: What happened.
+            now: On a clock that nobody sets [s].
         """
         logged_at = self._logged_at.get(refusal.code)
         if logged_at is not None and now - logged_at < _QUIET:

@@ -19,9 +19,9 @@ from teo_sim_driver.step_guard import StepGuard
 from teo_sim_driver.trajectory import MotionState, Trajectory
 from teo_sim_driver.validation import validate
 
+# Deceleration of a stop [rad/s^2], 300 deg/s^2: about that of signs. No limit of the real joints is public;
+# from 50 deg/s it takes 0.25 s and at most 0.11 rad.
 DEFAULT_STOP_DECELERATION = 5.2
-"""[rad/s^2], 300 deg/s^2: as sharply as signs themselves are planned to move. No limit of the real joints is
-public; from 50 deg/s it takes 0.25 s and at most 0.11 rad."""
 
 
 class Activity(StrEnum):
@@ -68,12 +68,12 @@ class JointFollower:
         """Stand still.
 
         Args:
-            limits: of the joints that are commanded.
-            start: their positions now [rad]. Shape (joints,).
-            period: usual time between two steps [s].
-            held: names of joints that the robot has and that are never moved.
-            rules: limits on messages; may be exchanged later.
-            stop_deceleration: of `stop` [rad/s^2]; may be exchanged later.
+            limits: Of the joints that are commanded.
+            start: Their positions now [rad]. Shape (joints,).
+            period: Usual time between two steps [s].
+            held: Names of joints that the robot has and that are never moved.
+            rules: Limits on messages; may be exchanged later.
+            stop_deceleration: Of `stop` [rad/s^2]; may be exchanged later.
 
         Raises:
             DriverError: ``start_outside_limits``.

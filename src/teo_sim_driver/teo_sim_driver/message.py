@@ -129,12 +129,12 @@ def plain_trajectory(
     """Make a message from arrays.
 
     Args:
-        names: joints, one for each column.
-        times: from the start [s]. Shape (n,).
+        names: Joints, one for each column.
+        times: From the start [s]. Shape (n,).
         positions: [rad]. Shape (n, joints).
         velocities: [rad/s]. Shape (n, joints).
         accelerations: [rad/s^2]. Shape (n, joints).
-        stamp: when it starts [ns]; 0 is now.
+        stamp: When it starts [ns]; 0 is now.
     """
     moments = [PlainTime.of(round(time * SECOND)) for time in times]
     points = [

@@ -1,6 +1,4 @@
-"""Time along a path: it never goes back or leaps, and slows down to a standstill.
-
-Stopping on the path: the trajectory's own time slows down to a standstill.
+"""Time along a path: it never goes back or leaps (`PathClock`), and a stop slows it down (`PathStop`).
 
 A joint at q(s) moves at q'(s) ds/dt. Letting ds/dt fall from 1 to 0 stops all joints together and on the
 very path that was found good, so that no position limit and no velocity limit can be broken by stopping,
@@ -34,7 +32,7 @@ class PathClock:
         """Start without a reading.
 
         Args:
-            period: usual time between steps [s].
+            period: Usual time between steps [s].
         """
         self._period = period
         self._last: int | None = None
@@ -45,7 +43,7 @@ class PathClock:
         """Time since the last reading [s]; one period where the clock jumped, as a step was made.
 
         Args:
-            now: reading [ns].
+            now: Reading [ns].
         """
         last, self._last = self._last, now
         if last is None:
@@ -75,10 +73,10 @@ class PathStop:
         """Choose how long stopping takes.
 
         Args:
-            trajectory: what is being executed.
-            start: trajectory time at which stopping begins [s].
-            velocity_limits: of each joint [rad/s]. Shape (joints,).
-            deceleration: greatest that stopping adds to what the path itself asks of a joint [rad/s^2].
+            trajectory: What is being executed.
+            start: Trajectory time at which stopping begins [s].
+            velocity_limits: Of each joint [rad/s]. Shape (joints,).
+            deceleration: Greatest that stopping adds to what the path itself asks of a joint [rad/s^2].
         """
         longest = _STEEPEST * float(velocity_limits.max()) / deceleration
         fastest = _fastest(trajectory, start, start + _DISTANCE * longest, velocity_limits)

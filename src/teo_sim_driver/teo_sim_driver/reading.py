@@ -21,13 +21,13 @@ class Points:
     """A well-formed message as arrays.
 
     Attributes:
-        stamp: scheduled start [ns on the message's clock], None for now.
-        columns: which of the driver's joints each column is about. Shape (joints,).
-        times: from the start [ns], strictly increasing, the first >= 0. Shape (n,), n >= 1.
+        stamp: Scheduled start [ns on the message's clock], None for now.
+        columns: Which of the driver's joints each column is about. Shape (joints,).
+        times: From the start [ns], strictly increasing, the first >= 0. Shape (n,), n >= 1.
         positions: [rad]. Shape (n, joints).
         velocities: [rad/s], 0 where not given. Shape (n, joints).
         accelerations: [rad/s^2], 0 where not given. Shape (n, joints).
-        degrees: of the polynomial that each point's fields allow: 1, 3 or 5. Shape (n,).
+        degrees: Of the polynomial that each point's fields allow: 1, 3 or 5. Shape (n,).
     """
 
     stamp: int | None
@@ -43,10 +43,10 @@ def read(message: TrajectoryLike, *, joints: Sequence[str], held: Collection[str
     """Read a message into arrays.
 
     Args:
-        message: as received.
-        joints: names that the driver commands, in its order.
-        held: names of joints that the robot has and the driver never moves, for a better answer.
-        rules: limits on the message.
+        message: As received.
+        joints: Names that the driver commands, in its order.
+        held: Names of joints that the robot has and the driver never moves, for a better answer.
+        rules: Limits on the message.
 
     Raises:
         TrajectoryError: the message is malformed.

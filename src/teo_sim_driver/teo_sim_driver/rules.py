@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+# How far a position may be beyond a joint limit [rad]: one count of an arm's motor encoder, 0.00088 deg, the
+# finest step that the robot has. It admits the rounding of poses that sit exactly on a limit.
 POSITION_TOLERANCE = 1.5e-5
-"""How far a position may be beyond a joint limit [rad]: one count of an arm's motor encoder, 0.00088 deg, the
-finest step that the robot has. It admits the rounding of poses that sit exactly on a limit."""
 
+# How far a velocity may be beyond a joint limit, as a part of the limit. A planner that keeps within the
+# limit at its own points swings beyond it by about this much between them, where its jerk changes.
 VELOCITY_TOLERANCE = 1e-3
-"""How far a velocity may be beyond a joint limit, as a part of the limit. A planner that keeps within the
-limit at its own points swings beyond it by about this much between them, where its jerk changes."""
 
+# Below this a joint stands still [rad/s]: an encoder count would take 15 s.
 REST_VELOCITY = 1e-6
-"""Below this a joint stands still [rad/s]: an encoder count would take 15 s."""
 
 
 @dataclass(frozen=True, kw_only=True)

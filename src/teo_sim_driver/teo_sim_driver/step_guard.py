@@ -36,9 +36,9 @@ class StepGuard:
         """Return the nearest positions to those asked that can be reached.
 
         Args:
-            asked: positions [rad]. Shape (joints,). A joint asked to go to NaN stays.
-            last: positions of the last step [rad], inside the limits. Shape (joints,).
-            duration: since the last step [s].
+            asked: Positions [rad]. Shape (joints,). A joint asked to go to NaN stays.
+            last: Positions of the last step [rad], inside the limits. Shape (joints,).
+            duration: Since the last step [s].
         """
         reach = self._speed * duration + _ROUNDING
         low, high = np.maximum(self._low, last - reach), np.minimum(self._high, last + reach)

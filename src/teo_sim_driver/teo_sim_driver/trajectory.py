@@ -34,11 +34,11 @@ class Trajectory:
     """Points in time and a polynomial between each two; before the first and after the last it stands still.
 
     Attributes:
-        times: of the points, from the first, which is at 0 [s]. Shape (n,), strictly increasing.
+        times: Of the points, from the first, which is at 0 [s]. Shape (n,), strictly increasing.
         positions: [rad]. Shape (n, joints).
         velocities: [rad/s]; not read next to a linear segment. Shape (n, joints).
         accelerations: [rad/s^2]; read only next to a quintic segment. Shape (n, joints).
-        degrees: of each segment: 1, 3 or 5. Shape (n - 1,).
+        degrees: Of each segment: 1, 3 or 5. Shape (n - 1,).
     """
 
     times: FloatArray
@@ -60,7 +60,7 @@ class Trajectory:
         """Evaluate the trajectory; outside its duration, its end points at rest.
 
         Args:
-            time: from the first point [s].
+            time: From the first point [s].
         """
         if time >= self.times[-1]:
             return MotionState.at_rest(self.positions[-1])

@@ -44,12 +44,12 @@ def validate(
     are not executed: they say where the sender believes the robot to be, and are compared with where it is.
 
     Args:
-        message: as received.
-        limits: of the commanded joints, in the driver's order.
-        rules: limits on the message.
+        message: As received.
+        limits: Of the commanded joints, in the driver's order.
+        rules: Limits on the message.
         now: [ns], on the clock of the message's stamp.
-        state_in: the state of the commanded joints in so many seconds from now, if nothing new came.
-        held: names of joints that the robot has and the driver never moves.
+        state_in: The state of the commanded joints in so many seconds from now, if nothing new came.
+        held: Names of joints that the robot has and the driver never moves.
 
     Raises:
         TrajectoryError: with one reason, the first found; nothing of the message may be executed.

@@ -7,8 +7,8 @@ class RetrieverError(Exception):
     """Base of everything this package raises.
 
     Attributes:
-        code: stable reason, for programs.
-        sentence: what was expected, what came and what to do, for people.
+        code: Stable reason, for programs.
+        sentence: What was expected, what came and what to do, for people.
     """
 
     def __init__(self, code: str, sentence: str) -> None:
@@ -69,7 +69,7 @@ class TopicError(BagError):
     """A topic of a bag that is to be named, as none or several may be meant.
 
     Attributes:
-        argument: what names it: "color_topic", "depth_topic" or "camera_info_topic".
+        argument: What names it: "color_topic", "depth_topic" or "camera_info_topic".
     """
 
     def __init__(self, code: str, sentence: str, argument: str) -> None:

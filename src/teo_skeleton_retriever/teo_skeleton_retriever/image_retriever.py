@@ -20,8 +20,8 @@ from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
+# Whose processing can be asked for: our own, or that of the original skeletonRetriever.
 COMPAT_MODES = ("", "skeleton_retriever")
-"""Whose processing can be asked for: our own, or that of the original skeletonRetriever."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +29,11 @@ class Retrieved:
     """What was found in one image.
 
     Attributes:
-        people: what the detector saw, in pixels.
-        skeletons: everybody who is followed, in space.
-        depth_share: part of the pixels with a depth, 0 to 1.
-        detector_time: what the detector took [s].
-        own_time: what all after it took [s].
+        people: What the detector saw, in pixels.
+        skeletons: Everybody who is followed, in space.
+        depth_share: Part of the pixels with a depth, 0 to 1.
+        detector_time: What the detector took [s].
+        own_time: What all after it took [s].
     """
 
     people: tuple[Person2D, ...]
@@ -48,9 +48,9 @@ class Detection:
     """What the detector saw in one image.
 
     Attributes:
-        image: in which it looked.
-        people: whom it saw, in pixels.
-        time: what it took [s].
+        image: In which it looked.
+        people: Whom it saw, in pixels.
+        time: What it took [s].
     """
 
     image: RgbdImage
@@ -74,12 +74,12 @@ def make_retriever(
     """Make what follows people in space.
 
     Args:
-        parameters: of ours.
-        compat: one of `COMPAT_MODES`.
-        compat_options: of the original; see `original_parameters_from`.
+        parameters: Of ours.
+        compat: One of `COMPAT_MODES`.
+        compat_options: Of the original; see `original_parameters_from`.
 
     Raises:
-        ParameterError: no such mode or option.
+        ParameterError: No such mode or option.
     """
     match compat:
         case "":
@@ -115,7 +115,7 @@ class ImageRetriever:
         """Take one image.
 
         Raises:
-            RetrieverError: the detector cannot tell, or the parts do not fit together; the next image may be
+            RetrieverError: The detector cannot tell, or the parts do not fit together; the next image may be
                 given all the same.
         """
         return self.follow(self.detect(image))

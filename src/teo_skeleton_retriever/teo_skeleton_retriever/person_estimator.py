@@ -71,7 +71,7 @@ class PersonParts(NamedTuple):
 
 
 class PersonEstimator:
-    """Follows one person, of whom it is known which detection is theirs."""
+    """Estimates the joints of one person over time; the caller knows which detection is theirs."""
 
     def __init__(self, parameters: RetrieverParameters) -> None:
         self._parameters = parameters
@@ -92,9 +92,9 @@ class PersonEstimator:
         """Take one image.
 
         Args:
-            frame: the image.
-            person: who was seen in it.
-            distance: of the person along the optical axis [m].
+            frame: The image.
+            person: Who was seen in it.
+            distance: Of the person along the optical axis [m].
         """
         before = self._filter.predict(frame.stamp)
         seen = self._seen(frame, person)
@@ -150,7 +150,7 @@ class PersonEstimator:
         return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
 
     def _reach(self, before: FilterOutput, distance: float) -> tuple[float, float]:
-        """Give the depths between which everything of the person is [m]."""
+        """Least and greatest depth of any keypoint of the person [m]."""
         trunk = _middle(before.depth[_TRUNK])
         middle = trunk if np.isfinite(trunk) else distance
         return middle - _BEFORE_TRUNK, middle + _BEHIND_TRUNK
@@ -217,7 +217,7 @@ class PersonEstimator:
         )
 
     def _with_held_hands(self, found: Keypoints3D) -> Keypoints3D:
-        """Put hands that are held where they were on the arm, not where they were in space."""
+        """Move hands that are held with their wrist, so that they stay on the arm."""
         points = found.points.copy()
         for side, rows in HANDS.items():
             wrist = found.points[ARMS[side][2]]

@@ -23,8 +23,8 @@ from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
+# Parts of a signer whose keypoints are counted.
 PARTS = ("body", "hands", "face")
-"""Parts of a signer whose keypoints are counted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,8 +106,8 @@ def retrieve_recording(
         on_image: Called with each image that was processed and the people in it.
 
     Raises:
-        TopicError: a topic is not found or ambiguous: "no_depth", "ambiguous_color", ...
-        BagError: there is no bag, nothing in it can be read, or there is no such topic.
+        TopicError: A topic is not found or ambiguous: "no_depth", "ambiguous_color", ...
+        BagError: There is no bag, nothing in it can be read, or there is no such topic.
         DetectorError: MediaPipe cannot be used.
         OutputError: `out` has another suffix or no folder.
         OSError: `out` cannot be written.

@@ -118,9 +118,9 @@ class Retriever:
 
 
 def _middles(depths: FloatArray) -> list[float]:
-    """Give the depths at which a trunk may be [m]: of all keypoints, of the farther and of the nearer ones.
+    """Candidate depths of a trunk [m]: median of all keypoints, of the farther half and of the nearer half.
 
-    Who walks by behind somebody is seen in part, the rest is the depth of who is in front.
+    Of a person who walks by behind another, some keypoints have the depth of the one in front.
     """
     middles = [float(np.median(depths))]
     between = float(depths.min() + depths.max()) / 2.0

@@ -14,11 +14,11 @@ class ParameterInfo(NamedTuple):
     """What is to be known of a parameter.
 
     Attributes:
-        description: what it does, and why its default is what it is.
+        description: What it does, and why its default is what it is.
         unit: "" if it has none.
-        lowest: least value; None for a switch or a choice.
-        highest: greatest value; likewise.
-        choices: allowed words; empty unless it is a choice.
+        lowest: Least value; None for a switch or a choice.
+        highest: Greatest value; likewise.
+        choices: Allowed words; empty unless it is a choice.
     """
 
     description: str
@@ -46,7 +46,7 @@ class RetrieverParameters:
     """Settings of a `Retriever`; `parameter_info()` describes each.
 
     Raises:
-        ParameterError: a value is not of its kind or outside its range.
+        ParameterError: A value is not of its kind or outside its range.
     """
 
     min_confidence: float = _number(

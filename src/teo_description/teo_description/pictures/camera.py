@@ -84,6 +84,7 @@ class Camera:
         return matrix
 
 
+# The views that have a name.
 CAMERAS: Mapping[str, Camera] = MappingProxyType(
     {
         # As somebody spoken to sees TEO: at arm's length and a step, eyes a little above its shoulders.
@@ -99,7 +100,6 @@ CAMERAS: Mapping[str, Camera] = MappingProxyType(
         "full": Camera(position=(4.6, 0.0, 0.35), target=(0.0, 0.0, 0.04), field_of_view=math.radians(24.5)),
     }
 )
-"""The views that have a name."""
 
 
 def camera_named(camera: Camera | str) -> Camera:

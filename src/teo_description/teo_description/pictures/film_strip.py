@@ -11,8 +11,8 @@ from teo_description.errors import DescriptionError
 from teo_description.pictures.captions import captioned
 from teo_description.pictures.renderer import Image
 
+# White between the pictures [pixel].
 _GAP = 4
-"""[pixel] White between the pictures."""
 
 
 def film_strip(frames: Sequence[Image], captions: Sequence[str] = (), columns: int = 6) -> Image:

@@ -16,29 +16,35 @@ from teo_description.pictures import mesh
 from teo_description.pictures.camera import Camera, camera_named
 from teo_description.robot import Robot
 
+# Red, green, blue in 0..255. Shape (height, width, 3).
 Image = NDArray[np.uint8]
-"""Red, green, blue in 0..255. Shape (height, width, 3)."""
 
+# Samples along each side of a pixel: fingers are 9 pixels wide in the front view.
 _SUPERSAMPLING = 2
-"""Samples along each side of a pixel: fingers are 9 pixels wide in the front view."""
+
+# Greatest depth that is drawn [m]: nothing of the robot is farther from any sensible camera.
 _FAR = 20.0
-"""[m] Nothing of the robot is farther from any sensible camera."""
 
 _LIGHT = np.array(
     [0.75, 0.36, 0.56]
 )  # towards the light: before TEO, from the upper left, so that the hands stand out
 _LIGHT = _LIGHT / np.linalg.norm(_LIGHT)
 _DIFFUSE = 0.58
-_AMBIENT, _SKY = 0.42, 0.10
-"""Light from everywhere, and more of it from above than from below."""
 
+# Light from everywhere, and more of it from above than from below.
+_AMBIENT, _SKY = 0.42, 0.10
+
+# Least step in depth that is drawn as an outline [m]: about half a finger's thickness.
 _EDGE_STEP = 0.006
-"""[m] A step in depth of more than about half a finger's thickness is drawn as an outline."""
+
 _EDGE_DARKNESS = 0.55
+
+# Reach of the soft shadow behind a nearer part, in a picture of 480 lines [pixel].
 _OCCLUSION_BLUR = 25
-"""[pixel] at 480 lines: how far the soft shadow behind a nearer part reaches."""
+
+# Depth difference at which that shadow is full [m].
 _OCCLUSION_DEPTH = 0.10
-"""[m] Depth difference at which that shadow is full."""
+
 _OCCLUSION_DARKNESS = 0.45
 
 _NEIGHBOURS = np.ones((3, 3), np.uint8)

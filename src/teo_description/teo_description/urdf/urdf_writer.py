@@ -13,17 +13,17 @@ from teo_description.urdf.solids import Solid, collision_solids, uniform_inertia
 ROBOT_NAME = "teo"
 ROOT_LINK = "base_link"
 
+# MaxVel of every iPOS axis [rad/s] (teo-configuration-files, nodes/common-ipos.ini); the hands too.
 VELOCITY_LIMIT = math.radians(50.0)
-"""[rad/s] maxVel of every iPOS axis (teo-configuration-files, nodes/common-ipos.ini); the hands too."""
 
+# A placeholder [N m]: URDF demands a figure and none is published for the real joints.
 EFFORT_PLACEHOLDER = 30.0
-"""[N m] A placeholder: URDF demands a figure and none is published for the real joints."""
 
+# [N m s/rad] and [N m], as in teo-gz-sim-models for every joint.
 DAMPING, FRICTION = 0.001, 0.7
-"""[N m s/rad] and [N m], as in teo-gz-sim-models for every joint."""
 
+# Placeholders of dextra-yarp-devices' simulation model [kg]; no mass of the Dextra is published.
 PALM_MASS, PHALANX_MASS = 0.3, 0.1
-"""[kg] Placeholders of dextra-yarp-devices' simulation model; no mass of the Dextra is published."""
 
 _HEAD_COMMENT = """
   TEO, the humanoid of Universidad Carlos III de Madrid, with two Dextra hands. Written by `build_urdf` from

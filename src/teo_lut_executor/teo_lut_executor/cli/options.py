@@ -19,6 +19,6 @@ _errors = Console(stderr=True, highlight=False)
 
 
 def fail(error: LutError) -> NoReturn:
-    """Say what is wrong and end with status 1."""
+    """Print an error's code and sentence and exit with status 1."""
     _errors.print(f"{error.code}: {error}", markup=False, soft_wrap=True)
     raise typer.Exit(1) from error

@@ -10,8 +10,8 @@ import typer
 from teo_lut_executor.cli.options import fail
 from teo_signs.errors import LutError
 
+# Entry points of this group are commands: name, and a function with typer's annotations.
 GROUP = "teo_lut_executor.lut_commands"
-"""Entry points of this group are commands: name, and a function with typer's annotations."""
 
 # Commands that belong to `lut` for its users though another package has them, and what each does.
 _KNOWN = {

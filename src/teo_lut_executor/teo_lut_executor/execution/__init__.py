@@ -1,1 +1,31 @@
-"""Sentences in their order, one at a time, and whether the robot follows. Knows neither ROS nor planning."""
+"""Without ROS: which sentence is signed when, whether the robot follows, and who is told."""
+
+from teo_lut_executor.execution.events import (
+    Activity,
+    Event,
+    Finished,
+    Outcome,
+    PlanWanted,
+    Progress,
+    QueueSettings,
+    ReturnWanted,
+    Sentence,
+    Status,
+    TrajectoryReady,
+)
+from teo_lut_executor.execution.queue import ExecutionQueue
+
+__all__ = [
+    "Activity",
+    "Event",
+    "ExecutionQueue",
+    "Finished",
+    "Outcome",
+    "PlanWanted",
+    "Progress",
+    "QueueSettings",
+    "ReturnWanted",
+    "Sentence",
+    "Status",
+    "TrajectoryReady",
+]

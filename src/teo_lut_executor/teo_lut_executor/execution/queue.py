@@ -55,7 +55,7 @@ class _Current:
 
 
 class ExecutionQueue:
-    """Decides what is signed when."""
+    """Signs sentences in the order in which they come, and follows the robot meanwhile."""
 
     def __init__(self, limits: MotionLimits, settings: QueueSettings | None = None) -> None:
         """Begin with nothing queued."""

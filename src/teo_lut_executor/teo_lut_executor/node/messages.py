@@ -20,7 +20,7 @@ _NANO = 1_000_000_000
 
 
 def to_sentence(message: SignSentence) -> Sentence:
-    """A sentence as it came; what is wrong with it shows when it is planned."""
+    """A sentence from its message, unchecked: the planner checks tokens and form."""
     return Sentence(
         tokens=tuple(_to_token(token) for token in message.tokens),
         utterance_id=message.utterance_id,

@@ -90,7 +90,7 @@ class CollisionAvoidance:
                 cleared |= more
 
     def _timed(self, route: Route) -> TimedRoute:
-        """A route with its motion, and the closest that parts come in it."""
+        """A route with its motion, in which the nearest approach of parts is measured."""
         timed = self._timing.timed(route)
         if self._motion_clearance is None:
             return timed
@@ -101,7 +101,7 @@ class CollisionAvoidance:
         """The motion of a route, its transitions led around the body.
 
         Raises:
-            _CollisionError: That is not enough.
+            _CollisionError: It still touches after `_DETOURS_PER_TOKEN` detours a sign.
         """
         for _ in range(_DETOURS_PER_TOKEN * (len(timed.route.spans) + 1)):
             if self._is_clear(timed.plan):

@@ -15,7 +15,6 @@ from teo_motion.trajectory.limits import MotionLimits
 
 Array = NDArray[np.float64]
 
-
 # What lifts the upper arms sideways, brings them forward, opens the elbows; half way, to pass the body.
 _SIDEWAYS = {"SagittalLeftShoulder": 1.0, "SagittalRightShoulder": -1.0}
 _FORWARD = {"FrontalLeftShoulder": -1.0, "FrontalRightShoulder": -1.0}
@@ -32,7 +31,6 @@ _CHANGES = (
     (0.8, (_SIDEWAYS, _OPEN)),
     (0.9, (_OPEN, _FORWARD, _SIDEWAYS)),
 )
-
 
 # Both hands well in front of the shoulders, out of the way of everything [rad].
 _APART = {

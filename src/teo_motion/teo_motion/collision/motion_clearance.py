@@ -27,19 +27,19 @@ _REACH = {
 # all in one direction. The real motion is about a third of that, and the approach of two parts less.
 _REAL_SHARE = 0.5
 
-# Two looks are at least this far apart, by that bound [m].
+# Two measured samples are at least this far apart, by that bound [m].
 _STEP = 0.12
 
 # The same for the head alone [m]: it is mostly far from the hands, so that looking closely costs little where
 # it is not.
 _HEAD_STEP = 0.02
 
-# Around the closest of them the robot is looked at so much more closely [1].
+# Around the nearest of them samples are this many times denser [1].
 _CLOSER = 6
 
 
 class MotionClearance:
-    """Looks along a motion at the distances between parts of the robot."""
+    """Measures the distances between parts of the robot along a motion."""
 
     def __init__(self, robot: Robot) -> None:
         """Use a robot, which is not shared with another thread."""
@@ -47,16 +47,20 @@ class MotionClearance:
         self._reach = np.array([_reach(name) for name in COMMANDED_JOINTS])
 
     def nearest(self, samples: Samples, *, head_alone: bool = False) -> NearestApproach:
-        """The closest that parts come along a motion; of the head to any other, if only that is asked for.
+        """The nearest approach of parts along a motion.
 
-        The next look is taken where the parts can have moved by the distance that the last one found, and at
-        least by a step: far from contact the robot is looked at seldom. Around the closest look every sample
-        between its neighbours is looked at, if there are not too many.
+        The distance is next measured where the parts can have moved by the distance found last, and at least
+        by a step: far from contact it is measured seldom. Between the samples before and after the nearest
+        one, it is measured at every sample, if there are not too many.
+
+        Args:
+            samples: The motion of the 28 commanded joints.
+            head_alone: Whether only pairs with a part of the head are measured.
         """
         clearance = self._robot.head_clearance if head_alone else self._robot.clearance
         step = _HEAD_STEP if head_alone else _STEP
 
-        def look(index: int) -> NearestApproach:
+        def measured(index: int) -> NearestApproach:
             distance, first, second = clearance(self._configuration(samples.positions[index]))
             time = float(samples.times[index])
             return NearestApproach(distance=float(distance), time=time, first=first, second=second)
@@ -67,7 +71,7 @@ class MotionClearance:
         found: list[NearestApproach] = []
         index, last = 0, len(path) - 1
         while True:
-            near = look(index)
+            near = measured(index)
             looked.append(index)
             found.append(near)
             if index == last:
@@ -77,12 +81,14 @@ class MotionClearance:
         closest = min(range(len(found)), key=lambda item: found[item].distance)
         around = range(looked[max(closest - 1, 0)] + 1, looked[min(closest + 1, len(looked) - 1)])
         between = around[:: max(1, len(around) // (2 * _CLOSER))]
-        return min((found[closest], *(look(item) for item in between)), key=lambda near: near.distance)
+        return min((found[closest], *(measured(item) for item in between)), key=lambda near: near.distance)
 
     def is_nearer(self, positions: NDArray[np.float64], distance: float) -> bool:
-        """Whether parts are nearer than a distance [m] in a posture of the commanded joints.
+        """Whether parts are nearer than a distance [m] in a posture; much faster than `nearest`.
 
-        It is seen in a part of the time in which it is found how near they are.
+        Args:
+            positions: Positions of the commanded joints [rad]. Shape (28,).
+            distance: Distance to compare with [m].
         """
         return bool(self._robot.contacts(self._configuration(positions), distance))
 

@@ -15,8 +15,8 @@ from teo_motion.head.neck_paths import EASES, GestureWindow, NeckPath, hold_path
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.splice import Splicer, rest_after, shifted
 
+# From and to [s].
 Times = tuple[float, float]
-"""From and to [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""Lays the head's part in a sentence over a plan; the hands do what they did, when they did it.
+"""Lays the head's gestures over a plan: only the two neck joints change, and no time does.
 
 A sign that turns a neck joint itself keeps that joint: its turn belongs to the sign, as the palm's direction
 does, and the neck's 10 deg forward and back leave no room for a sum. The other joint makes the gesture
@@ -162,7 +162,7 @@ class HeadOverlay:
         return shown
 
     def _nearest(self, plan: Plan, samples: Samples) -> NearestApproach | None:
-        """The closest that parts come now."""
+        """The nearest approach with the head's gestures; only the head's pairs are measured again."""
         if self._motion_clearance is None or plan.nearest is None:
             return None
         head = self._motion_clearance.nearest(samples, head_alone=True)
@@ -193,14 +193,14 @@ class HeadOverlay:
 
 
 class _KeptTimes:
-    """When the neck's joints do as the plan has them."""
+    """Times in which each neck joint keeps the motion of the plan."""
 
     def __init__(self, plan: Plan, signed: Sequence[SignedToken]) -> None:
-        """Each joint during the signs that turn it themselves.
+        """Keep each joint during the signs that turn it themselves.
 
         Attributes:
-            times: For each joint, in order.
-            fixed: Those of them that are kept to the digit.
+            times: For each joint, from and to [s], in order.
+            fixed: Times in which neither joint is changed at all, not even by a lean.
         """
         self._duration = plan.duration
         self._tokens = [(timing.start, timing.start + timing.duration) for timing in plan.timings]
@@ -212,7 +212,7 @@ class _KeptTimes:
                     self.times[axis].append(times)
 
     def fix(self, time: float) -> bool:
-        """Leave the head as it is during the token, or on the way between two, at a time; False if it is."""
+        """Keep the head as planned in the token or transition at a time [s]; False if it is kept already."""
         edges = [0.0, *(edge for times in self._tokens for edge in times), self._duration]
         after = min(bisect_right(edges, time), len(edges) - 1)
         times = (edges[after - 1], edges[after])

@@ -39,16 +39,19 @@ from teo_signs.sign_file import LIMIT_TOLERANCE
 from teo_signs.tokens import Token
 
 _INDEX = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
+
+# Columns of head, trunk, left arm, right arm, left hand and right hand.
 LIMBS = tuple(
     tuple(_INDEX[name] for name in limb) for limb in (HEAD, TRUNK, LEFT_ARM, RIGHT_ARM, LEFT_HAND, RIGHT_HAND)
 )
-"""Columns of head, trunk, left arm, right arm, left hand and right hand."""
+
 ARMS = (2, 3)
 _ARM_OF_HAND = {4: 2, 5: 3}
 _ELBOW = {2: _INDEX["FrontalLeftElbow"], 3: _INDEX["FrontalRightElbow"]}
 
+# Where sentences begin and end [rad]. Shape (28,).
 REST: NDArray[np.float64] = np.array([HOME[name] for name in COMMANDED_JOINTS])
-"""Where sentences begin and end [rad]. Shape (28,)."""
+
 REST.setflags(write=False)
 
 # Postures closer than this look the same [rad]: 3 deg, 2 cm at the hand.

@@ -60,12 +60,16 @@ class SigningStyle:
     arm_rest: float = 1.0
 
     # Size of the head's gestures, which tell question, negation and exclamation [1]: 1 makes them as large as
-    # `head_ways` says and why, 0 leaves them away. On by default: without them a yes/no question in LSE is a
+    # `neck_paths` says and why, 0 leaves them away. On by default: without them a yes/no question in LSE is a
     # statement.
     head_motion: float = 1.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no time or angle."""
+        """Check that every dial is finite and 0 or more, and `head_motion` at most 1.
+
+        Raises:
+            PlanError: "bad_style".
+        """
         for field in fields(self):
             value = getattr(self, field.name)
             if not (math.isfinite(value) and value >= 0.0):

@@ -1,4 +1,4 @@
-"""A sentence as waypoints at which every limb's part is decided: what is timed."""
+"""A sentence as waypoints with the idle limbs settled, ready to be timed."""
 
 from __future__ import annotations
 

@@ -12,22 +12,23 @@ from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_motion.trajectory.ruckig_segment import Bounds
 from teo_signs.errors import PlanError
 
-# A joint is at 50 deg/s, its greatest velocity, after 0.19 s and 4.8 deg. TEO's drives default to 10 deg/s^2,
-# with which 10 deg take 2 s: no sign would be known again; TEO's own gestures were played at 25 deg/s^2 and
-# 25 deg/s. By the masses of the robot description one arm joint that accelerates so needs at most 12 N m (3.2
-# at the elbow, 0.8 at the wrist) beside the at most 27 N m with which it carries the arm. Signers reach
-# several times as much, but letters that shake gain little from more: they are short of velocity.
-DEFAULT_ACCELERATION = 7.0  # [rad/s^2], 401 deg/s^2
+# Acceleration of every joint [rad/s^2], 401 deg/s^2: a joint is at 50 deg/s, its greatest velocity, after
+# 0.19 s and 4.8 deg. TEO's drives default to 10 deg/s^2, with which 10 deg take 2 s: no sign would be known
+# again; TEO's own gestures were played at 25 deg/s^2 and 25 deg/s. By the masses of the robot description one
+# arm joint that accelerates so needs at most 12 N m (3.2 at the elbow, 0.8 at the wrist) beside the at most
+# 27 N m with which it carries the arm. Signers reach several times as much, but letters that shake gain
+# little from more: they are short of velocity.
+DEFAULT_ACCELERATION = 7.0
 
-# The acceleration builds up in 0.07 s, more than three of the 0.02 s at which TEO's drives are sent
-# set-points, so that it reaches them as a ramp and not as a step.
-DEFAULT_JERK = 105.0  # [rad/s^3], 6016 deg/s^3
+# Jerk of every joint [rad/s^3], 6016 deg/s^3: the acceleration builds up in 0.07 s, more than three of the
+# 0.02 s at which TEO's drives are sent set-points, so that it reaches them as a ramp and not as a step.
+DEFAULT_JERK = 105.0
 
 # The driver interpolates between the points of a trajectory with the quintic that meets position, velocity
 # and acceleration at both. Where the plan's jerk changes in between, the two differ, by at most these numbers
-# times jerk, and period squared or period: the integral of the size of the Peano kernel of the error.
-_VELOCITY_SWING = 0.02206  # [1]
-_ACCELERATION_SWING = 5.0 / 24.0  # [1]
+# [1] times jerk, and period squared or period: the integral of the size of the Peano kernel of the error.
+_VELOCITY_SWING = 0.02206
+_ACCELERATION_SWING = 5.0 / 24.0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -78,7 +79,7 @@ class MotionLimits:
         )
 
     def for_points(self, period: float) -> Bounds:
-        """Bounds of a plan such that also what is interpolated between its points keeps the limits.
+        """Bounds of a plan such that the interpolation between its points keeps the limits as well.
 
         Velocity and acceleration are lower by what the interpolation may add. Its jerk is not bounded so: it
         reaches up to 2.2 times the plan's.

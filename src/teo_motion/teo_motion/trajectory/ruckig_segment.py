@@ -120,7 +120,7 @@ class RuckigSolver:
         self._bounds: Bounds | None = None  # as given last
 
     def segment(self, start: State, end: State, bounds: Bounds, *, duration: float) -> RuckigSegment | None:
-        """The segment from one state to another that takes a given time, or as little more as it must.
+        """The segment from one state to another in a given duration, or in the shortest possible above it.
 
         Args:
             start: Where the joints are.

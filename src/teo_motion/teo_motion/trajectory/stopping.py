@@ -13,7 +13,8 @@ _LATENCY = 0.03
 # Stops take this much longer than the limits ask for [1], which pays for what is not known of the state.
 _EASE = 1.3
 
-_LEAST_STOP = 0.1  # [s]
+# Least duration of a stop [s].
+_LEAST_STOP = 0.1
 
 
 def stop(state: State, limits: MotionLimits) -> tuple[State, float]:

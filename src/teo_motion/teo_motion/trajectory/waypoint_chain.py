@@ -11,7 +11,6 @@ from teo_motion.trajectory.waypoint_states import waypoint_states
 
 Array = NDArray[np.float64]
 
-
 # While times are looked for, a segment that fitted is tried again only when the velocity or acceleration at
 # its ends has changed by more than this share of their limits, or its duration by more than this share [1].
 _CHANGE = 1e-3
@@ -81,7 +80,7 @@ class WaypointChain:
         return [index for index in self.moving.tolist() if not known[index]]
 
     def fits(self, index: int) -> None:
-        """Note that a segment fits as it is."""
+        """Record the states and duration with which a segment fits, for `to_try`."""
         self._fitted[index] = self._shares()[index]
         self._fitted_durations[index] = self._durations[index]
 
@@ -103,11 +102,14 @@ class WaypointChain:
         return float(self._durations[index])
 
     def segment(self, index: int, ease: float | None = None) -> RuckigSegment | None:
-        """A segment in its time or as little more as it must; None where the solver finds none.
+        """The segment from a waypoint to the next in its duration, or in the shortest possible above it.
 
         Args:
             index: The waypoint from which it goes to the next.
-            ease: None for the fastest segment that the limits allow, else see `relaxed_bounds`.
+            ease: None for the limits themselves, else see `relaxed_bounds`.
+
+        Returns:
+            None where the solver finds none.
         """
         begin, end = (
             State(

@@ -81,7 +81,7 @@ class WaypointTiming:
         """Find times at which every segment is possible within its bounds.
 
         Raises:
-            PlanError: The solver of segments gives up, which no known input makes it do ("no_timing").
+            PlanError: No times are found ("no_timing"); no input is known for which this happens.
         """
         exact = False
         for round_number in range(_ROUNDS):
@@ -96,7 +96,7 @@ class WaypointTiming:
                         if chain.is_single(index) == single:
                             changed |= self._try(chain, index, patient=patient)
                 if self._wanted.any():
-                    break  # see what that gives the segments that pass waypoints
+                    break  # segments that pass waypoints may fit once these have more time
             changed |= self._stretch()
             if exact and not changed:
                 return

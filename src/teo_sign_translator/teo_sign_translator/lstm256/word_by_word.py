@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import takewhile
 
 from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.output.output_words import OutputWord, carried, number, spelled
+from teo_sign_translator.output.output_words import SPELLED_CONFIDENCE, OutputWord, carried, number, spelled
 from teo_sign_translator.output.translation import Kind, Origin
 from teo_sign_translator.text.reading import Word, WordKind
 
@@ -17,8 +17,6 @@ ALONE_CONFIDENCE = 0.9
 LISTED_CONFIDENCE = 0.5
 #: A name, or digits: spelled and counted as they are, at a place that is not looked at.
 NAME_CONFIDENCE = 0.5
-#: Another word without a sign: spelling Spanish is the last resort.
-SPELLED_CONFIDENCE = 0.3
 
 
 def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:

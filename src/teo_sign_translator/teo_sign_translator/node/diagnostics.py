@@ -6,8 +6,8 @@ from collections import deque
 from dataclasses import dataclass, field
 
 import numpy as np
-from builtin_interfaces.msg import Time
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from teo_common.diagnostics import Diagnosis, Level
 
 #: Latest texts whose latencies are kept; enough for a 99th percentile.
 _KEPT = 1000
@@ -56,10 +56,10 @@ def short(text: str) -> str:
     return text if len(text) <= _LENGTH else text[: _LENGTH - 1] + "…"
 
 
-def to_diagnostics(
-    statistics: Statistics, *, model: str, active: bool, waiting: int, signs: int | None, stamp: Time
-) -> DiagnosticArray:
-    """The state of the translator as a diagnostics message.
+def diagnose(
+    statistics: Statistics, *, model: str, active: bool, waiting: int, signs: int | None
+) -> Diagnosis:
+    """How the translator is; a text that it refuses is no fault of its own.
 
     Args:
         statistics: What it has done.
@@ -67,7 +67,6 @@ def to_diagnostics(
         active: Whether it listens to texts.
         waiting: Texts that wait.
         signs: Glosses that have signs; None if that is not known.
-        stamp: When this is true.
     """
     values = {
         "model": model,
@@ -80,15 +79,7 @@ def to_diagnostics(
         "last refusal": statistics.last_refusal,
         "signs known": "unknown" if signs is None else str(signs),
     }
-    status = DiagnosticStatus(
-        level=DiagnosticStatus.OK,
-        name="translator",
-        message=f"{values['state']}, model {model}",
-        values=[KeyValue(key=key, value=value) for key, value in values.items()],
-    )
-    array = DiagnosticArray(status=[status])
-    array.header.stamp = stamp
-    return array
+    return Diagnosis(Level.OK, f"{values['state']}, model {model}", values)
 
 
 def _milliseconds(seconds: float | None) -> str:

@@ -8,7 +8,6 @@ import uuid
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
-from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
@@ -19,10 +18,11 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence
 from teo_sign_msgs.srv import Translate
 
+from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.node.diagnostics import Statistics, quoted, short, to_diagnostics
+from teo_sign_translator.node.diagnostics import Statistics, diagnose, quoted, short
 from teo_sign_translator.node.messages import to_messages
 from teo_sign_translator.node.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
 from teo_sign_translator.node.sign_inventory import SignInventory
@@ -33,9 +33,6 @@ from teo_sign_translator.pipeline.translator import Translator
 #: Texts that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own queue
 #: that is full first, and that says so.
 TEXT_DEPTH = 1000
-
-#: How often the state is published [s], as diagnostics are by custom.
-DIAGNOSTICS_PERIOD = 1.0
 
 # How long the end of the text that is being translated is awaited [s]; the longest text takes less.
 _STOP_TIMEOUT = 5.0
@@ -74,6 +71,7 @@ class TranslatorNode(LifecycleNode):
         self._worker: TextWorker[_Text] | None = None
         self._translating = threading.Lock()
         self._statistics = Statistics()
+        self._diagnostics = DiagnosticsPublisher(self, "texts")
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
 
@@ -94,7 +92,6 @@ class TranslatorNode(LifecycleNode):
         self._tokens = self.create_lifecycle_publisher(
             SignSentence, "sign_tokens", QoSProfile(depth=SIGN_TOKENS_DEPTH, reliability=reliable)
         )
-        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
         self._service = self.create_service(Translate, "translate", self._on_translate)
         self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)
         self._inventory = SignInventory(self, listed)
@@ -117,7 +114,7 @@ class TranslatorNode(LifecycleNode):
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
-        """Release the model, the service, the publishers and the timer."""
+        """Release the model, and the service, publisher and timer that use it."""
         self._let_go()
         return TransitionCallbackReturn.SUCCESS
 
@@ -147,7 +144,6 @@ class TranslatorNode(LifecycleNode):
         self._inventory.close()
         self.destroy_timer(self._timer)
         self.destroy_service(self._service)
-        self.destroy_publisher(self._diagnostics)
         self.destroy_lifecycle_publisher(self._tokens)
         self._translator = self._inventory = None
 
@@ -226,13 +222,12 @@ class TranslatorNode(LifecycleNode):
         assert self._inventory is not None
         signs = self._inventory.signs
         self._diagnostics.publish(
-            to_diagnostics(
+            diagnose(
                 self._statistics,
                 model=self._translator.name,
                 active=self._worker is not None,
                 waiting=self._worker.waiting if self._worker is not None else 0,
                 signs=None if signs is None else len(signs),
-                stamp=self.get_clock().now().to_msg(),
             )
         )
 

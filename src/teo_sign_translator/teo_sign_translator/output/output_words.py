@@ -9,6 +9,9 @@ from itertools import groupby
 from teo_sign_translator.output.spelling import DIGITS, letters
 from teo_sign_translator.output.translation import Kind, Origin, Token
 
+#: Of a word that is spelled since it has no sign: spelling Spanish is the last resort.
+SPELLED_CONFIDENCE = 0.3
+
 # Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
 _DECIMAL_GLOSS = "COMA"
 
@@ -109,18 +112,17 @@ def name(gloss: str, typed: tuple[str, ...], confidence: float) -> OutputWord:
     )
 
 
-def hand_over(output_words: Sequence[OutputWord], confidence: float) -> list[OutputWord]:
+def attach_carried(output_words: Sequence[OutputWord]) -> list[OutputWord]:
     """Give the typed words of carried output words to the next one that is signed, or to the last.
 
     Args:
         output_words: Of one sentence. If none of them is signed, their words are spelled.
-        confidence: Of words that are spelled for that reason.
     """
     if not any(output_word.signs and output_word.kind is not Kind.PAUSE for output_word in output_words):
         return [
             each
             for output_word in output_words
-            for each in spelled(output_word.said, output_word.words, confidence)
+            for each in spelled(output_word.said, output_word.words, SPELLED_CONFIDENCE)
         ]
     result: list[OutputWord] = []
     waiting: list[str] = []

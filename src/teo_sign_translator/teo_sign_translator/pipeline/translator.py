@@ -12,9 +12,8 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.store import load_model
-from teo_sign_translator.lstm256.word_by_word import SPELLED_CONFIDENCE
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.output_words import divide, hand_over, number_tokens
+from teo_sign_translator.output.output_words import attach_carried, divide, number_tokens
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
 from teo_sign_translator.output.spelling import unsignable
 from teo_sign_translator.output.translation import Sentence, Translation
@@ -169,9 +168,7 @@ class Translator:
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
-        output_words = self._chooser.choose(
-            hand_over(translated_sentence.output_words, SPELLED_CONFIDENCE), signs
-        )
+        output_words = self._chooser.choose(attach_carried(translated_sentence.output_words), signs)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,7 @@ from teo_sign_translator.pointer.array_cells import Array, make_layer, run_layer
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.vocabulary import BLANK, READINGS, ROOT, Vocabulary, WordFeatures, tag_parts
 from teo_sign_translator.pointer.weight_shapes import check_weights
-
-if TYPE_CHECKING:
-    from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_words import SourceWord
 
 Ints = NDArray[np.int64]
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,7 @@ from teo_sign_translator.pointer.array_cells import Array
 from teo_sign_translator.pointer.array_model import ArrayModel, Ints, Memory
 from teo_sign_translator.pointer.sentence_model import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX
-
-if TYPE_CHECKING:
-    from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_words import SourceWord
 
 #: Blanks behind the words in the equal-length layout: glosses that no word says (YO, PASADO, MOTIVO ...).
 SPARE = 4

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
-if TYPE_CHECKING:
-    from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_words import SourceWord
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
-
-if TYPE_CHECKING:
-    from teo_sign_translator.morphology import Reading
-    from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.morphology import Reading
+from teo_sign_translator.text.source_words import SourceWord
 
 #: Readings of a word that a model looks at; `Morphology.readings` gives no more.
 READINGS = 4

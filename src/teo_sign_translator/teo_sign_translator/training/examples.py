@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 from teo_common.text_folding import without_accents
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
-
-if TYPE_CHECKING:
-    from teo_sign_translator.text.source_words import SourceWord
+from teo_sign_translator.text.source_words import SourceWord
 
 Ints = NDArray[np.int64]
 

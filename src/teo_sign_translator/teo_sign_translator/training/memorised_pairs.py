@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from teo_common.text_folding import fold, without_accents
 from teo_sign_translator.corpus.paper_pairs import (
@@ -18,10 +17,8 @@ from teo_sign_translator.corpus.paper_pairs import (
 )
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.sentence_model import SentenceModel
+from teo_sign_translator.text.source_words import SourceWord
 from teo_sign_translator.training.examples import Reader
-
-if TYPE_CHECKING:
-    from teo_sign_translator.text.source_words import SourceWord
 
 #: What fills the slots. A few are enough: the corpus shows hundreds of names and numbers in other sentences.
 _NAMES = ("Ana", "Pedro", "Lucía", "Juan", "María", "Carlos")

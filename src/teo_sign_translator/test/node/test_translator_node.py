@@ -273,6 +273,7 @@ def test_diagnostics_say_what_was_done_and_refused(bench: Bench) -> None:
         return {pair.key: pair.value for pair in seen[-1].status[0].values} if seen else {}
 
     bench.wait(lambda: values().get("texts done") == "2", "diagnostics of two texts")
+    assert seen[-1].status[0].name == "translator: texts"
     assert values()["model"] == "lstm256"
     assert values()["state"] == "active"
     assert values()["texts refused"] == "1"

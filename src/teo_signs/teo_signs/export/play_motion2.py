@@ -13,8 +13,8 @@ from collections.abc import Iterable
 
 from teo_signs.export.sign_motion import SignMotion
 
+# A nanoradian: what is written stays within the limits that it stands on.
 _DECIMALS = 9
-"""A nanoradian: what is written stays within the limits that it stands on."""
 
 
 def play_motion2_parameters(motions: Iterable[SignMotion]) -> str:

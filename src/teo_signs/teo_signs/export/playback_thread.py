@@ -20,13 +20,15 @@ from teo_signs.errors import LutError
 from teo_signs.export.sign_motion import PARTS, SignMotion
 
 _HAND_AXES = {"leftHand": LEFT_AXES, "rightHand": RIGHT_AXES}
+
+# Finer than what TEO's drives count in, 5e-4 deg, and than a tick of a Dextra's encoder.
 _DECIMALS = 4
-"""Finer than what TEO's drives count in, 5e-4 deg, and than a tick of a Dextra's encoder."""
+
 _TIME_DECIMALS = 6
 
 
 def playback_mask(part: str) -> str:
-    """PlaybackThread's option that keeps the time out of what is sent to the axes."""
+    """PlaybackThread's option `mask` for a part: 0 for the time's column, 1 for each axis."""
     return f"({' '.join(['mask', '0', *['1'] * len(PARTS[part])])})"
 
 

@@ -16,6 +16,7 @@ from teo_signs.sign import Sign
 
 Array = NDArray[np.float64]
 
+# TEO's control boards, as their ports are named, and the joints of each in its order.
 PARTS = {
     "head": HEAD,
     "trunk": TRUNK,
@@ -24,7 +25,6 @@ PARTS = {
     "leftHand": LEFT_HAND,
     "rightHand": RIGHT_HAND,
 }
-"""TEO's control boards, as their ports are named, and the joints of each in its order."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

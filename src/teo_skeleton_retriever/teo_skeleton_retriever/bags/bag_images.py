@@ -36,10 +36,10 @@ class BagImages:
         """Read nothing yet.
 
         Args:
-            bag: to read.
-            topics: of it.
-            slop: greatest difference between the stamps of colour and depth [ns].
-            rectified: see `camera_of`.
+            bag: To read.
+            topics: Of it.
+            slop: Greatest difference between the stamps of colour and depth [ns].
+            rectified: See `camera_of`.
         """
         self._bag = bag
         self._topics = topics
@@ -54,10 +54,10 @@ class BagImages:
         """Give the images in order.
 
         Args:
-            on_message: called after each message that is read, to show progress.
+            on_message: Called after each message that is read, to show progress.
 
         Raises:
-            BagError: there is no camera_info.
+            BagError: There is no camera_info.
         """
         synchroniser = Synchroniser(slop=self._slop, capacity=_CAPACITY)
         # Where camera_info was recorded once, or begins late, it holds for the images before it as well.

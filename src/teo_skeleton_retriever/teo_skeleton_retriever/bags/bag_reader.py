@@ -48,7 +48,7 @@ class Bag:
         What was cut off is opened as well, up to the cut; `problem` says so.
 
         Raises:
-            BagError: it does not exist, is no bag, or nothing in it can be read.
+            BagError: It does not exist, is no bag, or nothing in it can be read.
         """
         self._path = path
         self._ros1 = path.suffix == ".bag"

@@ -37,7 +37,7 @@ def salvage(path: Path) -> Iterator[RawMessage]:
     """Read a file from the front.
 
     Raises:
-        CutOff: where it ends before its time.
+        CutOff: Where it ends before its time.
     """
     scans: dict[str, Callable[[Path], Iterator[RawMessage]]] = {
         ".mcap": _scan_mcap,

@@ -32,14 +32,14 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
     """Find the topics of a bag by the encodings of their first images.
 
     Args:
-        bag: to look into.
-        color: name of the topic; to be found if empty.
-        depth: likewise.
-        camera_info: likewise.
+        bag: To look into.
+        color: Name of the topic; to be found if empty.
+        depth: Likewise.
+        camera_info: Likewise.
 
     Raises:
-        TopicError: none or several may be meant.
-        BagError: one that is named is not there.
+        TopicError: None or several may be meant.
+        BagError: One that is named is not there.
     """
     names = [topic for topic, kind in bag.kinds.items() if kind in _IMAGES and bag.counts.get(topic)]
     first = {topic: bag.first(topic) for topic in names}

@@ -1,1 +1,5 @@
-"""What a depth camera sends: its model, colour, depth and which images belong together."""
+"""What a depth camera sends.
+
+Its model with distortion, colour and depth from messages and files, and which depth image belongs to
+which colour image.
+"""

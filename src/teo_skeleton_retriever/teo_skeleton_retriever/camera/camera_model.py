@@ -17,17 +17,17 @@ class CameraModel:
     """Pinhole with lens distortion. The centre of the first pixel is at (0, 0); z is along the optical axis.
 
     Attributes:
-        width: of the image [px].
-        height: of the image [px].
-        fx: focal length [px].
-        fy: focal length [px].
-        cx: principal point [px].
-        cy: principal point [px].
-        distortion_model: as in sensor_msgs/CameraInfo: "plumb_bob", "rational_polynomial" or "" for none.
-        distortion: its coefficients, in OpenCV's order; kept as the eight of the widest model.
+        width: Of the image [px].
+        height: Of the image [px].
+        fx: Focal length [px].
+        fy: Focal length [px].
+        cx: Principal point [px].
+        cy: Principal point [px].
+        distortion_model: As in sensor_msgs/CameraInfo: "plumb_bob", "rational_polynomial" or "" for none.
+        distortion: Its coefficients, in OpenCV's order; kept as the eight of the widest model.
 
     Raises:
-        CameraError: a number that makes no camera.
+        CameraError: A number that makes no camera.
     """
 
     width: int
@@ -58,12 +58,12 @@ class CameraModel:
         """Build the original skeletonRetriever's camera: one focal length, centred, no distortion.
 
         Args:
-            width: of the image [px].
-            height: of the image [px].
-            horizontal: field of view [rad].
+            width: Of the image [px].
+            height: Of the image [px].
+            horizontal: Field of view [rad].
 
         Raises:
-            CameraError: the angle is not between 0 and pi.
+            CameraError: The angle is not between 0 and pi.
         """
         if not 0.0 < horizontal < math.pi:
             raise CameraError(
@@ -81,12 +81,12 @@ class CameraModel:
         Args:
             width: [px].
             height: [px].
-            k: intrinsic matrix, row by row. Shape (9,) or (3, 3).
-            d: distortion coefficients.
-            distortion_model: their model.
+            k: Intrinsic matrix, row by row. Shape (9,) or (3, 3).
+            d: Distortion coefficients.
+            distortion_model: Their model.
 
         Raises:
-            CameraError: the matrix has another shape, a skew or other numbers that make no camera.
+            CameraError: The matrix has another shape, a skew or other numbers that make no camera.
         """
         flat = np.asarray(k, dtype=np.float64).ravel()
         if len(flat) != 9:
@@ -105,7 +105,7 @@ class CameraModel:
         )
 
     def project(self, points: FloatArray) -> FloatArray:
-        """Tell where points are imaged; also outside the image.
+        """Project points to pixels, also outside the image.
 
         Args:
             points: [m]. Shape (n, 3).

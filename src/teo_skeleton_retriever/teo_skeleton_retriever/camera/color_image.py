@@ -36,25 +36,25 @@ _ENCODINGS = {
     "yuv422_yuy2": _Encoding(2, cv2.COLOR_YUV2RGB_YUY2),
     "yuyv": _Encoding(2, cv2.COLOR_YUV2RGB_YUY2),
 }
+# Encodings of sensor_msgs/Image that are understood.
 COLOR_ENCODINGS = tuple(_ENCODINGS)
-"""Encodings of sensor_msgs/Image that are understood."""
 
 
 def decode_color(data: Bytes, *, width: int, height: int, encoding: str, step: int = 0) -> ColorArray:
     """Decode the fields of a sensor_msgs/Image.
 
     Args:
-        data: rows of `step` bytes.
+        data: Rows of `step` bytes.
         width: [px].
         height: [px].
-        encoding: one of `COLOR_ENCODINGS`. All are of single bytes, so that their order does not matter.
-        step: bytes from a row to the next; 0 for rows without padding.
+        encoding: One of `COLOR_ENCODINGS`. All are of single bytes, so that their order does not matter.
+        step: Bytes from a row to the next; 0 for rows without padding.
 
     Returns:
         RGB; may share its memory with `data`. Shape (height, width, 3).
 
     Raises:
-        ImageError: the encoding is not known, or the sizes do not fit together.
+        ImageError: The encoding is not known, or the sizes do not fit together.
     """
     if encoding not in _ENCODINGS:
         raise ImageError(

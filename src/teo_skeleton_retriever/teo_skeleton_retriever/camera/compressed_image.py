@@ -16,8 +16,8 @@ from teo_skeleton_retriever.camera.depth_image import MAX_PIXELS, metres
 from teo_skeleton_retriever.camera.rvl import decode_rvl
 from teo_skeleton_retriever.errors import DepthError, ImageError
 
+# Before the depth image: a number for the format that nothing reads, and both terms of the quantisation.
 _HEADER = struct.Struct("<iff")
-"""Before the depth image: a number for the format that nothing reads, and both terms of the quantisation."""
 _RVL_SIZE = struct.Struct("<II")
 _PNG = b"\x89PNG"
 
@@ -29,7 +29,7 @@ def decode_compressed_color(data: Bytes) -> ColorArray:
         RGB. Shape (height, width, 3).
 
     Raises:
-        ImageError: the data are no image.
+        ImageError: The data are no image.
     """
     image = _decoded(data, cv2.IMREAD_COLOR_RGB)
     if image is None:
@@ -41,8 +41,8 @@ def decode_compressed_depth(data: Bytes, message_format: str) -> DepthArray:
     """Decode what the plugin `compressedDepth` sends: 12 bytes of header, then PNG or RVL.
 
     Args:
-        data: of the message.
-        message_format: of the message: "16UC1; compressedDepth png", "32FC1; compressedDepth rvl" and so on;
+        data: Of the message.
+        message_format: Of the message: "16UC1; compressedDepth png", "32FC1; compressedDepth rvl" and so on;
             before ROS 2 without the last word, for PNG. A depth image sent by the plugin `compressed` as
             PNG ("16UC1; png compressed") is understood as well.
 
@@ -50,7 +50,7 @@ def decode_compressed_depth(data: Bytes, message_format: str) -> DepthArray:
         Depth along the optical axis [m], NaN where unknown. Shape (height, width).
 
     Raises:
-        DepthError: the format is none of these, or the data are not of the format.
+        DepthError: The format is none of these, or the data are not of the format.
     """
     encoding = message_format.partition(";")[0].strip()
     if encoding not in ("16UC1", "mono16", "32FC1"):

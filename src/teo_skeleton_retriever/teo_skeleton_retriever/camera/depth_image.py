@@ -12,8 +12,8 @@ from teo_skeleton_retriever.errors import DepthError
 
 MILLIMETRE = np.float32(0.001)
 _TYPES = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
+# 67 million: twice 8K; larger sizes come from a corrupt message.
 MAX_PIXELS = 1 << 26
-"""67 million: twice 8K; larger sizes come from a corrupt message."""
 
 
 def decode_depth(
@@ -28,18 +28,18 @@ def decode_depth(
     """Decode the fields of a sensor_msgs/Image.
 
     Args:
-        data: rows of `step` bytes.
+        data: Rows of `step` bytes.
         width: [px].
         height: [px].
         encoding: "16UC1" or "mono16" [mm], "32FC1" [m].
-        step: bytes from a row to the next; 0 for rows without padding.
-        big_endian: order of the bytes.
+        step: Bytes from a row to the next; 0 for rows without padding.
+        big_endian: Order of the bytes.
 
     Returns:
         Depth along the optical axis [m], NaN where unknown. Shape (height, width).
 
     Raises:
-        DepthError: the encoding is none of depth, or the sizes do not fit together.
+        DepthError: The encoding is none of depth, or the sizes do not fit together.
     """
     if encoding not in _TYPES:
         raise DepthError(
@@ -63,13 +63,13 @@ def metres(image: np.ndarray) -> DepthArray:
     """Bring an image of whole millimetres or of metres to metres.
 
     Args:
-        image: uint16 [mm] or float32 or float64 [m]. Shape (height, width).
+        image: Uint16 [mm] or float32 or float64 [m]. Shape (height, width).
 
     Returns:
         [m], NaN where unknown: zero, negative, NaN or infinite. Shape (height, width).
 
     Raises:
-        DepthError: another type or shape.
+        DepthError: Another type or shape.
     """
     if image.ndim != 2 or image.dtype not in (np.uint16, np.float32, np.float64):
         raise DepthError(

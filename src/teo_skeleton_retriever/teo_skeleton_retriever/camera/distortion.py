@@ -12,8 +12,8 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.errors import CameraError
 
+# How many each model has; a camera without a model has none.
 COEFFICIENTS = {"": 0, "plumb_bob": 5, "rational_polynomial": 8}
-"""How many each model has; a camera without a model has none."""
 # OpenCV's fixed-point iteration: lenses of depth cameras need 10 to 100 steps to the tolerance, which is
 # 1e-10 px at any focal length in use.
 _CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 200, 1e-13)
@@ -25,7 +25,7 @@ def padded(model: str, coefficients: FloatArray) -> FloatArray:
     """Check coefficients and bring them to the eight of the widest model. Shape (8,).
 
     Raises:
-        CameraError: an unknown model, another number of coefficients or one that is not finite.
+        CameraError: An unknown model, another number of coefficients or one that is not finite.
     """
     if model not in COEFFICIENTS:
         known = ", ".join(name for name in COEFFICIENTS if name)
@@ -43,11 +43,11 @@ def padded(model: str, coefficients: FloatArray) -> FloatArray:
 
 
 def distort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
-    """Tell where a lens images rays that a pinhole would image at these places.
+    """Apply the distortion to normalised coordinates.
 
     Args:
         points: x/z, y/z. Shape (n, 2).
-        coefficients: of `padded`. Shape (8,).
+        coefficients: Of `padded`. Shape (8,).
 
     Returns:
         Shape (n, 2).

@@ -25,7 +25,7 @@ def read_rgbd_image(color: Path, depth: Path, camera_info: Path) -> RgbdImage:
         camera_info: JSON with width, height, k, d and distortion_model, as in sensor_msgs/CameraInfo.
 
     Raises:
-        RetrieverError: a file cannot be read, or is not what it should be.
+        RetrieverError: A file cannot be read, or is not what it should be.
     """
     try:
         pixels = decode_compressed_color(color.read_bytes())

@@ -36,7 +36,7 @@ def color_of(message: Any) -> ColorArray:
         RGB; may share its memory with the message. Shape (height, width, 3).
 
     Raises:
-        ImageError: it cannot be decoded.
+        ImageError: It cannot be decoded.
     """
     if _is_compressed(message):
         return decode_compressed_color(message.data)
@@ -53,7 +53,7 @@ def depth_of(message: Any) -> DepthArray:
     """Decode a sensor_msgs/Image or CompressedImage of depth [m], NaN where unknown. Shape (height, width).
 
     Raises:
-        DepthError: it cannot be decoded.
+        DepthError: It cannot be decoded.
     """
     if _is_compressed(message):
         return decode_compressed_depth(message.data, message.format)
@@ -80,11 +80,11 @@ def camera_of(message: Any, *, rectified: bool = False) -> CameraModel:
     """Read a sensor_msgs/CameraInfo.
 
     Args:
-        message: of ROS 2, or of ROS 1, where the matrices have capital names.
-        rectified: whether the images were rectified, and so have the projection of P and no distortion.
+        message: Of ROS 2, or of ROS 1, where the matrices have capital names.
+        rectified: Whether the images were rectified, and so have the projection of P and no distortion.
 
     Raises:
-        CameraError: it describes no usable camera; a driver that is not calibrated sends zeros.
+        CameraError: It describes no usable camera; a driver that is not calibrated sends zeros.
     """
     matrix = np.array(_field(message, "k"), dtype=np.float64).reshape(3, 3)
     if rectified:

@@ -15,14 +15,14 @@ class RgbdImage:
     """What a camera saw at one time.
 
     Attributes:
-        stamp: when the colour image was taken [s].
+        stamp: When the colour image was taken [s].
         color: RGB. Shape (height, width, 3).
-        depth: along the optical axis [m], aligned to the colour image, NaN where unknown.
+        depth: Along the optical axis [m], aligned to the colour image, NaN where unknown.
             Shape (height, width).
-        camera: of both.
+        camera: Of both.
 
     Raises:
-        FrameError: the three are not of the same size.
+        FrameError: The three are not of the same size.
     """
 
     stamp: float

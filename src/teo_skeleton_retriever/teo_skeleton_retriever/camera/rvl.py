@@ -22,14 +22,14 @@ def decode_rvl(data: bytes, pixels: int) -> NDArray[np.uint16]:
     """Decode an image.
 
     Args:
-        data: words of nibbles; bytes beyond the last pixel do not matter.
-        pixels: of the image.
+        data: Words of nibbles; bytes beyond the last pixel do not matter.
+        pixels: Of the image.
 
     Returns:
         [mm], 0 where unknown. Shape (pixels,).
 
     Raises:
-        DepthError: the data end before the image does, or are not RVL.
+        DepthError: The data end before the image does, or are not RVL.
     """
     numbers = _numbers(data)
     image = np.zeros(pixels, dtype=np.uint16)

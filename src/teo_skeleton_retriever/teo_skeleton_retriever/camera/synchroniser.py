@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any, NamedTuple
 
+# Colour images for which there is no depth image near enough.
 NO_DEPTH = "no_depth"
-"""Colour images for which there is no depth image near enough."""
+# Depth images that no colour image asked for.
 NO_COLOR = "no_color"
-"""Depth images that no colour image asked for."""
+# Colour images of before one that was given out already: late, or a second one of the same time.
 OVERTAKEN = "overtaken"
-"""Colour images of before one that was given out already: late, or a second one of the same time."""
 
 # [s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart.
 DEFAULT_SLOP = 0.017
@@ -22,10 +22,10 @@ class Pair(NamedTuple):
     """A colour image and the depth image of its time.
 
     Attributes:
-        stamp: of the colour image [ns].
+        stamp: Of the colour image [ns].
         depth_stamp: [ns].
-        color: as it was given.
-        depth: as it was given.
+        color: As it was given.
+        depth: As it was given.
     """
 
     stamp: int
@@ -51,8 +51,8 @@ class Synchroniser:
         """Wait for nothing yet.
 
         Args:
-            slop: greatest difference between the stamps of a pair [ns].
-            capacity: most images of each kind that wait.
+            slop: Greatest difference between the stamps of a pair [ns].
+            capacity: Most images of each kind that wait.
         """
         if slop < 0 or capacity < 1:
             raise ValueError(f"expected slop >= 0 ns and capacity >= 1, got {slop} and {capacity}")

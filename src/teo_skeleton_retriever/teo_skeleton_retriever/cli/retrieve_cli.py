@@ -119,7 +119,7 @@ def _retrieve(
                 depth_topic=depth_topic,
                 camera_info_topic=camera_info_topic,
                 on_progress=lambda done, total: progress.update(task, completed=done, total=total),
-                on_image=_shower(film, as_lines),
+                on_image=_image_writer(film, as_lines),
             )
     except RetrieverError as error:
         hint = f"; name it: --{error.argument.replace('_', '-')}" if isinstance(error, TopicError) else ""
@@ -135,8 +135,8 @@ def _retrieve(
         raise typer.Exit(1)
 
 
-def _shower(film: OverlayVideo | None, as_lines: bool) -> Callable[[BagImage, Retrieved], None]:
-    """Make what draws each image to the film and prints it as a line, as far as that is asked for."""
+def _image_writer(film: OverlayVideo | None, as_lines: bool) -> Callable[[BagImage, Retrieved], None]:
+    """Make the callback that adds an image to the film and prints its skeletons as a line of JSON."""
     overlay = Overlay()
 
     def show(found: BagImage, retrieved: Retrieved) -> None:

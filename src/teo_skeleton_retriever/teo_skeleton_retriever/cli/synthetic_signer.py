@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from importlib.metadata import entry_points
 
+# The group of entry points under which other packages offer commands of this one.
 COMMANDS = "teo_skeleton_retriever.commands"
-"""The group of entry points under which other packages offer commands of this one."""
 
 
 def synthesize() -> None:

@@ -1,4 +1,4 @@
-"""The original skeletonRetriever behind the interface of ours: its processing, our skeletons."""
+"""The original skeletonRetriever behind the interface of `Retriever`."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ class CompatRetriever:
         """Build a retriever that has seen nobody yet.
 
         Args:
-            parameters: of which only those of the choice of the signer matter.
-            original: of the processing.
+            parameters: Of which only those of the choice of the signer matter.
+            original: Of the processing.
         """
         self._original = original or OriginalParameters()
         self._signer = SignerChoice(
@@ -72,7 +72,7 @@ def _same(one: CameraModel | None, other: CameraModel) -> bool:
 
 
 def _places(found: Mapping[int, OriginalSkeleton]) -> dict[int, FloatArray]:
-    """Where the people are whose chest or, in its stead, anything else is known."""
+    """Mean position of each person's updated keypoints [m], by id; people without any are absent."""
     places = {}
     for track_id, skeleton in found.items():
         known = skeleton.points[skeleton.updated & np.isfinite(skeleton.points).all(axis=1)]

@@ -14,20 +14,20 @@ from teo_skeleton_retriever.errors import DepthError
 
 @dataclass(frozen=True, kw_only=True)
 class ContourDilation:
-    """A minimum filter over depth, the erosion of mathematical morphology; the near grows, holes are filled.
+    """Minimum filter over depth (morphological erosion): near surfaces grow, holes are filled.
 
     The defaults are those in the code of the original (its shipped configurations: 8 px twice at 0.6 to 5 m,
     off; 24 px twelve times at 1 to 6 m). It moves depth towards the camera by what the surface falls off in
     `kernel_size * iterations / 2` pixels.
 
     Attributes:
-        kernel_size: diameter of the elliptical window [px]. An even one reaches further to the left and up.
-        iterations: how often the window is applied.
-        min_distance: nearer is taken as noise and does not grow [m].
-        max_distance: farther is taken as background and becomes unknown [m].
+        kernel_size: Diameter of the elliptical window [px]. An even one reaches further to the left and up.
+        iterations: How often the window is applied.
+        min_distance: Nearer is taken as noise and does not grow [m].
+        max_distance: Farther is taken as background and becomes unknown [m].
 
     Raises:
-        DepthError: a value makes no filter.
+        DepthError: A value makes no filter.
     """
 
     kernel_size: int = 4

@@ -21,8 +21,8 @@ ORIGINAL_OPTIONS: dict[str, object] = {
     "max_iter": 100,
     "max_cpu_time": 0.05,  # [s]
 }
+# The same problem solved to its end: what the fast solve is measured against.
 CONVERGED_OPTIONS: dict[str, object] = ORIGINAL_OPTIONS | {"tol": 1e-10, "max_iter": 500, "max_cpu_time": 1.0}
-"""The same problem solved to its end: what the fast solve is measured against."""
 _ACCEPTED = ("Solve_Succeeded", "Solved_To_Acceptable_Level", "Feasible_Point_Found")
 
 
@@ -33,7 +33,7 @@ class IpoptLimbSolver:
         """Build a solver.
 
         Args:
-            options: of Ipopt; the original's if None.
+            options: Of Ipopt; the original's if None.
         """
         self._options = tuple((options or ORIGINAL_OPTIONS).items())
 

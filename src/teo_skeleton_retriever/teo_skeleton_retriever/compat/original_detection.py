@@ -21,13 +21,13 @@ def detect(
     """Look up the depth of each keypoint, at one pixel, and put it in space.
 
     Args:
-        person: with a body in BODY_25 or COCO; one without a body gives a skeleton without keypoints.
-        depth: filtered [m], NaN where unknown. Shape (height, width).
+        person: With a body in BODY_25 or COCO; one without a body gives a skeleton without keypoints.
+        depth: Filtered [m], NaN where unknown. Shape (height, width).
         camera: `CameraModel.from_field_of_view` for what the original assumes.
-        parameters: of the original.
+        parameters: Of the original.
 
     Raises:
-        KeypointError: the body is in a layout that the original does not know.
+        KeypointError: The body is in a layout that the original does not know.
     """
     skeleton = OriginalSkeleton()
     if not len(person.body):

@@ -16,16 +16,16 @@ class OriginalParameters:
     """Named as in the original's configuration file, `group::name`.
 
     Attributes:
-        keys_recognition_confidence: keypoints below it are not seen (skeleton::keys-recognition-confidence).
-        keys_recognition_percentage: share of the 17 keypoints that a skeleton must have.
-        keys_acceptable_misses: images for which a keypoint that is not seen is held.
-        min_acceptable_path: length of the longest path through a skeleton [m].
-        tracking_threshold: how far a pivot may move between images [px].
-        time_to_live: how long a skeleton that is not seen is kept [s].
-        depth_filter: depth::kernel-size, iterations, min-distance, max-distance; None for depth::enable off.
-        filter_keypoint_order: past samples of the median of a keypoint.
-        filter_limblength_order: past samples of the median of a limb's length.
-        optimize_limblength: whether limbs are moved so that their lengths hold.
+        keys_recognition_confidence: Keypoints below it are not seen (skeleton::keys-recognition-confidence).
+        keys_recognition_percentage: Share of the 17 keypoints that a skeleton must have.
+        keys_acceptable_misses: Images for which a keypoint that is not seen is held.
+        min_acceptable_path: Length of the longest path through a skeleton [m].
+        tracking_threshold: How far a pivot may move between images [px].
+        time_to_live: How long a skeleton that is not seen is kept [s].
+        depth_filter: Depth::kernel-size, iterations, min-distance, max-distance; None for depth::enable off.
+        filter_keypoint_order: Past samples of the median of a keypoint.
+        filter_limblength_order: Past samples of the median of a limb's length.
+        optimize_limblength: Whether limbs are moved so that their lengths hold.
     """
 
     keys_recognition_confidence: float = 0.3
@@ -47,7 +47,7 @@ def _switch(text: str) -> bool:
 
 
 class _Option(NamedTuple):
-    """Which argument of ours it is, how its text is read, and its least value."""
+    """Argument of `OriginalParameters` or `ContourDilation`, how its text is read, and its least value."""
 
     argument: str
     read: Callable[[str], float]
@@ -72,8 +72,8 @@ _DEPTH_OPTIONS = {
     "depth::max-distance": _Option("max_distance", float),
 }
 _ENABLE = "depth::enable"
+# The names that are known; those of the original's camera and ports have no meaning here.
 COMPAT_OPTIONS = (*_OPTIONS, _ENABLE, *_DEPTH_OPTIONS)
-"""The names that are known; those of the original's camera and ports have no meaning here."""
 
 
 def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
@@ -84,7 +84,7 @@ def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
             original's code.
 
     Raises:
-        ParameterError: a name is not known, or a value is none.
+        ParameterError: A name is not known, or a value is none.
     """
     chosen: dict[str, dict[str, object]] = {"general": {}, "depth": {}}
     enabled = True

@@ -31,9 +31,9 @@ class OriginalRetriever:
         """Build a retriever.
 
         Args:
-            camera: of the depth images, `CameraModel.from_field_of_view` for what the original assumes.
-            parameters: the defaults of the original's code if None.
-            solver: of limbs; Ipopt with the original's options if None.
+            camera: Of the depth images, `CameraModel.from_field_of_view` for what the original assumes.
+            parameters: The defaults of the original's code if None.
+            solver: Of limbs; Ipopt with the original's options if None.
         """
         self._camera = camera
         self._parameters = parameters or OriginalParameters()
@@ -46,8 +46,8 @@ class OriginalRetriever:
         """Take one image.
 
         Args:
-            time: of the image [s].
-            people: seen in it.
+            time: Of the image [s].
+            people: Seen in it.
             depth: [m], NaN where unknown. Shape (height, width).
 
         Returns:

@@ -37,10 +37,10 @@ def body_planes(
 
     Args:
         left_shoulder: [m]; not finite if not seen. Shape (3,), as the others.
-        right_shoulder: likewise.
-        shoulder_center: likewise.
-        hip_center: likewise.
-        before: what a normal stays at while its keypoints are not seen, or are in one place.
+        right_shoulder: Likewise.
+        shoulder_center: Likewise.
+        hip_center: Likewise.
+        before: What a normal stays at while its keypoints are not seen, or are in one place.
     """
     sagittal = _direction(right_shoulder, left_shoulder)
     transverse = _direction(hip_center, shoulder_center)
@@ -68,8 +68,8 @@ class OriginalSkeleton:
     Attributes:
         points: [m], NaN if never seen. Shape (17, 3).
         pixels: [px], NaN if never seen or made from two others. Shape (17, 2).
-        updated: whether each is of this image (or held). Shape (17,).
-        planes: of the body.
+        updated: Whether each is of this image (or held). Shape (17,).
+        planes: Of the body.
     """
 
     points: FloatArray = field(default_factory=lambda: np.full((_N, 3), np.nan))
@@ -82,7 +82,7 @@ class OriginalSkeleton:
         return OriginalSkeleton(self.points.copy(), self.pixels.copy(), self.updated.copy(), self.planes)
 
     def pivots(self) -> FloatArray:
-        """Pixels that people are told apart by; infinite if not seen themselves. Shape (2, 2)."""
+        """Pixels of `PIVOTS`, by which people are told apart; infinite if not updated. Shape (2, 2)."""
         rows = [SKELETON_STD.index[name] for name in PIVOTS]
         seen = self.updated[rows, None] & np.isfinite(self.pixels[rows])
         pixels: FloatArray = np.where(seen, self.pixels[rows], np.inf)

@@ -26,8 +26,8 @@ class OriginalMedian:
         """Build a filter.
 
         Args:
-            order: number of past samples.
-            start: output until the filter is full. Shape (k,).
+            order: Number of past samples.
+            start: Output until the filter is full. Shape (k,).
         """
         self._samples: deque[FloatArray] = deque(maxlen=order + 1)
         self._output = np.array(start, dtype=np.float64)
@@ -51,12 +51,15 @@ class OriginalMedian:
 
 
 DEFAULT_ORDER = 40
+# A limb this many times as long as calibrated loses its far end for that image; fixed in the original.
 TOO_LONG = 2.0
-"""A limb this many times as long as calibrated loses its far end for that image; fixed in the original."""
 
 
 class OriginalLimbLength:
-    """Locked after `order + 1` lengths; one that starts badly stays bad, which is why `LimbLength` exists."""
+    """Median of the first `order + 1` lengths of a limb, kept for good even if these were bad.
+
+    `LimbLength` goes on estimating.
+    """
 
     def __init__(self, order: int = DEFAULT_ORDER) -> None:
         self._order = order
@@ -75,7 +78,7 @@ class OriginalLimbLength:
         return float(self._median.output[0]) if self._count > self._order else None
 
     def too_long(self, length: float) -> bool:
-        """Tell whether a measured length [m] is beyond belief; never before the calibration."""
+        """Whether a length [m] is more than `TOO_LONG` times the calibrated one; False before that."""
         return self.value is not None and length > TOO_LONG * self.value
 
 
@@ -123,7 +126,7 @@ class OriginalTrack:
         self.pivots = seen.pivots()
 
     def _hold(self, seen: OriginalSkeleton) -> tuple[FloatArray, BoolArray]:
-        """Give what goes into the filters: seen keypoints, and for a while the last of those that are not."""
+        """Samples for the filters: keypoints of this image, or for a while the last ones."""
         samples, updated = seen.points.copy(), seen.updated.copy()
         for i in range(len(samples)):
             if seen.updated[i]:
@@ -137,7 +140,7 @@ class OriginalTrack:
         return samples, updated
 
     def _calibrate(self) -> BoolArray:
-        """Take the lengths of the limbs; give the keypoints that are too far from their parents."""
+        """Take the lengths of the limbs; mark keypoints that are too far from their parents. Shape (17,)."""
         too_far = np.zeros(len(SKELETON_STD), dtype=bool)
         for limb, length in self._lengths.items():
             i, parent = _INDEX[limb], _INDEX[str(PARENTS[limb])]

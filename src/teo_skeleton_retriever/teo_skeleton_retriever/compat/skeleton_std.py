@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from teo_skeleton_retriever.layouts.layout import Layout
 
+# The parent of each keypoint, in the order of the data.
 PARENTS: dict[str, str | None] = {
     "shoulderCenter": None,
     "head": "shoulderCenter",
@@ -26,7 +27,6 @@ PARENTS: dict[str, str | None] = {
     "ankleRight": "kneeRight",
     "footRight": "ankleRight",
 }
-"""The parent of each keypoint, in the order of the data."""
 
 SKELETON_STD = Layout(
     "SkeletonStd",
@@ -54,28 +54,28 @@ FROM_BODY_25: dict[str, str] = {
     "RBigToe": "footRight",
 }
 
+# What stands in where the keypoint of `FROM_BODY_25` was not seen.
 FALLBACKS: dict[str, str] = {"footLeft": "LSmallToe", "footRight": "RSmallToe"}
-"""What stands in where the keypoint of `FROM_BODY_25` was not seen."""
 
+# Where a centre was not seen itself, it is put between these two, without a pixel.
 MIDPOINTS: dict[str, tuple[str, str]] = {
     "shoulderCenter": ("shoulderLeft", "shoulderRight"),
     "hipCenter": ("hipLeft", "hipRight"),
 }
-"""Where a centre was not seen itself, it is put between these two, without a pixel."""
 
+# People are told apart by the pixels of these; a skeleton with neither is refused.
 PIVOTS = ("shoulderCenter", "hipCenter")
-"""People are told apart by the pixels of these; a skeleton with neither is refused."""
 
+# Limbs whose length is calibrated, each named by its far end.
 LIMBS: tuple[str, ...] = (
     *("elbowLeft", "handLeft", "elbowRight", "handRight"),
     *("kneeLeft", "ankleLeft", "footLeft", "kneeRight", "ankleRight", "footRight"),
 )
-"""Limbs whose length is calibrated, each named by its far end."""
 
+# Chains whose depths are optimised together.
 CHAINS: tuple[tuple[str, ...], ...] = (
     ("shoulderLeft", "elbowLeft", "handLeft"),
     ("shoulderRight", "elbowRight", "handRight"),
     ("hipLeft", "kneeLeft", "ankleLeft", "footLeft"),
     ("hipRight", "kneeRight", "ankleRight", "footRight"),
 )
-"""Chains whose depths are optimised together."""

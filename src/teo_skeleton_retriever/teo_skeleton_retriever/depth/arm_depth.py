@@ -1,4 +1,4 @@
-"""Where an arm is, by what is seen at its joints, and by its lengths where something hides them.
+"""Depths of an arm's joints, from measured depths and the lengths of the limbs.
 
 What is seen at a keypoint is either the arm itself, or something nearer that hides it. Which of the two, for
 elbow and wrist, follows from the lengths of the limbs: every combination is solved with the fast limb solver,
@@ -17,9 +17,9 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.depth.limb_chain import LimbChain
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
 
+# [rad] How far an elbow bends, from straight. Source: AAOS, "Joint Motion: Method of Measuring and Recording"
+# (1965).
 MAX_FLEXION = math.radians(150.0)
-"""[rad] How far an elbow bends, from straight.
-Source: AAOS, "Joint Motion: Method of Measuring and Recording" (1965)."""
 _FLEXION_SIGMA = 0.05  # of the cosine between the limbs: 5 deg there, goniometers and keypoints are no better
 _REACH = 0.35  # [m] how far behind what hides it a joint may be: a forearm and half a hand
 _TIGHT = 2.0  # [sigma] to either side of a measured depth that the solver may use
@@ -81,7 +81,7 @@ class ArmSolver:
         self._solver.prepare(3)
 
     def solve(self, arm: Arm) -> ArmSolution | None:
-        """Find the likeliest place of an arm; None if its shoulder has none, or nothing fits."""
+        """Find the solution of least cost; None if the shoulder has no depth or no solution converges."""
         shoulder = float(arm.measured[0] if np.isfinite(arm.measured[0]) else arm.expected[0])
         if not (math.isfinite(shoulder) and np.isfinite(arm.rays).all()):
             return None
@@ -100,7 +100,7 @@ class ArmSolver:
         return _balanced(arm, candidates) if candidates else None
 
     def _solutions(self, arm: Arm, hidden: BoolArray, shoulder: float) -> list[FloatArray]:
-        """Solve with each hidden joint on either side of where its limb is shortest."""
+        """Solve for each combination of the bounds of hidden joints. Shapes (3,) [m]."""
         if not hidden.any():
             return [arm.measured]
         boxes: list[list[tuple[float, float]]] = []
@@ -128,7 +128,10 @@ class ArmSolver:
 
 
 def _halves(arm: Arm, i: int, hidden: BoolArray, shoulder: float) -> list[tuple[float, float]]:
-    """Give the depths of a hidden joint that are nearer and farther than closest to its neighbour."""
+    """Depth bounds of a hidden joint [m], a pair for each of its two possible solutions.
+
+    The two places on its ray at the limb's length lie before and behind the one closest to the neighbour.
+    """
     before = shoulder if i == 1 else float(arm.expected[1] if hidden[1] else arm.measured[1])
     if not math.isfinite(before):
         before = shoulder
@@ -143,7 +146,7 @@ def _halves(arm: Arm, i: int, hidden: BoolArray, shoulder: float) -> list[tuple[
 
 
 def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
-    """Move the joints of each candidate to where lengths, rays and depths agree best; give the likeliest.
+    """Refine each candidate by least squares over lengths, rays and depths; give the one of the least cost.
 
     Gauss-Newton steps on the misfits over their sigmas, of all candidates at once. Unknown are the places in
     space: a keypoint is off its joint across the ray, too, and known lengths put that right.
@@ -186,7 +189,7 @@ def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
 def _penalties(
     arm: Arm, points: FloatArray, hidden: BoolArray, limbs: FloatArray, lengths: FloatArray
 ) -> FloatArray:
-    """What else speaks against each candidate. Shape (k,)."""
+    """Cost of each candidate beside its misfits: priors on elbow and movement. Shape (k,)."""
     folded = -(limbs[:, 0] * limbs[:, 1]).sum(axis=1) / np.maximum(lengths[:, 0] * lengths[:, 1], 1e-9)
     beyond = np.maximum(folded - math.cos(math.pi - MAX_FLEXION), 0.0)
     cost = (beyond / _FLEXION_SIGMA) ** 2

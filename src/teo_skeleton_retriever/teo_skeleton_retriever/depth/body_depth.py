@@ -27,6 +27,7 @@ _TRUNK = np.array(
 )
 _SHOULDERS = np.array([ROW[name] for name in ("Neck", "RShoulder", "LShoulder")])
 _HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
+# Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on.
 _LIMBS = np.array(
     [
         (ROW[f"{side}{joint}"], ROW[f"{side}{other}"])
@@ -34,7 +35,6 @@ _LIMBS = np.array(
         for joint, other in (("Shoulder", "Elbow"), ("Elbow", "Shoulder"), ("Knee", "Hip"), ("Ankle", "Knee"))
     ]
 )
-"""Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on."""
 
 _SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
 _HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
@@ -99,11 +99,11 @@ class BodyDepth:
         """Find the depths in one image.
 
         Args:
-            seen: by the detector.
-            surfaces: measured around the joints.
-            before: what the images before let expect.
-            size: of the person.
-            wrists: the left ("L") and right ("R") wrist by the hand; only those that are known.
+            seen: By the detector.
+            surfaces: Measured around the joints.
+            before: What the images before let expect.
+            size: Of the person.
+            wrists: The left ("L") and right ("R") wrist by the hand; only those that are known.
         """
         depth, sigma = self._measure(surfaces, before, size)
         rays, across = seen.rays.copy(), _ACROSS.copy()
@@ -157,7 +157,7 @@ class BodyDepth:
         before: FilterOutput,
         size: BodySize,
     ) -> None:
-        """Put an arm right, in place."""
+        """Solve an arm and enter its depths."""
         lengths, sigmas = zip(*(size.length(limb) for limb in ("upper arm", "forearm")), strict=True)
         arm = Arm(
             rays=found.rays[rows],
@@ -182,7 +182,7 @@ class BodyDepth:
 
 
 def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
-    """Forget depths of the trunk that are nearer than it can have come."""
+    """Set depths of the trunk to NaN that are too near for its movement: something hides it there."""
     with np.errstate(invalid="ignore"):
         nearer = before.depth - depth > np.maximum(_HIDDEN, 4.0 * before.sigma[:, 2])
     rows = _TRUNK[nearer[_TRUNK]]
@@ -190,10 +190,10 @@ def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
 
 
 def _behind_the_head(depth: FloatArray, sigma: FloatArray) -> BoolArray:
-    """Put shoulders and neck that a hand hides, as they lie before the head, about where they are.
+    """Replace depths of shoulders and neck that lie far before the head: a hand hides them.
 
     Returns:
-        Joints that were put there. Shape (25,).
+        Joints that were replaced. Shape (25,).
     """
     replaced = np.zeros(_N, dtype=bool)
     known = depth[_HEAD][np.isfinite(depth[_HEAD])]
@@ -206,12 +206,12 @@ def _behind_the_head(depth: FloatArray, sigma: FloatArray) -> BoolArray:
 
 
 def _even_shoulders(depth: FloatArray, sigma: FloatArray) -> BoolArray:
-    """Put a shoulder, or the neck, that something nearer hides where the other two say, in place.
+    """Replace the depth of a shoulder or the neck that something hides by that of the other two.
 
     The neck is midway between the shoulders, also of a person who is turned.
 
     Returns:
-        Joints that were put there. Shape (25,).
+        Joints that were replaced. Shape (25,).
     """
     neck, right, left = (ROW[name] for name in ("Neck", "RShoulder", "LShoulder"))
     replaced = np.zeros(_N, dtype=bool)
@@ -231,7 +231,7 @@ def _even_shoulders(depth: FloatArray, sigma: FloatArray) -> BoolArray:
 
 
 def _reject_long_legs(depth: FloatArray, points: FloatArray, size: BodySize) -> None:
-    """Forget depths that make a leg longer than belief."""
+    """Set depths to NaN that make a thigh or shank much longer than estimated."""
     for hip, knee, ankle in _LEGS:
         for near, far, limb in ((hip, knee, "thigh"), (knee, ankle, "shank")):
             if size.too_long(limb, float(np.linalg.norm(points[far] - points[near]))):

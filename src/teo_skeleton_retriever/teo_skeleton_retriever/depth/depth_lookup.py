@@ -1,4 +1,4 @@
-"""The depth at keypoints, from what is around them: holes, contours and things in front do not fool it."""
+"""The depth at keypoints, robust against holes, contours and things in front."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class DepthSamples(NamedTuple):
 
 
 class Surfaces(NamedTuple):
-    """The surfaces around n keypoints, from near to far; what there are fewer of is NaN and support 0."""
+    """The surfaces around n keypoints, from near to far; missing ones are NaN with support 0."""
 
     depth: FloatArray
     """[m]. Shape (n, 3)"""
@@ -58,7 +58,7 @@ class Surfaces(NamedTuple):
         return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
 
     def between(self, near: float, far: float) -> Surfaces:
-        """Forget what is nearer or farther [m]; nothing if both are NaN."""
+        """Drop surfaces that are nearer or farther [m]; a NaN bound drops none."""
         with np.errstate(invalid="ignore"):
             beyond = (self.depth < near) | (self.depth > far)
         return Surfaces(
@@ -88,20 +88,20 @@ class DepthLookup:
     """Splits the depths in a disc around each keypoint into surfaces.
 
     Attributes:
-        radius: of the disc that is looked at [m], at the depth in question: half a wrist.
-        min_radius_px: but no smaller than this: single pixels are holes or flying pixels [px].
-        max_radius_px: and no larger: that is what is looked at where the smaller disc is a hole [px].
-        gap: depths that are this far apart belong to different surfaces [m]: less than a forearm before a
+        radius: Of the disc that is looked at [m], at the depth in question: half a wrist.
+        min_radius_px: But no smaller than this: single pixels are holes or flying pixels [px].
+        max_radius_px: And no larger: that is what is looked at where the smaller disc is a hole [px].
+        gap: Depths that are this far apart belong to different surfaces [m]: less than a forearm before a
             chest, more than the steps of noise and slopes of a body within the disc.
-        min_support: a surface with a smaller share of the disc's measured pixels is specks (flying pixels at
+        min_support: A surface with a smaller share of the disc's measured pixels is specks (flying pixels at
             an edge lie between foreground and background).
-        noise: smallest sigma, at 1 m [m]; grows with the square of the depth, as stereo noise does. 2 mm is
+        noise: Smallest sigma, at 1 m [m]; grows with the square of the depth, as stereo noise does. 2 mm is
             the data sheet figure of the D435.
-        nearest: nearer is not measured but noise [m].
-        farthest: farther is background [m].
+        nearest: Nearer is not measured but noise [m].
+        farthest: Farther is background [m].
 
     Raises:
-        DepthError: a value makes no lookup.
+        DepthError: A value makes no lookup.
     """
 
     radius: float = 0.03
@@ -141,11 +141,11 @@ class DepthLookup:
         Args:
             depth: [m], NaN where unknown. Shape (height, width).
             pixels: x, y [px]; NaN or outside the image is nothing seen. Shape (n, 2).
-            focal: length of the camera [px].
-            distance: about where the keypoints are [m], which sets the size of the discs; NaN or None if not
+            focal: Length of the camera [px].
+            distance: About where the keypoints are [m], which sets the size of the discs; NaN or None if not
                 known: then it is measured first. Shape (n,).
-            radius: of each disc [m], instead of the same for all. Shape (n,).
-            gap: at each keypoint [m], instead of the same for all. Shape (n,).
+            radius: Of each disc [m], instead of the same for all. Shape (n,).
+            gap: At each keypoint [m], instead of the same for all. Shape (n,).
         """
         pixels = np.asarray(pixels, dtype=np.float64)
         n = len(pixels)

@@ -35,8 +35,8 @@ def face_depths(rays: FloatArray, surfaces: Surfaces, expected: float) -> FaceDe
 
     Args:
         rays: x/z, y/z; NaN where the detector did not see the keypoint. Shape (n, 2).
-        surfaces: measured around each keypoint.
-        expected: depth of the face by the images before [m]; NaN if there were none.
+        surfaces: Measured around each keypoint.
+        expected: Depth of the face by the images before [m]; NaN if there were none.
     """
     n = len(rays)
     unknown = FaceDepths(np.full(n, np.nan), np.full(n, np.nan), np.zeros(n, dtype=bool))

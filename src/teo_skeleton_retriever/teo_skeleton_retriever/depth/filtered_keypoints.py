@@ -1,4 +1,4 @@
-"""From what a filter believes to keypoints in space."""
+"""Keypoints in space from the state of a `KeypointFilter`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
 
 
 def points_of(output: FilterOutput) -> FloatArray:
-    """Give the places that a filter believes in [m]; NaN where lost. Shape (n, 3)."""
+    """Estimated positions [m]; NaN where lost. Shape (n, 3)."""
     points: FloatArray = np.column_stack([output.rays, np.ones(len(output.depth))]) * output.depth[:, None]
     return points
 
@@ -25,16 +25,16 @@ def keypoints_of(
     max_sigma: FloatArray,
     memory: FloatArray,
 ) -> Keypoints3D:
-    """Make keypoints of a filter's belief.
+    """Make keypoints with status, confidence and sigma of a filter's estimate.
 
     Args:
-        output: of the filter.
-        seen: by the detector in this image.
-        optimised: keypoints whose depth of this image follows from others. Shape (n,).
-        bias: standard deviation across the ray and along it of what no averaging removes: how the detector
+        output: Of the filter.
+        seen: By the detector in this image.
+        optimised: Keypoints whose depth of this image follows from others. Shape (n,).
+        bias: Standard deviation across the ray and along it of what no averaging removes: how the detector
             and the skin differ from person to person [m]. Shape (n, 2).
-        max_sigma: keypoints less certain than this are lost [m]. Shape (n,).
-        memory: confidence that each was last seen with. Shape (n,).
+        max_sigma: Keypoints less certain than this are lost [m]. Shape (n,).
+        memory: Confidence that each was last seen with. Shape (n,).
     """
     points = points_of(output)
     across = np.hypot(output.sigma[:, :2] * output.depth[:, None], bias[:, :1])

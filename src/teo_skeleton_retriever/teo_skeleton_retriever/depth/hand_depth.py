@@ -30,17 +30,17 @@ from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
 from teo_skeleton_retriever.layouts.person_layout import HAND_BONES
 
 _BONE_SIGMA = 0.008  # [m] people's proportions differ, and a pixel is 2 to 3 mm
+# [m] Of a bone's step in depth by the imagined shape, once that is turned. Shape (20,)
 _STEP_SIGMA = np.where(PALM_BONES, 0.010, 0.012)
-"""[m] Of a bone's step in depth by the imagined shape, once that is turned. Shape (20,)"""
+# How much of the imagined step in depth there is, from a finger's first bone to its last: where its end
+# points is hardly more than a guess, which is best made small.
 _RELIEF = np.tile([1.0, 1.0, 0.7, 0.4], 5)
-"""How much of the imagined step in depth there is, from a finger's first bone to its last: where its end
-points is hardly more than a guess, which is best made small."""
 _FLAT_SIGMA = 0.03  # [m] without an imagined shape: a hand is about across the view
 _DATA_SIGMA = 0.006  # [m] how far the skin of a finger differs from a tube
 _OUTLIER = 0.02  # [m] beyond it a measured surface is another's: two fingers' thickness
+# [m] The same, from step to step of the solution: from half a palm, so that a shape imagined wrongly is put
+# right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987).
 _NARROWING = (0.05, 0.03)
-"""[m] The same, from step to step of the solution: from half a palm, so that a shape imagined wrongly is
-put right by what is measured before that is judged (graduated non-convexity, Blake and Zisserman 1987)."""
 _HAND = 0.2  # [m] a hand's length: what is measured farther from where it is imagined is not the hand
 _UNMEASURED = 0.1  # how a keypoint that is not measured counts against one that is, for how a hand is turned
 _ANCHOR_SIGMA = 0.03  # [m] of the wrist's depth by the arm, as far as the hand is concerned
@@ -78,17 +78,17 @@ class HandFit(NamedTuple):
 
     @property
     def certain(self) -> bool:
-        """Whether so much was measured that nothing hides the hand as a whole."""
+        """Whether enough keypoints were measured to exclude that something hides the whole hand."""
         return int(self.measured.sum()) >= _CERTAIN
 
 
 def fit_hands(hands: list[HandView], scale: float, bones: FloatArray = HAND_BONES) -> list[HandFit | None]:
-    """Find the depths of hands, all at once for the time it takes.
+    """Find the depths of several hands in one batch.
 
     Args:
-        hands: in one image.
-        scale: of the person against an average adult.
-        bones: lengths between the detector's keypoints, of an average adult [m]. Shape (20,).
+        hands: In one image.
+        scale: Of the person against an average adult.
+        bones: Lengths between the detector's keypoints, of an average adult [m]. Shape (20,).
 
     Returns:
         One for each hand; None if too little of it is seen to tell anything.
@@ -203,7 +203,7 @@ def _solve(
 
 
 def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
-    """Tell which keypoints are behind another part of their hand, which is seen there. Shape (k, 21)."""
+    """Which keypoints another part of the same hand hides. Shape (k, 21)."""
     points = bends * depths[..., None]
     parts = np.concatenate([points, (points[:, CHILD] + points[:, PARENT]) / 2.0], axis=1)
     away = parts[:, None, :, :] - points[:, :, None, :]
@@ -213,12 +213,12 @@ def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
 
 
 def _turned_axis(direction: FloatArray) -> FloatArray:
-    """Give what the shortest rotation that brings the optical axis to a direction makes of z. Shape (3,)."""
+    """Image of the z axis under the shortest rotation from the optical axis to a direction. Shape (3,)."""
     return np.array([-direction[0], -direction[1], direction[2]])
 
 
 def _wrist_depth(hand: HandView, radius: FloatArray, offsets: FloatArray) -> float:
-    """Give the depth of the wrist that most measured keypoints agree on [m]; NaN if none is measured."""
+    """Depth of the wrist on which most measured keypoints agree [m]; NaN if none is measured."""
     expected = hand.expected if np.isfinite(hand.expected) else hand.wrist
     votes = (hand.surfaces.depth + (radius - offsets)[:, None]).ravel()
     # The nearest surface is the hand's more likely than one behind it, and a whole one than a piece.

@@ -1,4 +1,4 @@
-"""The depths along a limb as a problem: lengths are known, rays are fixed, depths may move within bounds.
+"""The depths along a limb as an optimisation problem: known lengths, fixed rays, bounded depths.
 
 Source: `LimbOptimizer` of the original skeletonRetriever. With y_i(z) = z ray_i the depths minimise
 
@@ -28,13 +28,13 @@ class LimbChain:
 
     Attributes:
         rays: x/z, y/z of each keypoint. Shape (n, 2), n >= 2.
-        lengths: from each keypoint to the next [m]. Shape (n - 1,).
-        start: depths to start from [m]. Shape (n,).
-        lower: least depths [m]. Shape (n,).
-        upper: greatest depths [m]. Shape (n,).
+        lengths: From each keypoint to the next [m]. Shape (n - 1,).
+        start: Depths to start from [m]. Shape (n,).
+        lower: Least depths [m]. Shape (n,).
+        upper: Greatest depths [m]. Shape (n,).
 
     Raises:
-        LimbError: shapes that do not fit, a number that is not finite, a length not above zero or bounds that
+        LimbError: Shapes that do not fit, a number that is not finite, a length not above zero or bounds that
             leave no room.
     """
 
@@ -66,9 +66,9 @@ class LimbChain:
         """Build the problem that the original solves.
 
         Args:
-            points: filtered keypoints from the body outwards [m]. Shape (n, 3).
+            points: Filtered keypoints from the body outwards [m]. Shape (n, 3).
             lengths: [m]. Shape (n - 1,).
-            anchor_depth: depth of the centre that the limb hangs from (shoulders or hips) [m]: the limb's
+            anchor_depth: Depth of the centre that the limb hangs from (shoulders or hips) [m]: the limb's
                 first keypoint is put at this depth, whatever its own.
         """
         points = np.asarray(points, dtype=np.float64)
@@ -90,18 +90,18 @@ class LimbChain:
         return np.column_stack([self.rays * depths[:, None], depths])
 
     def residuals(self, depths: FloatArray) -> FloatArray:
-        """By how much the squared lengths are missed [m^2]. Shape (n - 1,)."""
+        """Squared lengths less the known ones [m^2]. Shape (n - 1,)."""
         steps = np.diff(self.points(depths), axis=0)
         missed: FloatArray = (steps**2).sum(axis=1) - self.lengths**2
         return missed
 
     def cost(self, depths: FloatArray) -> float:
-        """What is minimised [m^4]."""
+        """Objective: sum of the squared residuals [m^4]."""
         return float((self.residuals(depths) ** 2).sum())
 
 
 class LimbSolution(NamedTuple):
-    """Where the depths of a limb were put."""
+    """Solution for the depths of a limb."""
 
     depths: FloatArray
     """[m]. Shape (n,)"""

@@ -1,4 +1,4 @@
-"""The limb optimisation as one unrolled expression: tens of times as fast as Ipopt, to the same end.
+"""Solver of `LimbChain` as one unrolled expression: tens of times as fast as Ipopt, with the same solution.
 
 A primal-dual interior point method on the problem of `LimbChain`, divided by the mean squared length. The
 problem needs its barrier: where a limb can reach its lengths it can do so at many depths, and it is the
@@ -153,7 +153,7 @@ def _solve_tridiagonal(diagonal: list[Any], off_diagonal: list[Any], right: list
 
 
 def _longest_step(casadi: Any, values: list[Any], changes: list[Any]) -> Any:
-    """Give the share of a step, at most 1, after which every value is still positive."""
+    """Longest step length, at most 1, that keeps every value positive."""
     step = 1.0
     for value, change in zip(values, changes, strict=True):
         step = casadi.fmin(step, casadi.if_else(change < 0.0, -_BACK_OFF * value / change, 1.0))

@@ -11,6 +11,7 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 
+# [m] From the skin to the joint, of an average adult, seen across the limb.
 BODY_DEPTH: dict[str, float] = {
     "Nose": -0.012,
     "Neck": 0.06,
@@ -25,8 +26,8 @@ BODY_DEPTH: dict[str, float] = {
     **dict.fromkeys(("REar", "LEar"), 0.019),
     **dict.fromkeys(("LBigToe", "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel"), 0.02),
 }
-"""[m] From the skin to the joint, of an average adult, seen across the limb."""
 
+# [m] Likewise.
 HAND_DEPTH: dict[str, float] = {
     name: 0.025
     if name == "Wrist"
@@ -37,13 +38,12 @@ HAND_DEPTH: dict[str, float] = {
     else 0.004
     for name in HAND_21.keypoints
 }
-"""[m] Likewise."""
 
 _LEAST_SINE = 0.65  # of the angle between ray and limb: a limb that points at the camera ends in its tip
 
+# How far a limb reaches beyond a joint, of the depth under the skin across the limb: a bent elbow's tip is 2
+# cm from its axis, a kneecap 5 cm from the knee's. A shoulder is a ball.
 _CAP = {"Elbow": 0.5, "Knee": 0.6}
-"""How far a limb reaches beyond a joint, of the depth under the skin across the limb: a bent elbow's tip is 2
-cm from its axis, a kneecap 5 cm from the knee's. A shoulder is a ball."""
 
 BODY_DEPTHS: FloatArray = np.array([BODY_DEPTH[name] for name in BODY_25.keypoints])
 BODY_CAPS: FloatArray = np.array([_CAP.get(name[1:], 1.0) for name in BODY_25.keypoints])
@@ -57,10 +57,10 @@ def along_ray(radius: FloatArray, limb: FloatArray, ray: FloatArray, cap: FloatA
     leads away the ray meets the end, which is round: half an ellipsoid.
 
     Args:
-        radius: of the limb at each joint [m]. Shape (n,).
-        limb: way from each joint along its limb, of any length; NaN or zero if not known. Shape (n, 3).
-        ray: from the camera to each joint, of any length. Shape (n, 3).
-        cap: how far the limb's end reaches beyond the joint, of the radius. Shape (n,).
+        radius: Of the limb at each joint [m]. Shape (n,).
+        limb: Way from each joint along its limb, of any length; NaN or zero if not known. Shape (n, 3).
+        ray: From the camera to each joint, of any length. Shape (n, 3).
+        cap: How far the limb's end reaches beyond the joint, of the radius. Shape (n,).
     """
     squares = (limb * limb).sum(axis=1) * (ray * ray).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -1,4 +1,4 @@
-"""What the detector saw of a person, as viewing rays."""
+"""Keypoints of a detector as viewing rays."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 
 
 class ViewingRays(NamedTuple):
-    """Keypoints in one image; NaN and 0 where not seen."""
+    """Keypoints in one image; not seen ones are NaN with confidence 0."""
 
     pixels: FloatArray
     """[px]. Shape (n, 2)"""
@@ -23,7 +23,7 @@ class ViewingRays(NamedTuple):
     """Shape (n,)"""
 
     def only(self, believed: BoolArray) -> ViewingRays:
-        """Forget the keypoints that are not believed."""
+        """Treat keypoints that are not believed as not seen."""
         return ViewingRays(
             np.where(believed[:, None], self.pixels, np.nan),
             np.where(believed[:, None], self.rays, np.nan),
@@ -41,8 +41,8 @@ def viewing_rays(keypoints: FloatArray, camera: CameraModel, min_confidence: flo
 
     Args:
         keypoints: x, y [px], confidence. Shape (n, 3).
-        camera: of the image.
-        min_confidence: of the detector; 0 means absent in every layout, whatever is asked.
+        camera: Of the image.
+        min_confidence: Of the detector; 0 means absent in every layout, whatever is asked.
     """
     seen = (keypoints[:, 2] >= min_confidence) & (keypoints[:, 2] > 0.0) & camera.contains(keypoints[:, :2])
     pixels = np.where(seen[:, None], keypoints[:, :2], np.nan)

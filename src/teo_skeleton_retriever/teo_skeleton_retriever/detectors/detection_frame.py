@@ -16,14 +16,14 @@ class DetectionFrame:
     """One image: who was seen in it, and its depth.
 
     Attributes:
-        stamp: when it was taken [s].
-        people: what the detector saw, in no particular order.
-        depth: along the optical axis [m], aligned to the colour image, NaN (or 0) where unknown.
+        stamp: When it was taken [s].
+        people: What the detector saw, in no particular order.
+        depth: Along the optical axis [m], aligned to the colour image, NaN (or 0) where unknown.
             Shape (height, width).
-        camera: of both.
+        camera: Of both.
 
     Raises:
-        FrameError: the stamp is not finite or the depth image has not the camera's size.
+        FrameError: The stamp is not finite or the depth image has not the camera's size.
     """
 
     stamp: float

@@ -1,4 +1,4 @@
-"""What every detector offers, and what it may rely on."""
+"""The interface of a detector, and the check of the images given to it."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ class Detector(Protocol):
 
         Args:
             image: RGB. Shape (height, width, 3).
-            stamp: when it was taken [s].
+            stamp: When it was taken [s].
 
         Returns:
             BODY_25 bodies, hands and faces [px], in no particular order; empty if nobody is there.
 
         Raises:
-            DetectorError: the image is none, the detector is closed, or it cannot tell; the next image may be
+            DetectorError: The image is none, the detector is closed, or it cannot tell; the next image may be
                 tried all the same.
         """
 
@@ -45,10 +45,10 @@ class Detector(Protocol):
 
 
 def check_image(image: ImageArray, stamp: float) -> None:
-    """Refuse what no detector can work on.
+    """Check an image and its time before it is looked at.
 
     Raises:
-        DetectorError: not an RGB image of bytes, an empty one, or a time that is none.
+        DetectorError: Not an RGB image of bytes, an empty one, or a time that is none.
     """
     if not isinstance(image, np.ndarray) or image.dtype != np.uint8:
         got = getattr(image, "dtype", type(image).__name__)

@@ -13,21 +13,21 @@ _CLASSES = {
     "mediapipe": "mediapipe.mediapipe_detector.MediaPipeDetector",
     "openpose_json": "openpose.openpose_json_detector.OpenPoseJsonDetector",
     "openpose_onnx": "paf.openpose_onnx_detector.OpenPoseOnnxDetector",
-    "replay": "replay_detector.ReplayDetector",
+    "replay": "openpose.replay_detector.ReplayDetector",
 }
+# The names that `make_detector` knows.
 DETECTORS = tuple(_CLASSES)
-"""The names that `make_detector` knows."""
 
 
 def make_detector(name: str, **options: object) -> Detector:
     """Make a detector.
 
     Args:
-        name: one of `DETECTORS`.
-        options: of that detector's constructor.
+        name: One of `DETECTORS`.
+        options: Of that detector's constructor.
 
     Raises:
-        DetectorError: the name or an option is unknown, or the detector cannot be made.
+        DetectorError: The name or an option is unknown, or the detector cannot be made.
     """
     if name not in _CLASSES:
         raise DetectorError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")

@@ -1,1 +1,5 @@
-"""Which keypoints people have: their names, order and links; a person in an image and in space."""
+"""Which keypoints people have, in which order.
+
+Bodies, hands and faces; a person in an image (`Person2D`), a person in space (`Skeleton`), and the
+frame of a body.
+"""

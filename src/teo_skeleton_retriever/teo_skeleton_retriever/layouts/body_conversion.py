@@ -14,7 +14,7 @@ def midpoint(first: FloatArray, second: FloatArray) -> FloatArray:
 
     Args:
         first: x, y [px], confidence. Shape (3,).
-        second: likewise.
+        second: Likewise.
     """
     confidence = min(first[2], second[2])
     if not confidence > 0.0:
@@ -23,13 +23,13 @@ def midpoint(first: FloatArray, second: FloatArray) -> FloatArray:
     return np.array([x, y, confidence])
 
 
+# The 15 keypoints of OpenPose's MPI model. Source: `poseParameters.cpp` of OpenPose 1.7.
 _MPI: tuple[str | None, ...] = (
     *(None, "Neck"),  # the top of the head is no keypoint of BODY_25
     *("RShoulder", "RElbow", "RWrist", "LShoulder", "LElbow", "LWrist"),
     *("RHip", "RKnee", "RAnkle", "LHip", "LKnee", "LAnkle"),
     None,  # nor is the chest
 )
-"""The 15 keypoints of OpenPose's MPI model. Source: `poseParameters.cpp` of OpenPose 1.7."""
 
 
 def body_25_from_coco_18(body: FloatArray) -> FloatArray:
@@ -58,7 +58,7 @@ def as_body_25(body: FloatArray) -> FloatArray:
         x, y [px], confidence; absent keypoints are zero. Shape (25, 3).
 
     Raises:
-        KeypointError: another number of keypoints.
+        KeypointError: Another number of keypoints.
     """
     if len(body) == len(BODY_25):
         return body

@@ -1,4 +1,4 @@
-"""The frame of a body: what a person does, no matter where the person stands and which way they face.
+"""The coordinate frame of a body, in which movements do not depend on where the person stands and faces.
 
 Axes as in REP-155: x out of the chest, y to the person's left, z towards the head.
 """
@@ -12,8 +12,8 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
 
+# Up in an upright camera's optical frame.
 CAMERA_UP = (0.0, -1.0, 0.0)
-"""Up in an upright camera's optical frame."""
 _MIN_SINE = 0.1  # the trunk and the line of the shoulders are never this close to parallel
 
 
@@ -23,8 +23,8 @@ class BodyFrame:
 
     Attributes:
         origin: [m], in the camera's frame. Shape (3,).
-        rotation: its columns are the body's axes in the camera's frame. Shape (3, 3).
-        anchor: where the origin is: between the hips, or, while the hips are not seen, between the shoulders.
+        rotation: Its columns are the body's axes in the camera's frame. Shape (3, 3).
+        anchor: Where the origin is: between the hips, or, while the hips are not seen, between the shoulders.
     """
 
     origin: FloatArray
@@ -61,10 +61,10 @@ def body_frame(
 
     Args:
         left_shoulder: [m]. Shape (3,), as the others.
-        right_shoulder: likewise.
-        left_hip: likewise; None or not finite if not seen.
-        right_hip: likewise.
-        up: direction that stands in for the trunk while the hips are not seen.
+        right_shoulder: Likewise.
+        left_hip: Likewise; None or not finite if not seen.
+        right_hip: Likewise.
+        up: Direction that stands in for the trunk while the hips are not seen.
 
     Returns:
         None if the shoulders are not seen or the points make no frame.

@@ -16,9 +16,9 @@ class Layout:
     """A fixed order of named keypoints.
 
     Attributes:
-        name: of the layout, as its authors call it.
-        keypoints: names, in the order of the data.
-        bones: pairs of names that are joined when the skeleton is drawn.
+        name: Of the layout, as its authors call it.
+        keypoints: Names, in the order of the data.
+        bones: Pairs of names that are joined when the skeleton is drawn.
     """
 
     name: str
@@ -38,8 +38,8 @@ def bones_of(keypoints: tuple[str, ...], pairs: str) -> tuple[tuple[str, str], .
     """Read bones from a table of index pairs.
 
     Args:
-        keypoints: the names that the indices point to.
-        pairs: for example ``"0-1 1-2"``; a longer run ``"0-1-2"`` is its consecutive pairs.
+        keypoints: The names that the indices point to.
+        pairs: For example ``"0-1 1-2"``; a longer run ``"0-1-2"`` is its consecutive pairs.
     """
     runs = [[keypoints[int(i)] for i in run.split("-")] for run in pairs.split()]
     return tuple(pair for run in runs for pair in pairwise(run))
@@ -102,8 +102,8 @@ FACE_PARTS: dict[str, range] = {
     "RPupil": range(68, 69),
     "LPupil": range(69, 70),
 }
+# Parts whose last keypoint is joined to their first.
 CLOSED_FACE_PARTS = frozenset({"REye", "LEye", "OuterLip", "InnerLip"})
-"""Parts whose last keypoint is joined to their first."""
 
 _FACE_70 = tuple(f"Face{i}" for part in FACE_PARTS.values() for i in part)
 

@@ -10,10 +10,10 @@ from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.errors import KeypointError
 from teo_skeleton_retriever.layouts.layout import FACE_70, HAND_21
 
+# Keypoints of the body layouts that OpenPose writes.
 BODY_SIZES = {25: "BODY_25", 18: "COCO", 15: "MPI"}
-"""Keypoints of the body layouts that OpenPose writes."""
+# What OpenPose writes where it does not track people.
 UNKNOWN_ID = -1
-"""What OpenPose writes where it does not track people."""
 
 
 def _absent(columns: int) -> FloatArray:
@@ -26,18 +26,18 @@ class Person2D:
 
     Attributes:
         body: x, y [px], confidence. Shape (25, 3), (18, 3), (15, 3) or (0, 3).
-        left_hand: likewise, the person's own left. Shape (21, 3) or (0, 3).
-        right_hand: likewise.
-        face: likewise. Shape (70, 3) or (0, 3).
+        left_hand: Likewise, the person's own left. Shape (21, 3) or (0, 3).
+        right_hand: Likewise.
+        face: Likewise. Shape (70, 3) or (0, 3).
         body_3d: x, y, z, 1 where reconstructed and 0 where not; only from several calibrated cameras.
             Shape (n, 4) with the n of `body`, or (0, 4).
-        left_hand_3d: likewise.
-        right_hand_3d: likewise.
-        face_3d: likewise.
-        left_hand_world: the hand's shape as the detector imagines it: x, y, z [m] along the camera's axes,
+        left_hand_3d: Likewise.
+        right_hand_3d: Likewise.
+        face_3d: Likewise.
+        left_hand_world: The hand's shape as the detector imagines it: x, y, z [m] along the camera's axes,
             from an origin in the hand; its size is that of a usual hand. Shape (21, 3), or None.
-        right_hand_world: likewise.
-        person_id: of the detector's own tracking; -1 if it does not track.
+        right_hand_world: Likewise.
+        person_id: Of the detector's own tracking; -1 if it does not track.
     """
 
     body: FloatArray = field(default_factory=lambda: _absent(3))

@@ -1,4 +1,4 @@
-"""All keypoints of a person in one array, and what is known of each before any is seen."""
+"""All keypoints of a person in one array, and prior knowledge of each: radius, speed, noise, bone lengths."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ FACE = slice(RIGHT_HAND.stop, RIGHT_HAND.stop + len(FACE_70))
 N = FACE.stop
 
 ROW = BODY_25.index
+# Rows of shoulder, elbow and wrist on the left and on the right.
 ARMS: dict[str, list[int]] = {
     side: [ROW[f"{side}{joint}"] for joint in ("Shoulder", "Elbow", "Wrist")] for side in ("L", "R")
 }
-"""Rows of shoulder, elbow and wrist on the left and on the right."""
 HANDS = {"L": LEFT_HAND, "R": RIGHT_HAND}
 
 
@@ -30,27 +30,29 @@ def _each(body: float, hands: float, face: float, **joints: float) -> FloatArray
     return values
 
 
+# [m] Around a keypoint that depth is looked at: half a wrist, a finger, half an eye.
 RADIUS = _each(0.03, 0.008, 0.01)
-"""[m] Around a keypoint that depth is looked at: half a wrist, a finger, half an eye."""
+# [m] Depths that are this far apart belong to different surfaces: less than from forearm to chest, from a
+# finger to the other hand, from a hand to the face.
 GAP = _each(0.06, 0.03, 0.05)
-"""[m] Depths that are this far apart belong to different surfaces: less than from forearm to chest, from a
-finger to the other hand, from a hand to the face."""
+# [m/s^2] Usual standard deviation: a stroke of a sign is 0.3 m in 0.2 s, a nod 5 cm in 0.2 s.
 ACCELERATION = _each(5.0, 25.0, 6.0, Elbow=12.0, Wrist=25.0)
-"""[m/s^2] Usual standard deviation: a stroke of a sign is 0.3 m in 0.2 s, a nod 5 cm in 0.2 s."""
+# [m/s] Greatest speed of anybody: fast strokes of signs were seen at 2 to 3 m/s, a nod at 0.5 m/s.
 SPEED = _each(1.0, 5.0, 1.0, Elbow=3.0, Wrist=5.0)
-"""[m/s] Which nobody exceeds: fast strokes of signs were seen at 2 to 3 m/s, a nod at 0.5 m/s."""
+# [m] Standard deviation of the detector's keypoints across the ray, from image to image.
 ACROSS = _each(0.005, 0.004, 0.003)
-"""[m] How the detector's keypoints jump across the ray from image to image."""
+# [px] Least standard deviation across the ray, of near keypoints too.
 PIXEL = _each(0.5, 0.5, 0.4)
-"""[px] And no less than this."""
+# [m/s] How fast a keypoint that is not seen may get away from where it is thought to be: people sway, wrists
+# are on their way to the next sign.
 DRIFT = _each(0.3, 1.2, 0.3, Elbow=0.8, Wrist=1.2)
-"""[m/s] How fast a keypoint that is not seen may get away from where it is thought to be: people sway, wrists
-are on their way to the next sign."""
+# [m] How far off where it is believed a keypoint may be seen all the time, for constant offsets.
 JUMP = _each(0.015, 0.012, 0.01)
-"""[m] How far off where it is believed a keypoint may be seen all the time, for constant offsets."""
+# [m] Standard deviations across the ray and along it of what no averaging removes: how detector and skin
+# differ from person to person and from pose to pose.
 BIAS: FloatArray = np.column_stack([_each(0.015, 0.009, 0.006), _each(0.015, 0.012, 0.008)])
-"""[m] Standard deviations across the ray and along it of what no averaging removes: how detector and skin
-differ from person to person and from pose to pose."""
+# [m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
+# the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm.
 HAND_BONES: FloatArray = np.array(
     [
         *(0.040, 0.042, 0.032, 0.026),  # thumb
@@ -60,5 +62,3 @@ HAND_BONES: FloatArray = np.array(
         *(0.078, 0.033, 0.020, 0.018),
     ]
 )
-"""[m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of
-the pads. Source: Buryanov and Kotiuk, "Proportions of Hand Segments" (2010), the tips less 4 mm."""

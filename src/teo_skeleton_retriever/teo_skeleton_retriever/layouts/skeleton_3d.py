@@ -1,4 +1,4 @@
-"""People in space as the retriever gives them: keypoints, each with how far it is to be trusted."""
+"""People in space: keypoints with confidence, status and standard deviation."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from teo_skeleton_retriever.layouts.body_frame import BodyFrame
 
 
 class KeypointStatus(IntEnum):
-    """Where the place of a keypoint comes from."""
+    """How the position of a keypoint was found."""
 
     LOST = 0
     """not known: never seen, or not for too long"""
@@ -30,12 +30,12 @@ class Keypoints3D:
     """The keypoints of one part of a person, in the order of its layout.
 
     Attributes:
-        points: centres of the joints in the camera's optical frame (x right, y down, z forward) [m]; NaN
+        points: Centres of the joints in the camera's optical frame (x right, y down, z forward) [m]; NaN
             where lost. Shape (n, 3).
-        confidence: of the detector, 0 to 1; 0 where lost. Shape (n,).
-        status: of `KeypointStatus`. Shape (n,).
-        sigma: standard deviation along x, y and z [m]; NaN where lost. Shape (n, 3).
-        pixels: where the detector saw it [px]; NaN where it did not. Shape (n, 2).
+        confidence: Of the detector, 0 to 1; 0 where lost. Shape (n,).
+        status: Of `KeypointStatus`. Shape (n,).
+        sigma: Standard deviation along x, y and z [m]; NaN where lost. Shape (n, 3).
+        pixels: Where the detector saw it [px]; NaN where it did not. Shape (n, 2).
     """
 
     points: FloatArray
@@ -77,13 +77,13 @@ class Skeleton:
     """One person at the time of one image.
 
     Attributes:
-        track_id: stays with the person through crossings and gaps; never given to another.
-        is_signer: whether this is the one person whose signing is followed.
-        body: in BODY_25.
-        left_hand: in HAND_21, the person's own left.
-        right_hand: likewise.
-        face: in FACE_70.
-        body_frame: the person's own frame, x out of the chest; None while the shoulders are not known.
+        track_id: Stays with the person through crossings and gaps; never given to another.
+        is_signer: Whether this is the one person whose signing is followed.
+        body: In BODY_25.
+        left_hand: In HAND_21, the person's own left.
+        right_hand: Likewise.
+        face: In FACE_70.
+        body_frame: The person's own frame, x out of the chest; None while the shoulders are not known.
     """
 
     track_id: int

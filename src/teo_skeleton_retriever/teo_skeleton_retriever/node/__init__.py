@@ -1,1 +1,1 @@
-"""`retriever_node`: its parameters, its subscriptions, its work in threads and what it says of itself."""
+"""`retriever_node`: its parameters and subscriptions, its work in threads, and its diagnostics."""

@@ -31,13 +31,13 @@ class ImageSubscription:
         """Subscribe.
 
         Args:
-            node: to subscribe with.
-            topic: of the raw images; remapped, the compressed ones are below its new name (as with
+            node: To subscribe with.
+            topic: Of the raw images; remapped, the compressed ones are below its new name (as with
                 image_transport).
-            compressed: last name of the compressed form's topic.
+            compressed: Last name of the compressed form's topic.
             transport: "raw", that name, or "auto".
-            callback: gets each message.
-            qos: of the subscription.
+            callback: Gets each message.
+            qos: Of the subscription.
         """
         base = node.resolve_topic_name(topic)
         self._node = node

@@ -1,4 +1,4 @@
-"""Two stages of work in threads of their own, for the latest of what comes; how threads share Python."""
+"""A pipeline of two stages in threads, which works on the latest image and drops those it replaces."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from collections import deque
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
+# [s] after which a thread that runs lets another one in. MediaPipe's threads call Python eleven times for an
+# image; at Python's own 5 ms each of these calls may stop a network for as long as another image's second
+# half or a message takes.
 SWITCH_INTERVAL = 0.0005
-"""[s] after which a thread that runs lets another one in. MediaPipe's threads call Python eleven times for an
-image; at Python's own 5 ms each of these calls may stop a network for as long as another image's second half
-or a message takes."""
 
 
 def tune_interpreter() -> None:
-    """Let native threads wait less for Python, and spare the collector what is there to stay.
+    """Shorten the wait of native threads for Python, and exempt loaded modules from garbage collection.
 
     For the process of a node, once all is loaded: a full collection stops all threads for 30 ms, nearly all
     of it for modules and classes that never go.
@@ -31,7 +31,7 @@ StageResult = TypeVar("StageResult")
 
 
 class _Slot(Generic[StageResult]):
-    """A job that was begun: what its first stage gave, once it is done."""
+    """A job that was begun, and the result of its first stage once that is done."""
 
     def __init__(self) -> None:
         self.done = False
@@ -56,9 +56,9 @@ class LatestFramePipeline(Generic[Job, StageResult]):
         """Start the threads.
 
         Args:
-            first: stage, whose result goes to the second unless it is None; must not raise.
-            second: stage; must not raise.
-            at_once: how many first stages may run at the same time.
+            first: Stage, whose result goes to the second unless it is None; must not raise.
+            second: Stage; must not raise.
+            at_once: How many first stages may run at the same time.
         """
         self._first = first
         self._second = second

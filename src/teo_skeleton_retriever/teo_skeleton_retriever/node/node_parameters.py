@@ -115,11 +115,11 @@ def retriever_parameters_from(values: Mapping[str, Value], detector: str) -> Ret
     """Give the retriever's parameters.
 
     Args:
-        values: by name; others than the retriever's do not matter.
-        detector: name of the one that is used.
+        values: By name; others than the retriever's do not matter.
+        detector: Name of the one that is used.
 
     Raises:
-        ParameterError: a value is wrong, or two do not go together.
+        ParameterError: A value is wrong, or two do not go together.
     """
     chosen: dict[str, Value] = {row.name: values[row.name] for row in _retriever_rows()}
     if _DETECTOR in parameter_info():
@@ -132,7 +132,7 @@ def check_choices(values: Mapping[str, Value]) -> None:
     """Check what ROS does not: words among allowed ones.
 
     Raises:
-        ParameterError: a word is none of those allowed.
+        ParameterError: A word is none of those allowed.
     """
     for row in PARAMETERS:
         if row.choices and values[row.name] not in row.choices:
@@ -148,7 +148,7 @@ def detector_options_from(words: Sequence[str]) -> dict[str, object]:
         words: NAME=VALUE each, where the value is JSON or else text; empty ones do not matter.
 
     Raises:
-        ParameterError: a word is not of this form.
+        ParameterError: A word is not of this form.
     """
     options: dict[str, object] = {}
     for word in filter(None, words):
@@ -167,11 +167,11 @@ def parameters_from_words(words: Sequence[str], *, detector: str, one_image: boo
 
     Args:
         words: NAME=VALUE each.
-        detector: name of the one that is used.
-        one_image: whether there is just one image, in which a person must be taken at first sight.
+        detector: Name of the one that is used.
+        one_image: Whether there is just one image, in which a person must be taken at first sight.
 
     Raises:
-        ParameterError: a name or a value is wrong, or two do not go together.
+        ParameterError: A name or a value is wrong, or two do not go together.
     """
     values: dict[str, Value] = {row.name: row.default for row in _retriever_rows()}
     if one_image:

@@ -21,6 +21,7 @@ from teo_sign_msgs.msg import SkeletonArray
 from teo_sign_msgs.srv import LockSigner
 from visualization_msgs.msg import MarkerArray
 
+from teo_common.diagnostics import DIAGNOSTICS_PERIOD
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_skeleton_retriever.camera.image_messages import (
@@ -43,7 +44,8 @@ from teo_skeleton_retriever.image_retriever import (
     Retrieved,
     make_retriever,
 )
-from teo_skeleton_retriever.node.diagnostics_publisher import DiagnosticsPublisher
+from teo_skeleton_retriever.node.health import Problem
+from teo_skeleton_retriever.node.image_diagnostics import ImageDiagnostics
 from teo_skeleton_retriever.node.image_subscription import ImageSubscription
 from teo_skeleton_retriever.node.latest_frame_pipeline import LatestFramePipeline, tune_interpreter
 from teo_skeleton_retriever.node.node_parameters import (
@@ -52,7 +54,6 @@ from teo_skeleton_retriever.node.node_parameters import (
     detector_options_from,
     retriever_parameters_from,
 )
-from teo_skeleton_retriever.node.retriever_health import Problem
 from teo_skeleton_retriever.node.stream_stats import Result, StreamStats
 from teo_skeleton_retriever.output.markers import marker_array
 from teo_skeleton_retriever.output.messages import image_message, skeleton_array
@@ -61,15 +62,14 @@ from teo_skeleton_retriever.output.overlay import Overlay
 # Best effort: a lost image is not worth waiting for. Five, as in rmw's profile for sensors: with
 # fewer, a short delay would leave colour and depth of different times.
 _SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
-_DIAGNOSTICS_PERIOD = 1.0  # [s], REP-107
 _LOOK_PERIOD = 0.25  # [s] between looks for who publishes images; of a bag of some seconds little is missed
 _SAME_CLOCK = 60.0  # [s] An image that seems older, or younger, was stamped by another clock: in a bag.
 
+# Images whose turn never came: a newer one was there first.
 BUSY = "busy"
-"""Images whose turn never came: a newer one was there first."""
 NO_CAMERA_INFO = "no_camera_info"
+# Images left out because of the parameter `period`.
 NOT_DUE = "not_due"
-"""Images left out because of the parameter `period`."""
 
 
 class _Job(NamedTuple):
@@ -90,11 +90,11 @@ class RetrieverNode(Node):
         """Make the detector and listen.
 
         Args:
-            detector: in place of the one that the parameters name; closed with the node.
-            node_arguments: of `rclpy.node.Node`, after its name.
+            detector: In place of the one that the parameters name; closed with the node.
+            node_arguments: Of `rclpy.node.Node`, after its name.
 
         Raises:
-            RetrieverError: the parameters do not go together, or the detector cannot be made.
+            RetrieverError: The parameters do not go together, or the detector cannot be made.
         """
         super().__init__("skeleton_retriever", **node_arguments)
         declare_parameters(self, PARAMETERS)
@@ -132,9 +132,9 @@ class RetrieverNode(Node):
         info = self.create_subscription(CameraInfo, CAMERA_INFO_TOPIC, self._on_camera_info, _SENSOR)
         self._topics = {name: stream.topic for name, stream in self._images.items()}
         self._topics["camera_info"] = info.topic_name
-        self._diagnostics = DiagnosticsPublisher(self, self._stats, self._topics)
+        self._diagnostics = ImageDiagnostics(self, self._stats, self._topics)
         self.create_service(LockSigner, "lock_signer", self._on_lock_signer)
-        self.create_timer(_DIAGNOSTICS_PERIOD, self._on_diagnostics)
+        self.create_timer(DIAGNOSTICS_PERIOD, self._on_diagnostics)
         self.create_timer(_LOOK_PERIOD, self._follow_publishers)
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)

@@ -25,17 +25,17 @@ class StreamReport:
     """What happened in the last ten seconds, and the counts since the start.
 
     Attributes:
-        rates: messages or results per second, by stream [Hz].
-        silent: time since the last of each stream, or since the start if none has come [s].
-        delay: from the arrival of an image's last part to its result.
-        age: from an image's stamp to its result; NaN where the clocks have nothing to do with each other.
-        detector: time of the detector.
-        own: time of what comes after it.
-        dropped: since the start, by reason.
-        results: since the start.
-        people: in the last image.
-        depth_share: part of its pixels with a depth, 0 to 1; NaN before the first.
-        signer: id of its signer, None if there is none.
+        rates: Messages or results per second, by stream [Hz].
+        silent: Time since the last of each stream, or since the start if none has come [s].
+        delay: From the arrival of an image's last part to its result.
+        age: From an image's stamp to its result; NaN where the clocks have nothing to do with each other.
+        detector: Time of the detector.
+        own: Time of what comes after it.
+        dropped: Since the start, by reason.
+        results: Since the start.
+        people: In the last image.
+        depth_share: Part of its pixels with a depth, 0 to 1; NaN before the first.
+        signer: Id of its signer, None if there is none.
     """
 
     rates: dict[str, float]
@@ -71,8 +71,8 @@ class StreamStats:
         """Begin with nothing.
 
         Args:
-            streams: names of what arrives.
-            now: time of the start.
+            streams: Names of what arrives.
+            now: Time of the start.
         """
         self._start = now
         self._lock = threading.Lock()

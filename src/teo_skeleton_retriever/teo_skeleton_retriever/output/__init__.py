@@ -1,1 +1,1 @@
-"""Skeletons for others: messages, markers, JSON, bags, pictures and films."""
+"""Skeletons for others: messages, markers, JSON, MCAP files, pictures and films."""

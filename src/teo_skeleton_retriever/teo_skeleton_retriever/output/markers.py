@@ -14,8 +14,8 @@ from teo_skeleton_retriever.layouts.layout import Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.output.messages import PARTS
 
+# A marker goes by itself so long after the last image: a person who left, a node that ended.
 _LIFETIME = Duration(nanosec=500_000_000)
-"""A marker goes by itself so long after the last image: a person who left, a node that ended."""
 _BONE = {"body": 0.02, "left_hand": 0.006, "right_hand": 0.006, "face": 0.003}  # [m] width of a line
 _JOINT = {"body": 0.035, "left_hand": 0.01, "right_hand": 0.01, "face": 0.005}  # [m] diameter of a ball
 _COLORS = {
@@ -30,8 +30,8 @@ def marker_array(skeletons: Sequence[Skeleton], header: Header) -> MarkerArray:
     """Give, for each person and part, a list of bones and one of joints coloured by status; and the id.
 
     Args:
-        skeletons: of one image.
-        header: of the image.
+        skeletons: Of one image.
+        header: Of the image.
     """
     markers = []
     for skeleton in skeletons:

@@ -19,16 +19,16 @@ from teo_skeleton_retriever.layouts.body_frame import BodyFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, Skeleton
 
+# The parts of a Skeleton3D and the layout of each.
 PARTS: dict[str, Layout] = {"body": BODY_25, "left_hand": HAND_21, "right_hand": HAND_21, "face": FACE_70}
-"""The parts of a Skeleton3D and the layout of each."""
 
 
 def skeleton_array(skeletons: Sequence[Skeleton], header: Header) -> SkeletonArray:
     """Everybody seen in one image, as a message.
 
     Args:
-        skeletons: of the image.
-        header: of the image: its stamp, and the camera's optical frame.
+        skeletons: Of the image.
+        header: Of the image: its stamp, and the camera's optical frame.
     """
     return SkeletonArray(header=header, skeletons=[_message(skeleton) for skeleton in skeletons])
 

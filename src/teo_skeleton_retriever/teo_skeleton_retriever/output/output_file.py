@@ -19,7 +19,7 @@ def output_file(path: Path, suffix: str) -> Iterator[Path]:
         suffix: That its name must have.
 
     Raises:
-        OutputError: there is no such folder, or the name ends otherwise.
+        OutputError: There is no such folder, or the name ends otherwise.
     """
     if path.suffix != suffix:
         raise OutputError("bad_name", f"expected a name that ends in {suffix}, got {path.name}")

@@ -33,7 +33,7 @@ class OverlayVideo:
 
         Args:
             picture: RGB. Shape (height, width, 3).
-            stamp: when it was taken [s].
+            stamp: When it was taken [s].
         """
         # The format wants even sizes.
         height, width = (size - size % 2 for size in picture.shape[:2])
@@ -74,7 +74,7 @@ def overlay_video(path: Path) -> Iterator[OverlayVideo]:
         path: File to write, replaced if it exists; its folder exists.
 
     Raises:
-        OutputError: there is no such folder, or the name does not end in .mp4.
+        OutputError: There is no such folder, or the name does not end in .mp4.
     """
     # faststart: the index comes first, so that a browser can start before it has everything.
     options = {"movflags": "faststart"}

@@ -37,8 +37,8 @@ class SkeletonBag:
         """Append a SkeletonArray.
 
         Args:
-            message: to append.
-            time: at which a recorder would have received it [ns].
+            message: To append.
+            time: At which a recorder would have received it [ns].
         """
         stamp = message.header.stamp
         published = stamp.sec * 1_000_000_000 + stamp.nanosec
@@ -57,7 +57,7 @@ def skeleton_bag(path: Path) -> Iterator[SkeletonBag]:
         path: File to write, replaced if it exists; its folder exists.
 
     Raises:
-        OutputError: there is no such folder, or the name does not end in .mcap.
+        OutputError: There is no such folder, or the name does not end in .mcap.
     """
     with output_file(path, ".mcap") as temporary, temporary.open("wb") as stream:
         bag = SkeletonBag(stream)

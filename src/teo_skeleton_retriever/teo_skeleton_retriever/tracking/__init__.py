@@ -1,1 +1,1 @@
-"""People over time: who is who, who signs, how long their limbs are, and keypoints filtered."""
+"""People over time: who is who, who signs, how large they are, and keypoints filtered."""

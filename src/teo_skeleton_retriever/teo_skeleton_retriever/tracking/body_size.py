@@ -17,11 +17,11 @@ class LimbLengthSettings:
     """How a limb length is estimated.
 
     Attributes:
-        window: number of lengths that count: 10 s at 30 images a second, then a bad start is gone.
-        min_samples: fewer make no estimate: a third of a second.
-        shortest: a shorter length is a wrong detection [m]: half a child's forearm.
-        longest: a longer one too [m]: a tall man's thigh with room to spare.
-        tolerance: a limb is too long beyond this many times its estimate. The original's 2 lets an arm that
+        window: Number of lengths that count: 10 s at 30 images a second, then a bad start is gone.
+        min_samples: Fewer make no estimate: a third of a second.
+        shortest: A shorter length is a wrong detection [m]: half a child's forearm.
+        longest: A longer one too [m]: a tall man's thigh with room to spare.
+        tolerance: A limb is too long beyond this many times its estimate. The original's 2 lets an arm that
             touches the background pass; the lengths of visible limbs were seen within 1.3 on recordings.
     """
 
@@ -60,7 +60,7 @@ class LimbLength:
 
         Args:
             near: [m]. Shape (3,).
-            far: likewise. Do not feed ends that were held or optimised: that would confirm the old estimate.
+            far: Likewise. Do not feed ends that were held or optimised: that would confirm the old estimate.
         """
         across, along = math.hypot(*(far[:2] - near[:2])), float(far[2] - near[2])
         length = math.hypot(across, along)
@@ -81,7 +81,7 @@ class LimbLength:
 
     @property
     def weight(self) -> float:
-        """How many lengths the estimate rests on, seen across the view; others count for less."""
+        """Sum of the weights of the lengths: their number if all were seen across the view."""
         return self._weight
 
     @property
@@ -98,7 +98,7 @@ class LimbLength:
         return self._samples[: self._count]
 
     def too_long(self, length: float) -> bool:
-        """Tell whether a measured length [m] is beyond belief; never before there is an estimate."""
+        """Whether a length [m] exceeds the estimate by more than the tolerance; False without one."""
         return self._value is not None and length > self._settings.tolerance * self._value
 
 
@@ -108,6 +108,7 @@ def _weighted_median(samples: FloatArray) -> float:
     return float(ordered[int(np.searchsorted(reached, reached[-1] / 2.0)), 0])
 
 
+# What is measured; both sides of a person are one length.
 _LIMBS: dict[str, tuple[tuple[str, str], ...]] = {
     "shoulders": (("RShoulder", "LShoulder"),),
     "upper arm": (("RShoulder", "RElbow"), ("LShoulder", "LElbow")),
@@ -115,19 +116,18 @@ _LIMBS: dict[str, tuple[tuple[str, str], ...]] = {
     "thigh": (("RHip", "RKnee"), ("LHip", "LKnee")),
     "shank": (("RKnee", "RAnkle"), ("LKnee", "LAnkle")),
 }
-"""What is measured; both sides of a person are one length."""
+# [m] Of an adult, between the joints. The first three by the 27 people of `bench/accuracy_tuning.py`; limbs
+# of 1.7 m after Drillis and Contini, "Body Segment Parameters" (1966): 0.29, 0.25, 0.42 and 0.42.
 _AVERAGE = {"shoulders": 0.36, "upper arm": 0.274, "forearm": 0.236, "thigh": 0.42, "shank": 0.42}
-"""[m] Of an adult, between the joints. The first three by the 27 people of `bench/accuracy_tuning.py`; limbs
-of 1.7 m after Drillis and Contini, "Body Segment Parameters" (1966): 0.29, 0.25, 0.42 and 0.42."""
+# Power of the shoulders' width that a limb grows with: broad shoulders are not long arms.
 _GROWTH = {"upper arm": 0.4, "forearm": 0.8, "thigh": 0.5, "shank": 0.5}
-"""Power of the shoulders' width that a limb grows with: broad shoulders are not long arms."""
 _ASSUMED = 5.0  # lengths seen across the view that outweigh what is assumed of a person: a third of a second
 _HAND = (1.04, 0.7)  # size of a hand of someone of average shoulders, and the power that it grows with
+# Power of the width that MediaPipe sees that the shoulders' width grows with: to the network everybody is
+# rather average. Of the 27 people, whose shoulders were 0.28 to 0.44 m wide, it saw 0.31 to 0.405 m.
 _REGRESSION = 1.4
-"""Power of the width that MediaPipe sees that the shoulders' width grows with: to the network everybody is
-rather average. Of the 27 people, whose shoulders were 0.28 to 0.44 m wide, it saw 0.31 to 0.405 m."""
+# Of the shoulders: the first width tells more than nothing, which `_ASSUMED` weighs.
 _FIRST = LimbLengthSettings(min_samples=1)
-"""Of the shoulders: the first width tells more than nothing, which `_ASSUMED` weighs."""
 _ASSUMED_WIDTH = 1.5  # likewise of the shoulders, which are nearly always seen across the view
 _LENGTH_SIGMA = (0.010, 0.04)  # [m] of a limb whose length was measured, and of one that was not
 _SCALE_RANGE = (0.55, 1.35)  # a child of six; a man of 2.1 m with broad shoulders
@@ -149,7 +149,7 @@ class BodySize:
         """Know nothing of the person yet.
 
         Args:
-            averaging: whether the detector, as MediaPipe, puts everybody's shoulders rather where an average
+            averaging: Whether the detector, as MediaPipe, puts everybody's shoulders rather where an average
                 person has them.
         """
         self._lengths = {limb: LimbLength(_FIRST if limb == "shoulders" else None) for limb in _LIMBS}
@@ -207,5 +207,5 @@ class BodySize:
         return share * value + (1.0 - share) * assumed, sigma
 
     def too_long(self, limb: str, length: float) -> bool:
-        """Tell whether a measured length [m] is beyond belief; never before there is an estimate."""
+        """Whether a length [m] exceeds the estimate by more than the tolerance; False without one."""
         return self._lengths[limb].too_long(length)

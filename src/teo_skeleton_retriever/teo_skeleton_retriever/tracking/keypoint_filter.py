@@ -28,7 +28,7 @@ _FIRST_SPEED = 1.0  # [m/s] standard deviation of the velocity of a keypoint jus
 
 
 class FilterOutput(NamedTuple):
-    """What is believed of n keypoints."""
+    """Estimates of n keypoints."""
 
     rays: FloatArray
     """x/z, y/z; NaN where lost. Shape (n, 2)"""
@@ -63,10 +63,10 @@ class KeypointFilter:
         """Build a filter of n keypoints that were never seen.
 
         Args:
-            n: number of keypoints.
-            acceleration: usual standard deviation of their acceleration [m/s^2], one or each. Shape (n,).
-            speed: which they do not exceed [m/s], one or each: a stroke's begin is no outlier. Shape (n,).
-            hold_time: a keypoint not seen for longer is forgotten [s].
+            n: Number of keypoints.
+            acceleration: Usual standard deviation of their acceleration [m/s^2], one or each. Shape (n,).
+            speed: Which they do not exceed [m/s], one or each: a stroke's begin is no outlier. Shape (n,).
+            hold_time: A keypoint not seen for longer is forgotten [s].
             smoothing: 1 is the best estimate, 0 none, more is smoother and later.
         """
         self._acceleration = np.broadcast_to(np.asarray(acceleration, dtype=np.float64), (n,))[:, None]
@@ -90,17 +90,19 @@ class KeypointFilter:
         return known
 
     def predict(self, time: float) -> FilterOutput:
-        """Tell what is expected at a time [s], which is not before the last. Changes nothing."""
+        """Predict the keypoints at a time [s], not before the last image; the filter stays as it is."""
         state, covariance = self._advanced(time)
         return self._output(state, covariance, time, np.zeros(len(self._seen), dtype=bool))
 
     def believable(self, time: float, rays: FloatArray, across: FloatArray) -> BoolArray:
-        """Tell which keypoints can be where they were seen: a jump is not believed at first. Once an image.
+        """Tell which seen keypoints lie within reach of the prediction; to be called once an image.
+
+        A keypoint that stays out of reach for several images has jumped and is believed again.
 
         Args:
-            time: of the image [s].
+            time: Of the image [s].
             rays: x/z, y/z; NaN where not seen. Shape (n, 2).
-            across: standard deviation of each across the ray [m]. Shape (n,).
+            across: Standard deviation of each across the ray [m]. Shape (n,).
         """
         state, covariance = self._advanced(time)
         elapsed = 0.0 if self._time is None else time - self._time
@@ -123,7 +125,7 @@ class KeypointFilter:
         Args:
             time: [s], not before the last.
             values: x/z, y/z and z [m]; NaN where not measured. Shape (n, 3).
-            sigma: standard deviations. Shape (n, 3).
+            sigma: Standard deviations. Shape (n, 3).
         """
         self._state, self._covariance = self._advanced(time)
         self._ahead = None
@@ -172,7 +174,7 @@ class KeypointFilter:
         return np.stack([value + moved * velocity, left * velocity]), covariance
 
     def _outliers(self, values: FloatArray, sigma: FloatArray, elapsed: float) -> BoolArray:
-        """Tell which depths are not to be believed yet. Shape (n,)."""
+        """Which depths are outliers: far from the prediction, for at most `_PATIENCE` images. Shape (n,)."""
         with np.errstate(invalid="ignore"):
             off = np.abs(values[:, 2] - self._state[0, :, 2]) - self._speed * elapsed
             doubtful = off > _GATE * np.sqrt(self._covariance[0, :, 2] + sigma[:, 2] ** 2)

@@ -1,4 +1,4 @@
-"""Who is who from image to image: ids that stay with people through crossings and gaps."""
+"""Tracks of people: ids that stay with them from image to image, through crossings and gaps."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ class TrackerSettings:
     """How people are followed.
 
     Attributes:
-        gate: how far from where a person is expected they may be seen [m]: half the width of two people
+        gate: How far from where a person is expected they may be seen [m]: half the width of two people
             side by side, and more than a torso's depth errs.
-        gate_growth: by how much the gate grows while a person is not seen [m/s]: a brisk walk's surprise.
-        max_gate: and no further than this [m].
-        memory: how long a person who is not seen keeps their id [s]: someone crossing in front takes one.
-        velocity_time: over how long the velocity is averaged [s]; shorter follows turns, longer noise.
-        velocity_memory: after how long without being seen a person is no longer thought to walk on [s].
-        newcomer_images: images in which someone must be seen to get an id; fewer let flickers of the
+        gate_growth: By how much the gate grows while a person is not seen [m/s]: a brisk walk's surprise.
+        max_gate: And no further than this [m].
+        memory: How long a person who is not seen keeps their id [s]: someone crossing in front takes one.
+        velocity_time: Over how long the velocity is averaged [s]; shorter follows turns, longer noise.
+        velocity_memory: After how long without being seen a person is no longer thought to walk on [s].
+        newcomer_images: Images in which someone must be seen to get an id; fewer let flickers of the
             detector become people.
-        newcomer_time: within this time [s].
-        apart: two people are no nearer to each other than this [m]: half a chest's breadth. A detection that
+        newcomer_time: Within this time [s].
+        apart: Two people are no nearer to each other than this [m]: half a chest's breadth. A detection that
             seems to be nearer is somebody seen twice, or somebody of whom only who hides them is measured.
     """
 
@@ -64,11 +64,11 @@ class TrackedPerson:
     """What is known of where a person is.
 
     Attributes:
-        person_id: never given to another.
-        position: of the torso when last seen [m]. Shape (3,).
-        velocity: then [m/s]. Shape (3,).
+        person_id: Never given to another.
+        position: Of the torso when last seen [m]. Shape (3,).
+        velocity: Then [m/s]. Shape (3,).
         last_seen: [s].
-        images: in which the person was seen.
+        images: In which the person was seen.
         first_seen: [s].
     """
 
@@ -108,16 +108,16 @@ class PersonTracker:
         """Take one image.
 
         Args:
-            time: of the image [s]. One before the last forgets everybody (ids are still not given again):
+            time: Of the image [s]. One before the last forgets everybody (ids are still not given again):
                 a bag was set back.
-            positions: of the torso of each detection [m]; not finite where its depth is not known, which is
+            positions: Of the torso of each detection [m]; not finite where its depth is not known, which is
                 nobody. Shape (3,) each, or (k, 3) where it may be in several places, the likeliest first.
 
         Returns:
             The id of each detection, None while it is nobody or a newcomer on trial.
 
         Raises:
-            TrackingError: the time is not finite.
+            TrackingError: The time is not finite.
         """
         if not math.isfinite(time):
             raise TrackingError("bad_time", f"expected a finite time [s], got {time}")
@@ -173,7 +173,7 @@ class PersonTracker:
         return [(rows[i], people[k]) for i, k in pairs if distances[i, k] <= gates[k]]
 
     def _taken(self, time: float, place: FloatArray) -> bool:
-        """Tell whether somebody who is seen at this time is in this very place."""
+        """Whether a person who is seen at this time is at this position."""
         return any(
             person.last_seen == time and float(np.linalg.norm(place - person.position)) < self._settings.apart
             for person in self._people.values()

@@ -11,8 +11,8 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.errors import TrackingError
 
+# [s] How long a signer who is not seen stays the signer: as long as their id is remembered.
 DEFAULT_PATIENCE = 3.0
-"""[s] How long a signer who is not seen stays the signer: as long as their id is remembered."""
 
 Rule = Literal["nearest", "central"]
 
@@ -25,10 +25,10 @@ class SignerChoice:
 
         Args:
             rule: "nearest" to the camera, or "central": closest to its optical axis, by angle.
-            patience: how long a signer who is not seen is waited for [s].
+            patience: How long a signer who is not seen is waited for [s].
 
         Raises:
-            TrackingError: the rule is not known or the patience is not a time.
+            TrackingError: The rule is not known or the patience is not a time.
         """
         if rule not in ("nearest", "central"):
             raise TrackingError("unknown_rule", f"expected 'nearest' or 'central', got {rule!r}")
@@ -62,8 +62,8 @@ class SignerChoice:
         """Take one image.
 
         Args:
-            time: of the image [s]; one before the last starts the waiting anew.
-            seen: position of each person who is seen, by id [m]. Shape (3,) each.
+            time: Of the image [s]; one before the last starts the waiting anew.
+            seen: Position of each person who is seen, by id [m]. Shape (3,) each.
 
         Returns:
             The signer's id if the signer is seen, else None.

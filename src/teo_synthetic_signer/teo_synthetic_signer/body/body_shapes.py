@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from teo_synthetic_signer.body.phenotype import Phenotype
 from teo_synthetic_signer.errors import unknown_name
 
+# Red, green, blue of a surface, each 0 to 1.
 Color = tuple[float, float, float]
-"""Red, green, blue of a surface, each 0 to 1."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -16,13 +16,13 @@ class BodyShape:
     """One person: build, skin, hair and clothes.
 
     Attributes:
-        phenotype: what gives the body its shape.
-        skin: colour.
-        hair: colour.
-        long_hair: whether it falls to the shoulders.
-        shirt: colour.
-        sleeve: how far sleeves reach, 0 at the shoulder, 1 at the elbow, 2 at the wrist.
-        trousers: colour.
+        phenotype: What gives the body its shape.
+        skin: Colour.
+        hair: Colour.
+        long_hair: Whether it falls to the shoulders.
+        shirt: Colour.
+        sleeve: How far sleeves reach, 0 at the shoulder, 1 at the elbow, 2 at the wrist.
+        trousers: Colour.
     """
 
     phenotype: Phenotype
@@ -97,7 +97,7 @@ def body_shape(name: str) -> BodyShape:
     """Give a person by name.
 
     Raises:
-        SyntheticError: nobody has that name.
+        SyntheticError: Nobody has that name.
     """
     if name not in BODIES:
         raise unknown_name("body", name, BODIES)

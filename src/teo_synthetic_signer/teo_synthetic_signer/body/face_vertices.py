@@ -8,6 +8,7 @@ No detector had a part in it.
 
 from __future__ import annotations
 
+# Keypoints 0 to 67; the pupils, 68 and 69, are on the eyeballs.
 FACE_VERTICES = (
     *(5741, 5735, 5727, 869, 5241, 893, 917, 5222, 5171, 11832, 7619, 7595, 11850, 7574, 12324, 12332, 12338),
     *(207, 206, 177, 180, 209),
@@ -19,9 +20,8 @@ FACE_VERTICES = (
     *(425, 5354, 460, 362, 7219, 11956, 7185, 7235, 7241, 492, 486, 480),
     *(430, 514, 520, 7261, 7190, 7242, 523, 487),
 )
-"""Keypoints 0 to 67; the pupils, 68 and 69, are on the eyeballs."""
 NOSE_TIP = 5054
+# The middle of the outer ear.
 EARS = {"R": 5506, "L": 12105}
-"""The middle of the outer ear."""
+# Hindmost of the foot.
 HEELS = {"R": 5856, "L": 12453}
-"""Hindmost of the foot."""

@@ -13,18 +13,18 @@ from teo_synthetic_signer.body.hand_shapes import FINGERS, HAND_SHAPES, HandShap
 from teo_synthetic_signer.body.rig import Rig
 from teo_synthetic_signer.body.rotations import about, cross, frame, perpendicular, turn, unit
 
+# By how much flexed fingers turn towards the thumb [rad]: they all point to the scaphoid bone.
 _CONVERGENCE = dict(zip(FINGERS, np.radians([-2.0, 3.0, 9.0, 16.0]), strict=True))
-"""By how much flexed fingers turn towards the thumb [rad]: they all point to the scaphoid bone."""
+# By how much the ring and the little finger's metacarpals follow their knuckle: the palm hollows.
 _ARCH = dict(zip(FINGERS, (0.0, 0.0, 0.06, 0.14), strict=True))
-"""By how much the ring and the little finger's metacarpals follow their knuckle: the palm hollows."""
 
 
 class Hand:
     """One hand of a rig.
 
     Attributes:
-        axes: see `Rig.hand_axes`.
-        wrist: its centre at rest [m].
+        axes: See `Rig.hand_axes`.
+        wrist: Its centre at rest [m].
     """
 
     def __init__(self, rig: Rig, side: str) -> None:

@@ -11,13 +11,14 @@ from teo_synthetic_signer.body.hand import Hand
 from teo_synthetic_signer.body.hand_shapes import HandShape
 from teo_synthetic_signer.errors import unknown_name
 
+# `palm` is the middle of the hand, between wrist and middle knuckle; `back` is on its back; `index_side` and
+# `little_side` are its edges; `fingertips` is the middle of the tips of the fingers that are stretched most.
 POINTS = (
     *("wrist", "palm", "back", "index_side", "little_side"),
     *("index_tip", "middle_tip", "thumb_tip", "fingertips", "knuckles"),
 )
-"""`palm` is the middle of the hand, between wrist and middle knuckle; `back` is on its back; `index_side` and
-`little_side` are its edges; `fingertips` is the middle of the tips of the fingers that are stretched most."""
 
+# Places on the other hand, and which of its points they are.
 OTHER_HAND = {
     "other_palm": "palm",
     "other_back": "back",
@@ -26,20 +27,19 @@ OTHER_HAND = {
     "other_little_side": "little_side",
     "other_fingertips": "fingertips",
 }
-"""Places on the other hand, and which of its points they are."""
 
+# Half of a hand's thickness at the knuckles, of its length from wrist to fingertip: 27 mm of 180 mm, a middle
+# between both sexes (NASA-STD-3000, hand thickness at the third metacarpal).
 _HALF_THICK = 0.075
-"""Half of a hand's thickness at the knuckles, of its length from wrist to fingertip: 27 mm of 180 mm, a
-middle between both sexes (NASA-STD-3000, hand thickness at the third metacarpal)."""
+# Fingers that are bent by so much more than the straightest one are stretched too.
 _AS_STRETCHED = math.radians(30.0)
-"""Fingers that are bent by so much more than the straightest one are stretched too."""
 
 
 def hand_point(hand: Hand, shape: HandShape, name: str) -> FloatArray:
     """Give a point of `POINTS` with the wrist at rest [m]. Shape (3,).
 
     Raises:
-        SyntheticError: no point has that name.
+        SyntheticError: No point has that name.
     """
     joints = hand.joints(shape)
     middle = (joints[0] + joints[9]) / 2.0

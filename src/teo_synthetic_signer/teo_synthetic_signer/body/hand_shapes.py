@@ -21,12 +21,12 @@ class HandShape:
     """A hand as numbers that can be blended.
 
     Attributes:
-        flexion: of the knuckle, middle and last joint of index, middle, ring and little finger; 0 is
+        flexion: Of the knuckle, middle and last joint of index, middle, ring and little finger; 0 is
             straight [rad]. Shape (4, 3).
-        spread: of these fingers towards the thumb, in the plane of the palm [rad]. Shape (4,).
-        thumb: directions in the hand's own axes (along the fingers, out of the palm, towards the thumb's
+        spread: Of these fingers towards the thumb, in the plane of the palm [rad]. Shape (4,).
+        thumb: Directions in the hand's own axes (along the fingers, out of the palm, towards the thumb's
             side): where the thumb's metacarpal points, and towards where the thumb bends. Shape (2, 3).
-        thumb_flexion: of the thumb's two outer joints [rad]. Shape (2,).
+        thumb_flexion: Of the thumb's two outer joints [rad]. Shape (2,).
     """
 
     flexion: FloatArray
@@ -111,7 +111,7 @@ def hand_shape(name: str) -> HandShape:
     """Give a hand shape by name.
 
     Raises:
-        SyntheticError: no shape has that name.
+        SyntheticError: No shape has that name.
     """
     if name not in HAND_SHAPES:
         raise unknown_name("hand_shape", name, HAND_SHAPES)

@@ -10,8 +10,8 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.rig import Rig
 from teo_synthetic_signer.body.rotations import about, frame, perpendicular, unit
 
+# Longest a leg gets, of its whole length: knees are never quite straight.
 _STRAIGHTEST = 0.998
-"""Longest a leg gets, of its whole length: knees are never quite straight."""
 
 
 class Leg:
@@ -35,9 +35,9 @@ class Leg:
         """Work out where the bones of the leg go.
 
         Args:
-            hip: the joint's place [m].
-            ankle: likewise; the leg stretches towards it if it is out of reach.
-            foot: rotation of the foot from rest; the knee points along its toes. Shape (3, 3).
+            hip: The joint's place [m].
+            ankle: Likewise; the leg stretches towards it if it is out of reach.
+            foot: Rotation of the foot from rest; the knee points along its toes. Shape (3, 3).
 
         Returns:
             Transform of each bone from rest. Shape (4, 4) each.

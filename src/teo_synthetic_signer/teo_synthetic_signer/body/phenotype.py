@@ -29,13 +29,13 @@ class Phenotype:
     Attributes:
         gender: 0 male, 1 female.
         age: 1/3 child, 2/3 young adult (about 25 years), 1 old (about 90).
-        muscle: how muscular.
-        weight: how heavy for the height.
-        height: how tall.
+        muscle: How muscular.
+        weight: How heavy for the height.
+        height: How tall.
         proportions: 0 ideal, 1 uncommon.
-        african: share of these face and body proportions; the three are scaled to a sum of 1.
-        asian: likewise.
-        caucasian: likewise.
+        african: Share of these face and body proportions; the three are scaled to a sum of 1.
+        asian: Likewise.
+        caucasian: Likewise.
     """
 
     gender: float = 0.5

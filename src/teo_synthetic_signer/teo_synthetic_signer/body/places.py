@@ -12,6 +12,8 @@ from teo_synthetic_signer.body.rig import Rig
 
 _ARM_BONES = ("upperarm", "lowerarm", "wrist", "metacarpal", "finger")
 
+# From the crown down. `shoulders` is the middle between both joints and `hip` between both hips, inside the
+# body; all others are on the skin. Those beside the middle are on the side of the hand, but for `other_`.
 PLACES = (
     *(
         "crown",
@@ -29,13 +31,11 @@ PLACES = (
     *("shoulders", "shoulder", "other_shoulder", "upper_chest", "sternum", "other_chest"),
     *("belly", "hip", "side"),
 )
-"""From the crown down. `shoulders` is the middle between both joints and `hip` between both hips, inside the
-body; all others are on the skin. Those beside the middle are on the side of the hand, but for `other_`."""
 
+# From the centre of an eye to the front of its closed lid [m]: an eyeball is 12 mm in radius.
 _EYE_DEPTH = 0.014
-"""From the centre of an eye to the front of its closed lid [m]: an eyeball is 12 mm in radius."""
+# From any place inside a body, so far away is outside [m].
 _OUTSIDE = 0.6
-"""From any place inside a body, so far away is outside [m]."""
 
 
 class Places:

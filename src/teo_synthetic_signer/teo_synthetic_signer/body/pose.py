@@ -31,10 +31,10 @@ class ArmPose:
     """What one arm does.
 
     Attributes:
-        wrist: where the wrist's centre is, in the axes of the chest, as if the body stood at rest [m].
-        hand: rotation of the hand from rest, in the same axes. Shape (3, 3).
-        swivel: see `Arm.elbow_at` [rad].
-        shape: of the hand.
+        wrist: Where the wrist's centre is, in the axes of the chest, as if the body stood at rest [m].
+        hand: Rotation of the hand from rest, in the same axes. Shape (3, 3).
+        swivel: See `Arm.elbow_at` [rad].
+        shape: Of the hand.
     """
 
     wrist: FloatArray
@@ -48,13 +48,13 @@ class BodyPose:
     """What a person does.
 
     Attributes:
-        arms: of "R" and "L".
-        place: where on the floor, forwards and to the left of where the person started [m].
-        heading: turned to the left [rad].
-        lean: of the trunk forwards, to the left, and its turn to the left [rad].
-        head: turned to the left, bowed, and tilted to the left [rad].
-        feet: of "R" and "L": forwards, to the left and above the floor, from where the person started [m].
-        face: strength of facial actions, 0 to 1, by their names.
+        arms: Of "R" and "L".
+        place: Where on the floor, forwards and to the left of where the person started [m].
+        heading: Turned to the left [rad].
+        lean: Of the trunk forwards, to the left, and its turn to the left [rad].
+        head: Turned to the left, bowed, and tilted to the left [rad].
+        feet: Of "R" and "L": forwards, to the left and above the floor, from where the person started [m].
+        face: Strength of facial actions, 0 to 1, by their names.
     """
 
     arms: Mapping[str, ArmPose]

@@ -16,9 +16,9 @@ class Hits(NamedTuple):
     """What rays hit.
 
     Args:
-        triangle: index of the nearest triangle, -1 where there is none. Shape (n,).
-        distance: to it, in lengths of the ray's direction; infinite where there is none. Shape (n,).
-        shares: of the triangle's three corners at that place. Shape (n, 3).
+        triangle: Index of the nearest triangle, -1 where there is none. Shape (n,).
+        distance: To it, in lengths of the ray's direction; infinite where there is none. Shape (n,).
+        shares: Of the triangle's three corners at that place. Shape (n, 3).
     """
 
     triangle: NDArray[np.int32]
@@ -37,7 +37,7 @@ class RayCaster:
         """Sort triangles for fast search.
 
         Args:
-            corners: of each triangle [m]. Shape (n, 3, 3).
+            corners: Of each triangle [m]. Shape (n, 3, 3).
         """
         self._scene = EmbreeScene()
         self._mesh = TriangleMesh(self._scene, np.ascontiguousarray(corners, dtype=np.float32))

@@ -20,11 +20,11 @@ SIDES = ("R", "L")
 _PHALANGES = {2: (39.78, 22.38), 3: (44.63, 26.33), 4: (41.37, 25.65), 5: (32.74, 18.11)}
 _SHOULDER_REACH = 0.015  # how near, from above, skin counts as above the joint [m]
 _SHOULDER_RAISE = 0.25  # of the joint, of the way to the skin above it
+# Where the thumb's first joint is, from the wrist: along the hand, out of the palm, to the thumb's side, for
+# a hand of 0.18 m from wrist to fingertip [m]. By the size of the bones of the wrist; no single source.
 _TRAPEZIUM = np.array([0.024, 0.006, 0.022])
-"""Where the thumb's first joint is, from the wrist: along the hand, out of the palm, to the thumb's side, for
-a hand of 0.18 m from wrist to fingertip [m]. By the size of the bones of the wrist; no single source."""
+# From the end of a finger to the keypoint of its tip, the middle of the fingertip [m].
 _TIP_BELOW_SKIN = 0.006
-"""From the end of a finger to the keypoint of its tip, the middle of the fingertip [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,9 +33,9 @@ class Rig:
 
     Attributes:
         vertices: Shape (n, 3).
-        heads: of each bone, the centre of the joint about which it turns [m]. Shape (bones, 3).
-        tails: of each bone, its end; of the last bone of a finger the middle of the fingertip [m].
-        weights: how much each vertex follows each bone. Shape (n, bones), sparse.
+        heads: Of each bone, the centre of the joint about which it turns [m]. Shape (bones, 3).
+        tails: Of each bone, its end; of the last bone of a finger the middle of the fingertip [m].
+        weights: How much each vertex follows each bone. Shape (n, bones), sparse.
     """
 
     vertices: FloatArray
@@ -133,10 +133,10 @@ class Rig:
         """Work out where each bone goes.
 
         Args:
-            turned: rotations of bones about their heads, relative to their parents, in the axes of the
+            turned: Rotations of bones about their heads, relative to their parents, in the axes of the
                 body at rest. Shape (3, 3) each.
-            placed: bones whose transform from rest is given, whatever their parents do. Shape (4, 4) each.
-            root: transform of the whole body. Shape (4, 4).
+            placed: Bones whose transform from rest is given, whatever their parents do. Shape (4, 4) each.
+            root: Transform of the whole body. Shape (4, 4).
 
         Returns:
             From places at rest to places now. Shape (bones, 4, 4).

@@ -45,7 +45,7 @@ class Signer:
         """Build a person of `BODIES`.
 
         Raises:
-            SyntheticError: nobody has that name.
+            SyntheticError: Nobody has that name.
         """
         shape = body_shape(name)
         self.rig = Rig.of(shape.phenotype)

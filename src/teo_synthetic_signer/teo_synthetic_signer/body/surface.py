@@ -36,13 +36,13 @@ class Surface:
     """A set of triangles.
 
     Attributes:
-        triangles: indices of vertices. Shape (t, 3).
-        colors: of each vertex, 0 to 1. Shape (n, 3).
-        patterns: where each vertex is in its material's pattern [m]. Shape (n, 3).
-        below: colours of cloth where its pattern's z is below 0: trousers. Shape (n, 3).
-        above: colours of cloth where its pattern's z is above 1: bare skin. Shape (n, 3).
-        materials: of each triangle, `Material`. Shape (t,).
-        bones: index of the bone that moves each triangle most, -1 for furniture. Shape (t,).
+        triangles: Indices of vertices. Shape (t, 3).
+        colors: Of each vertex, 0 to 1. Shape (n, 3).
+        patterns: Where each vertex is in its material's pattern [m]. Shape (n, 3).
+        below: Colours of cloth where its pattern's z is below 0: trousers. Shape (n, 3).
+        above: Colours of cloth where its pattern's z is above 1: bare skin. Shape (n, 3).
+        materials: Of each triangle, `Material`. Shape (t,).
+        bones: Index of the bone that moves each triangle most, -1 for furniture. Shape (t,).
     """
 
     triangles: IntArray

@@ -1,1 +1,1 @@
-"""What a depth camera makes of a scene: ray casting, colours, and the errors of its depth."""
+"""What a camera makes of a scene: rays, colours, visibility, and the errors of its depth."""

@@ -13,14 +13,14 @@ from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_synthetic_signer.camera.sensors import Principle, Sensor
 
+# A step between neighbours that is an edge, of their depth: steeper surfaces are grazing ones.
 _EDGE = 0.03
-"""A step between neighbours that is an edge, of their depth: steeper surfaces are grazing ones."""
+# Share of pixels beside an edge that give nothing: windows that hold two depths match badly. Assumption.
 _EDGE_DROPOUT = 0.3
-"""Share of pixels beside an edge that give nothing: windows that hold two depths match badly. Assumption."""
+# By how much outlines are displaced, standard deviation [px of the sensor]. Assumption.
 _RAGGED = 0.6
-"""By how much outlines are displaced, standard deviation [px of the sensor]. Assumption."""
+# Size of holes in good surfaces: of the blur that makes them [px of the sensor]. Assumption.
 _PATCH = 4.0
-"""Size of holes in good surfaces: of the blur that makes them [px of the sensor]. Assumption."""
 
 
 class DepthModel:
@@ -30,9 +30,9 @@ class DepthModel:
         """Prepare.
 
         Args:
-            sensor: what measures.
-            camera: the colour image to which depth is aligned.
-            random: where noise comes from.
+            sensor: What measures.
+            camera: The colour image to which depth is aligned.
+            random: Where noise comes from.
         """
         self._sensor = sensor
         self._random = random
@@ -46,8 +46,8 @@ class DepthModel:
         """Measure one image.
 
         Args:
-            depth: that is there [m], infinite where nothing is. Shape (height, width).
-            facing: cosine between the surface's normal and the view. Shape (height, width).
+            depth: That is there [m], infinite where nothing is. Shape (height, width).
+            facing: Cosine between the surface's normal and the view. Shape (height, width).
 
         Returns:
             [m], NaN where the sensor gives nothing. Shape (height, width).

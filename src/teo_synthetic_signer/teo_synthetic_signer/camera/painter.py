@@ -15,11 +15,11 @@ Floats = NDArray[np.float32]
 # Strength of each light, chosen so that white paper that faces the lamp is just not burnt out.
 _LAMP = unit(np.array([0.62, 0.38, 0.68])).astype(np.float32)  # from before, from the left and above
 _LAMP_STRENGTH, _SKY, _GROUND, _FILL = 0.50, 0.34, 0.14, 0.14
+# How far the lamp reaches round edges: it is wide.
 _WIDE = np.float32(0.25)
-"""How far the lamp reaches round edges: it is wide."""
 _IRIS = np.array([0.20, 0.13, 0.08], dtype=np.float32)
+# Half the angles that the iris and the pupil span, seen from the middle of the eye [rad].
 _IRIS_ANGLE, _PUPIL_ANGLE = 0.52, 0.21
-"""Half the angles that the iris and the pupil span, seen from the middle of the eye [rad]."""
 _GAMMA = np.float32(1.0 / 2.2)  # of displays
 
 
@@ -34,9 +34,9 @@ class Painter:
         """Prepare to paint.
 
         Args:
-            surface: what is there.
-            normals: of its vertices, in the axes of the camera. Shape (n, 3).
-            upright: rotation from the room's axes to the camera's. Shape (3, 3).
+            surface: What is there.
+            normals: Of its vertices, in the axes of the camera. Shape (n, 3).
+            upright: Rotation from the room's axes to the camera's. Shape (3, 3).
         """
         self._surface = surface
         self._vertices = np.hstack([surface.colors, surface.patterns, normals]).astype(np.float32)

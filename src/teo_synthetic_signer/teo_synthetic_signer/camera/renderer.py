@@ -14,10 +14,10 @@ from teo_synthetic_signer.body.ray_caster import Hits, RayCaster
 from teo_synthetic_signer.body.surface import Surface, vertex_normals
 from teo_synthetic_signer.camera.painter import Floats, Painter
 
+# Grey of what is beyond the room.
 _NOTHING = np.float32(0.35)
-"""Grey of what is beyond the room."""
+# Difference to a neighbour, of the range, from which a pixel is cast four times: it smooths edges.
 _CONTRAST = 0.05
-"""Difference to a neighbour, of the range, from which a pixel is cast four times: it smooths edges."""
 _CORNERS = ((-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25))
 
 
@@ -27,9 +27,9 @@ class Rendered:
 
     Attributes:
         color: 0 to 1, as a display shows it. Shape (height, width, 3).
-        distance: along the optical axis [m], infinite where nothing is. Shape (height, width).
-        facing: cosine between the surface's normal and the view. Shape (height, width).
-        person: casts rays at the person alone.
+        distance: Along the optical axis [m], infinite where nothing is. Shape (height, width).
+        facing: Cosine between the surface's normal and the view. Shape (height, width).
+        person: Casts rays at the person alone.
     """
 
     color: Floats
@@ -47,11 +47,11 @@ class Renderer:
         """Render the room.
 
         Args:
-            camera: takes the images.
-            upright: rotation from the room's axes to the camera's. Shape (3, 3).
-            body: surface of the person.
-            room: surface of the room.
-            walls: the room's vertices in the camera's axes [m]. Shape (n, 3).
+            camera: Takes the images.
+            upright: Rotation from the room's axes to the camera's. Shape (3, 3).
+            body: Surface of the person.
+            room: Surface of the room.
+            walls: The room's vertices in the camera's axes [m]. Shape (n, 3).
         """
         self._camera = camera
         self._upright = upright
@@ -73,7 +73,7 @@ class Renderer:
         """Render one image.
 
         Args:
-            person: vertices of the body's surface in the camera's axes [m]. Shape (n, 3).
+            person: Vertices of the body's surface in the camera's axes [m]. Shape (n, 3).
         """
         caster = RayCaster(person[self._body.triangles])
         painter = Painter(self._body, vertex_normals(person, self._body.triangles), self._upright)

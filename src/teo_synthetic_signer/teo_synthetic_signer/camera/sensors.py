@@ -24,24 +24,24 @@ class Sensor:
     """A depth camera.
 
     Attributes:
-        label: what people call it.
-        principle: how it measures.
-        color_view: field of view that its images are rendered with, horizontal and vertical [rad].
-        depth_size: columns and rows of its own depth image [px].
-        depth_view: field of view of that image, horizontal [rad].
-        nearest: least depth it gives [m].
-        farthest: greatest depth it gives [m].
-        baseline: from the second eye, or the projector, to the depth camera [m]; 0 for time of flight.
-        error: standard deviation: of the disparity [px of its own depth image], or of the depth at 1 m
+        label: What people call it.
+        principle: How it measures.
+        color_view: Field of view that its images are rendered with, horizontal and vertical [rad].
+        depth_size: Columns and rows of its own depth image [px].
+        depth_view: Field of view of that image, horizontal [rad].
+        nearest: Least depth it gives [m].
+        farthest: Greatest depth it gives [m].
+        baseline: From the second eye, or the projector, to the depth camera [m]; 0 for time of flight.
+        error: Standard deviation: of the disparity [px of its own depth image], or of the depth at 1 m
             for time of flight [m].
-        disparity_step: smallest difference of disparities [px]; 0 if depth is not quantised by it.
-        step: smallest difference of depths [m].
-        correlation: how far noise is alike [px of its own depth image].
-        flying: share of pixels at an edge whose depth lies between both sides.
-        dropout: share of pixels of good surfaces that give nothing.
-        grazing: cosine between surface and view below which nothing comes back.
-        mono: whether its image has no colour.
-        sources: where the figures are from.
+        disparity_step: Smallest difference of disparities [px]; 0 if depth is not quantised by it.
+        step: Smallest difference of depths [m].
+        correlation: How far noise is alike [px of its own depth image].
+        flying: Share of pixels at an edge whose depth lies between both sides.
+        dropout: Share of pixels of good surfaces that give nothing.
+        grazing: Cosine between surface and view below which nothing comes back.
+        mono: Whether its image has no colour.
+        sources: Where the figures are from.
     """
 
     label: str
@@ -77,7 +77,7 @@ class Sensor:
         """Give the colour camera at a resolution; another aspect than the sensor's is cut out of its middle.
 
         Raises:
-            SyntheticError: a resolution that makes no image.
+            SyntheticError: A resolution that makes no image.
         """
         if not (16 <= width <= 4096 and 16 <= height <= 4096):
             raise SyntheticError("bad_size", f"expected 16 to 4096 px each way, got {width} x {height}")
@@ -214,7 +214,7 @@ def sensor(name: str) -> Sensor:
     """Give a sensor by name, in capitals or not.
 
     Raises:
-        SyntheticError: none has that name.
+        SyntheticError: None has that name.
     """
     key = name.lower()
     if key not in SENSORS:

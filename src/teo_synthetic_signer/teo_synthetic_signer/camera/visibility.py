@@ -35,8 +35,8 @@ _LIMITS: dict[str, tuple[tuple[str, ...], float]] = {
 }
 _PALM, _PALM_LIMIT, _FINGER_LIMIT = ("wrist", "metacarpal"), 0.035, 0.022
 _FACE_LIMIT = 0.012
+# A keypoint may lie so far before the surface: lips part, lids close [m].
 _TOLERANCE = 0.01
-"""A keypoint may lie so far before the surface: lips part, lids close [m]."""
 
 
 class _Own(NamedTuple):
@@ -90,10 +90,10 @@ def visible(
     """Tell which keypoints are seen.
 
     Args:
-        person: in the camera's axes.
-        room: likewise.
-        bones: that move each of the person's triangles.
-        camera: of the image.
+        person: In the camera's axes.
+        room: Likewise.
+        bones: That move each of the person's triangles.
+        camera: Of the image.
         parts: BODY_25, left hand, right hand and face, in the camera's axes [m].
     """
     owners = (*_body(), *_hand("L"), *_hand("R"), *_face())

@@ -1,1 +1,1 @@
-"""`synthesize` and `sensor_study`."""
+"""`synthesize`, and `sensor_study`, which compares depth cameras for signing."""

@@ -27,8 +27,8 @@ from teo_synthetic_signer import SyntheticFrame
 from teo_synthetic_signer.camera.sensors import SENSORS, Sensor
 from teo_synthetic_signer.take.take import Take, TakeOptions
 
+# From the camera to the person [m]: arm's length to across a room.
 DISTANCES = (0.6, 1.0, 1.5, 2.5)
-"""From the camera to the person [m]: arm's length to across a room."""
 _WIDTH = 640  # [px] of the images; the height follows from the device's field of view
 _RATE = 15.0  # [Hz]
 _STARTS = (30, 62)  # frames of the script in which one hand greets, and in which both sign
@@ -65,9 +65,9 @@ def study(name: str, distance: float, frames: int) -> Study:
     """Measure one device at one distance.
 
     Args:
-        name: of the device, one of `SENSORS`.
-        distance: from the camera to the person [m].
-        frames: of each of the two parts of the script.
+        name: Of the device, one of `SENSORS`.
+        distance: From the camera to the person [m].
+        frames: Of each of the two parts of the script.
     """
     sensor = SENSORS[name]
     across, down = (math.tan(angle / 2.0) for angle in sensor.color_view)
@@ -107,8 +107,8 @@ def signing_space_seen(image: SyntheticFrame, sensor: Sensor) -> float:
     """Tell the share of the signing space that is in the image and within the device's range.
 
     Args:
-        image: from which the place of the person is taken.
-        sensor: the device.
+        image: From which the place of the person is taken.
+        sensor: The device.
     """
     row = BODY_25.index
     body = image.truth.body
@@ -132,11 +132,11 @@ def seen_share(
     """Tell the share of a person's signing space that a camera sees.
 
     Args:
-        camera: that looks at it.
-        sensor: whose range counts.
-        nose: place in the camera's frame [m]. Shape (3,), as the others.
-        hips: middle of the hips [m].
-        shoulders: right and left [m].
+        camera: That looks at it.
+        sensor: Whose range counts.
+        nose: Place in the camera's frame [m]. Shape (3,), as the others.
+        hips: Middle of the hips [m].
+        shoulders: Right and left [m].
     """
     chest = (shoulders[0] + shoulders[1]) / 2.0
     left = (shoulders[1] - shoulders[0]) / np.linalg.norm(shoulders[1] - shoulders[0])

@@ -21,8 +21,8 @@ from teo_synthetic_signer.take.take_bag import write_take
 from teo_synthetic_signer.take.take_messages import JPEG_QUALITY
 
 _DEFAULTS = TakeOptions()
+# A hand that is nearer than this to its place is there [m].
 _WORTH_SAYING = 0.02
-"""A hand that is nearer than this to its place is there [m]."""
 _out = Console()
 _err = Console(stderr=True)
 _app = typer.Typer(add_completion=False, rich_markup_mode=None)

@@ -20,23 +20,23 @@ from teo_synthetic_signer.body.rig import SIDES
 from teo_synthetic_signer.body.rotations import unit
 from teo_synthetic_signer.body.surface import vertex_normals
 
+# Bones of what is kept out: the hand and the lower half of the forearm. The rest follows the elbow.
 _HAND = ("lowerarm02", "wrist", "metacarpal", "finger")
-"""Bones of what is kept out: the hand and the lower half of the forearm. The rest follows the elbow."""
+# A point is inside a skin if it is behind the skin's nearest vertex: less than 15 mm away, as vertices are
+# that far apart, or nearly straight behind it. Else it is beside the end of the skin, as at the shoulder.
 _NEAR, _ALONG = 0.015, 0.6
-"""A point is inside a skin if it is behind the skin's nearest vertex: less than 15 mm away, as vertices are
-that far apart, or nearly straight behind it. Else it is beside the end of the skin, as at the shoulder."""
+# Times that a hand is moved and looked at again; after four or five nothing moves.
 _ROUNDS = 12
-"""Times that a hand is moved and looked at again; after four or five nothing moves."""
+# Of a hand's thousand vertices, every third is looked at: they are 3 mm apart.
 _EVERY = 3
-"""Of a hand's thousand vertices, every third is looked at: they are 3 mm apart."""
+# Skin that is so little inside other skin touches it [m].
 _ENOUGH = 5e-4
-"""Skin that is so little inside other skin touches it [m]."""
+# Wrists that are so far apart cannot have arms in each other [m].
 _FAR_APART = 0.7
-"""Wrists that are so far apart cannot have arms in each other [m]."""
+# Added to the way from the left hand to the right one: where they are one, they part to their sides [m].
 _TO_THE_RIGHT = np.array([0.0, -0.01, 0.0])
-"""Added to the way from the left hand to the right one: where they are one, they part to their sides [m]."""
+# How far clothes stand off the trunk's skin [m]; see `appearance.py`.
 _CLOTH = 0.006
-"""How far clothes stand off the trunk's skin [m]; see `appearance.py`."""
 
 
 class _Skin(NamedTuple):
@@ -125,10 +125,10 @@ class Clearing:
         """Give the way that the right hand must go from the left one.
 
         Args:
-            arms: of both sides.
-            skins: of these arms.
-            trees: of these skins' places.
-            gone: by the right hand since, by the left one the other way [m]. Shape (3,).
+            arms: Of both sides.
+            skins: Of these arms.
+            trees: Of these skins' places.
+            gone: By the right hand since, by the left one the other way [m]. Shape (3,).
         """
         right, left = skins["R"], skins["L"]
         forth = self._inside(right.places + 2.0 * gone, left, trees["L"])

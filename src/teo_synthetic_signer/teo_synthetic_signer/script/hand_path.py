@@ -17,8 +17,8 @@ class Path:
         """Lay the way.
 
         Args:
-            times: at which the poses are passed, the first and last are stops [s].
-            wrists: of each side, at these times [m].
+            times: At which the poses are passed, the first and last are stops [s].
+            wrists: Of each side, at these times [m].
         """
         self._times = np.array(times)
         self._progress = CubicHermiteSpline(self._times, np.arange(len(times)), self._speeds())

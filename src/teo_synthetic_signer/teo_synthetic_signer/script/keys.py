@@ -15,11 +15,11 @@ from teo_synthetic_signer.body.pose import ArmPose, Poser
 from teo_synthetic_signer.body.rotations import about, cross, frame, turn
 from teo_synthetic_signer.errors import unknown_name
 
+# Forwards, outwards (away from the body's middle, on the hand's side) and up.
 Vector = tuple[float, float, float]
-"""Forwards, outwards (away from the body's middle, on the hand's side) and up."""
 
+# Shoulder to wrist of the person for whom offsets are written [m]; others' are scaled by theirs.
 _ARM_LENGTH = 0.53
-"""Shoulder to wrist of the person for whom offsets are written [m]; others' are scaled by theirs."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,9 +27,9 @@ class Swing:
     """By how much joints of an arm are turned after its hand is where it goes: what a wiggle needs [rad].
 
     Attributes:
-        wrist: bends the hand towards the thumb's side.
-        forearm: rolls the palm upwards, as a right hand turns a key to the right.
-        elbow: stretches the arm.
+        wrist: Bends the hand towards the thumb's side.
+        forearm: Rolls the palm upwards, as a right hand turns a key to the right.
+        elbow: Stretches the arm.
     """
 
     wrist: float = 0.0
@@ -42,14 +42,14 @@ class ArmKey:
     """Where an arm goes.
 
     Attributes:
-        at: one of `PLACES`, or of `OTHER_HAND`.
-        offset: from there [m, for an arm of 0.53 m].
-        point: of the hand that goes there, one of `POINTS`.
-        fingers: where straight fingers would point.
-        palm: where the palm faces.
-        shape: of the hand, by its name or in full.
-        swing: of joints, from there.
-        swivel: turns the elbow further outwards and up than is easiest [rad].
+        at: One of `PLACES`, or of `OTHER_HAND`.
+        offset: From there [m, for an arm of 0.53 m].
+        point: Of the hand that goes there, one of `POINTS`.
+        fingers: Where straight fingers would point.
+        palm: Where the palm faces.
+        shape: Of the hand, by its name or in full.
+        swing: Of joints, from there.
+        swivel: Turns the elbow further outwards and up than is easiest [rad].
     """
 
     at: str = "shoulders"
@@ -67,20 +67,20 @@ class Key:
     """One key pose and how it is reached.
 
     Attributes:
-        right: where the right arm goes; None leaves it where it is.
-        left: likewise.
-        move: how long it takes to get there [s].
-        hold: how long it stays [s].
-        arc: by how much hands come forwards on the way, of the length of the way.
-        bulge: by how much the hands' way swings out in its middle [m, for an arm of 0.53 m].
-        place: forwards and to the left [m].
-        heading: turned to the left [rad].
-        lean: see `BodyPose`.
-        head: see `BodyPose`.
-        step: the foot, "R" or "L", that is lifted on the way, if one is.
-        face: facial actions.
-        through: goes on without a stop; there is no hold then, no arc and no bulge.
-        keep_out: hands go round the body and each other instead of through them.
+        right: Where the right arm goes; None leaves it where it is.
+        left: Likewise.
+        move: How long it takes to get there [s].
+        hold: How long it stays [s].
+        arc: By how much hands come forwards on the way, of the length of the way.
+        bulge: By how much the hands' way swings out in its middle [m, for an arm of 0.53 m].
+        place: Forwards and to the left [m].
+        heading: Turned to the left [rad].
+        lean: See `BodyPose`.
+        head: See `BodyPose`.
+        step: The foot, "R" or "L", that is lifted on the way, if one is.
+        face: Facial actions.
+        through: Goes on without a stop; there is no hold then, no arc and no bulge.
+        keep_out: Hands go round the body and each other instead of through them.
     """
 
     right: ArmKey | None = None
@@ -124,12 +124,12 @@ class KeyResolver:
 
         Args:
             side: "R" or "L".
-            key: what it does.
-            other: what the other arm does, if its place is asked for.
-            outside: keep the elbow out of the trunk.
+            key: What it does.
+            other: What the other arm does, if its place is asked for.
+            outside: Keep the elbow out of the trunk.
 
         Raises:
-            SyntheticError: a place, point or shape that does not exist.
+            SyntheticError: A place, point or shape that does not exist.
         """
         shape = hand_shape(key.shape) if isinstance(key.shape, str) else key.shape
         hand = self._poser.hands[side]

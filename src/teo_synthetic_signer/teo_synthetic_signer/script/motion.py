@@ -19,11 +19,11 @@ from teo_synthetic_signer.script.body_avoidance import Clearing
 from teo_synthetic_signer.script.hand_path import Path
 from teo_synthetic_signer.script.keys import ArmKey, Key, KeyResolver
 
+# How far a foot is lifted for a step [m].
 _STEP_HEIGHT = 0.06
-"""How far a foot is lifted for a step [m]."""
 
+# A hand that stays farther than this off its place is at another part of the body [m].
 _MOST_SHORT = 0.15
-"""A hand that stays farther than this off its place is at another part of the body [m]."""
 
 # Nobody stands still: the trunk sways and breathes. Amplitudes [rad] and frequencies [Hz] of quiet standing.
 _SWAY = ((0.008, 0.27), (0.006, 0.19), (0.006, 0.23))
@@ -64,7 +64,7 @@ class Motion:
         """Resolve key poses; the first is where the person starts and must name both arms.
 
         Raises:
-            SyntheticError: a place, point or shape that does not exist; in keys that keep out of the body,
+            SyntheticError: A place, point or shape that does not exist; in keys that keep out of the body,
                 "out_of_reach".
         """
         self._poser = poser

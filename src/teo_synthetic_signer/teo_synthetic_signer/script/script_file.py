@@ -14,14 +14,14 @@ from teo_synthetic_signer.script.script_schema import KeyText, RepeatText, Scrip
 from teo_synthetic_signer.script.scripts import about, script
 from teo_synthetic_signer.script.signs import HANGING
 
+# By which a script's file is told from a script's name.
 SUFFIXES = (".yaml", ".yml")
-"""By which a script's file is told from a script's name."""
+# A minute of signing is 50 kB; this is no script.
 _MOST_BYTES = 2_000_000
-"""A minute of signing is 50 kB; this is no script."""
+# [s] Of a script: 18,000 frames take 40 min to render.
 _LONGEST = 600.0
-"""[s] Of a script: 18,000 frames take 40 min to render."""
+# What pydantic puts between the fields of a path where a field can be of several kinds.
 _UNIONS = ("ArmText", "ShapeText", "KeyText", "RepeatText", "ThumbText", "str", "literal['hanging']")
-"""What pydantic puts between the fields of a path where a field can be of several kinds."""
 
 
 class Script(NamedTuple):
@@ -35,7 +35,7 @@ def script_of(name: str) -> Script:
     """Give a script by its name, or from its file if that ends as files of scripts do.
 
     Raises:
-        SyntheticError: as `script` or `read_script`.
+        SyntheticError: As `script` or `read_script`.
     """
     if name.lower().endswith(SUFFIXES):
         return read_script(Path(name))

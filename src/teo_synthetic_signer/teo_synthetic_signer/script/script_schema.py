@@ -15,8 +15,8 @@ from teo_synthetic_signer.body.places import PLACES
 from teo_synthetic_signer.script.keys import ArmKey, Key, Swing, Vector
 
 _STRICT = ConfigDict(strict=True, extra="forbid", frozen=True)
+# Palm and fingers nearer to one line than 5 deg do not say how the hand is turned.
 _MOST_OBLIQUE = math.cos(math.radians(5.0))
-"""Palm and fingers nearer to one line than 5 deg do not say how the hand is turned."""
 
 
 def _one_of(*names: str) -> AfterValidator:

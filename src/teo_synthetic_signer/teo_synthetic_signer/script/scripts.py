@@ -111,7 +111,7 @@ def script(name: str) -> tuple[Key, ...]:
     """Give a script by name.
 
     Raises:
-        SyntheticError: none has that name.
+        SyntheticError: None has that name.
     """
     if name not in SCRIPTS:
         raise unknown_name("script", name, SCRIPTS)

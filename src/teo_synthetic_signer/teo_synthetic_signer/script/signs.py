@@ -15,8 +15,8 @@ HANGING = ArmKey(
     palm=(-0.35, -1.0, 0.0),
     shape="relaxed",
 )
+# Both arms hang.
 REST = Key(right=HANGING, left=HANGING, move=0.7, hold=0.3)
-"""Both arms hang."""
 _SPEAK = {"jawOpen": 0.25}
 _ROUND = {"mouthPucker": 0.7}
 _SMILE = {"mouthSmileLeft": 0.6, "mouthSmileRight": 0.6}

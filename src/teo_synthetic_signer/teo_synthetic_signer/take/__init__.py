@@ -1,1 +1,1 @@
-"""One person, in one room, plays one script before one sensor; as images with truth, and as a bag."""
+"""One person, in one room, plays one script before one sensor: images with truth, and their bag."""

@@ -119,7 +119,7 @@ def furnish(name: str) -> tuple[FloatArray, Surface]:
         Vertices, x towards the camera, the person at the origin [m], and the surface.
 
     Raises:
-        SyntheticError: no room has that name.
+        SyntheticError: No room has that name.
     """
     if name not in SCENES:
         raise unknown_name("scene", name, SCENES)

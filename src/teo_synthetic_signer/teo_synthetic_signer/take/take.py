@@ -26,12 +26,12 @@ from teo_synthetic_signer.script.script_file import script_of
 from teo_synthetic_signer.take.furniture import furnish
 from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame
 
+# Between camera and person [m]: nearer the camera is inside the person, farther behind the room.
 DISTANCES = (0.2, 6.0)
-"""Between camera and person [m]: nearer the camera is inside the person, farther behind the room."""
+# Height that a camera looks at unless told otherwise, of the person's: the middle of where one signs.
 _CHEST = 0.755
-"""Height that a camera looks at unless told otherwise, of the person's: the middle of where one signs."""
+# Standard deviation of the colour image's noise, of its range. Assumption: a sensor in room light.
 _COLOR_NOISE = 0.008
-"""Standard deviation of the colour image's noise, of its range. Assumption: a sensor in room light."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,18 +39,18 @@ class TakeOptions:
     """What is rendered.
 
     Attributes:
-        script: one of `SCRIPTS`, or the path of a script's file, which ends in .yaml.
-        body: one of `BODIES`.
-        scene: one of `SCENES`.
-        sensor: one of `SENSORS`.
-        distance: from the camera to the person, along the floor [m].
-        camera_height: above the floor [m].
-        camera_pitch: of the camera downwards [rad]; None looks at the chest.
-        width: of the images [px].
-        height: likewise.
-        rate: frames per second [Hz].
-        seed: of everything random; the same gives the same frames.
-        perfect_depth: the sensor measures exactly, everywhere.
+        script: One of `SCRIPTS`, or the path of a script's file, which ends in .yaml.
+        body: One of `BODIES`.
+        scene: One of `SCENES`.
+        sensor: One of `SENSORS`.
+        distance: From the camera to the person, along the floor [m].
+        camera_height: Above the floor [m].
+        camera_pitch: Of the camera downwards [rad]; None looks at the chest.
+        width: Of the images [px].
+        height: Likewise.
+        rate: Frames per second [Hz].
+        seed: Of everything random; the same gives the same frames.
+        perfect_depth: The sensor measures exactly, everywhere.
     """
 
     script: str = "signing"
@@ -88,7 +88,7 @@ class Take:
         """Prepare body, room and camera.
 
         Raises:
-            SyntheticError: a name that does not exist, or a number out of its range.
+            SyntheticError: A name that does not exist, or a number out of its range.
         """
         self._options = options
         self.sensor = sensor_named(options.sensor)
@@ -185,14 +185,14 @@ def render_take(*, frames: range | None = None, **options: Any) -> Iterator[Synt
     """Render a take, frame by frame.
 
     Args:
-        frames: which, all if None.
-        options: as of `TakeOptions`.
+        frames: Which, all if None.
+        options: As of `TakeOptions`.
 
     Yields:
         The frames, in order.
 
     Raises:
-        SyntheticError: a name that does not exist, or a number out of its range.
+        SyntheticError: A name that does not exist, or a number out of its range.
     """
     take = Take(TakeOptions(**options))
     for index in range(len(take)) if frames is None else frames:

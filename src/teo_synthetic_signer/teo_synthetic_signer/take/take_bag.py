@@ -18,8 +18,8 @@ from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take import take_messages
 from teo_synthetic_signer.take.truth import TruthFrame
 
+# Stamp of the first frame [ns since the epoch]: a fixed one, so that the same take gives the same bag.
 START = 1_700_000_000 * 10**9
-"""Stamp of the first frame [ns since the epoch]: a fixed one, so that the same take gives the same bag."""
 
 _INFO, _IMAGE, _COMPRESSED = (
     f"sensor_msgs/msg/{name}" for name in ("CameraInfo", "Image", "CompressedImage")
@@ -71,18 +71,18 @@ def write_take(
     """Write frames to a bag while they come. The bag appears, whole, after the last.
 
     Args:
-        frames: of the take; `SyntheticFrame` each if images are written.
-        out: folder to make.
-        raw: write images uncompressed: twenty times larger.
-        truth_only: write no images, only the truth.
-        quality: of JPEG, if not raw.
-        about: what the bag's metadata say of it.
+        frames: Of the take; `SyntheticFrame` each if images are written.
+        out: Folder to make.
+        raw: Write images uncompressed: twenty times larger.
+        truth_only: Write no images, only the truth.
+        quality: Of JPEG, if not raw.
+        about: What the bag's metadata say of it.
 
     Yields:
         The number of frames written so far.
 
     Raises:
-        SyntheticError: the folder exists or cannot be made.
+        SyntheticError: The folder exists or cannot be made.
     """
     if out.exists():
         raise SyntheticError("output_exists", f"expected a folder that does not exist yet, got {out}")

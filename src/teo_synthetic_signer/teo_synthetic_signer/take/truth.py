@@ -20,10 +20,10 @@ class Truth:
     between it and the camera but its own skin.
 
     Attributes:
-        body: of BODY_25. Shape (25, 3).
-        left_hand: of HAND_21, the person's own left. Shape (21, 3).
-        right_hand: likewise.
-        face: of FACE_70. Shape (70, 3).
+        body: Of BODY_25. Shape (25, 3).
+        left_hand: Of HAND_21, the person's own left. Shape (21, 3).
+        right_hand: Likewise.
+        face: Of FACE_70. Shape (70, 3).
         body_visible: Shape (25,).
         left_hand_visible: Shape (21,).
         right_hand_visible: Shape (21,).
@@ -45,9 +45,9 @@ class TruthFrame:
     """What is true at one moment, with or without an image of it.
 
     Attributes:
-        stamp: since the start of the take [s].
-        camera: that looks.
-        truth: where the keypoints are.
+        stamp: Since the start of the take [s].
+        camera: That looks.
+        truth: Where the keypoints are.
     """
 
     stamp: float
@@ -60,8 +60,8 @@ class SyntheticFrame(TruthFrame):
     """One rendered image.
 
     Attributes:
-        color: red, green, blue. Shape (height, width, 3).
-        depth: along the optical axis, as the sensor model measures it [m]; NaN where it measures nothing.
+        color: Red, green, blue. Shape (height, width, 3).
+        depth: Along the optical axis, as the sensor model measures it [m]; NaN where it measures nothing.
             Shape (height, width), aligned to the colour image.
     """
 

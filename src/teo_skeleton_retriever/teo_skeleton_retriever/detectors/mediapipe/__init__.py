@@ -1,1 +1,5 @@
-"""MediaPipe Holistic: its graph without what is not asked of it, and how its keypoints are off."""
+"""MediaPipe Holistic.
+
+Its graph without what is not asked of it, which of its hands are believed, and how far its keypoints
+are from the joints.
+"""

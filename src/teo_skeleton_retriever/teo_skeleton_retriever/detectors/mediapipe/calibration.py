@@ -45,7 +45,7 @@ def corrected_body(body: FloatArray, shifts: tuple[Shift, ...]) -> FloatArray:
 
     Args:
         body: x, y [px], confidence, in BODY_25; absent keypoints are zero. Shape (25, 3).
-        shifts: of the detector.
+        shifts: Of the detector.
     """
     moved = body.copy()
     row = BODY_25.index
@@ -93,8 +93,8 @@ def corrected_hand(hand: FloatArray, *, left: bool) -> FloatArray:
     """Move MediaPipe's keypoints to the joints' centres.
 
     Args:
-        hand: in space [m]. Shape (21, 3).
-        left: whether it is a left hand.
+        hand: In space [m]. Shape (21, 3).
+        left: Whether it is a left hand.
 
     Returns:
         [m]; unmoved if the palm makes no frame. Shape (21, 3).

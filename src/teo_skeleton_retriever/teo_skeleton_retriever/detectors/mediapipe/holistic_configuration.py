@@ -1,4 +1,4 @@
-"""What MediaPipe's Holistic graph is made of here: the packaged one, without what is not asked of it."""
+"""Configuration of MediaPipe's Holistic graph: the packaged one with unused nodes and outputs removed."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resou
 
 from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for, without_output
 
+# Input streams beside that of images: whether to look at a hand in this image.
 LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
-"""Input streams beside that of images: whether to look at a hand in this image."""
 _FOLDER = Path(mediapipe.__file__).parent
 _POSE = "poselandmarkcpu__"
 _POSE_BY_ROI = f"{_POSE}poselandmarkbyroicpu__"
@@ -34,11 +34,11 @@ _DETECTION_NODE = f"{_POSE}posedetectioncpu__TensorsToDetectionsCalculator"
 _TRACKING_NODE = f"{_POSE_TENSORS}ThresholdingCalculator"
 _HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
 _POSE_NETWORK = "pose_network"
+# Of all outputs of the pose's network, what draws the person's outline.
 _OUTLINE = (1, 256, 256, 1)
-"""Of all outputs of the pose's network, what draws the person's outline."""
+# Two more than MediaPipe takes, which is one a core: while they tell Python what they found, for which they
+# may have to wait, networks go on.
 _THREADS = (os.cpu_count() or 1) + 2
-"""Two more than MediaPipe takes, which is one a core: while they tell Python what they found, for which they
-may have to wait, networks go on."""
 _SIDE_INPUTS = {
     # The only pose model that comes with the package; the two others would be downloaded.
     "model_complexity": packet_creator.create_int(1),
@@ -58,13 +58,13 @@ def holistic_configuration(
     min_tracking_confidence: float,
     lite_hands: bool,
 ) -> tuple[Any, dict[str, Packet]]:
-    """Read the packaged graph, set what may be set, and leave out what none of some streams follows from.
+    """Read the packaged graph, set its options and drop nodes that do not feed the requested outputs.
 
     Args:
-        streams: that will be observed.
-        min_detection_confidence: below which a person's first sight does not count.
-        min_tracking_confidence: below which a followed person counts as lost.
-        lite_hands: look at hands with the smaller of the two networks.
+        streams: Names of the output streams that will be observed.
+        min_detection_confidence: Below which a person's first sight does not count.
+        min_tracking_confidence: Below which a followed person counts as lost.
+        lite_hands: Look at hands with the smaller of the two networks.
 
     Returns:
         The CalculatorGraphConfig, and the side packets that it is to be started with.
@@ -100,7 +100,7 @@ def holistic_configuration(
 
 
 def _leave_out_the_outline(configuration: Any) -> None:
-    """Use a network of the pose that does not draw it, and pass its other outputs on as before."""
+    """Remove the output of the pose network that draws the person's outline; the others keep their order."""
     nodes = {node.name: node for node in configuration.node}
     loader = nodes[f"{_POSE_BY_ROI}poselandmarkmodelloader__TfLiteModelCalculator"]
     loader.input_side_packet[:] = [f"MODEL_BLOB:{_POSE_NETWORK}"]
@@ -115,7 +115,7 @@ def _leave_out_the_outline(configuration: Any) -> None:
 
 
 def _look_for_the_face_only_where_it_is_lost(configuration: Any) -> None:
-    """Follow a face that was in the image before, as the pose is followed.
+    """Track a face from the last image instead of detecting it anew, as the graph does with the pose.
 
     The packaged graph looks for the face in every image, by a network that takes more than a millisecond, and
     mostly goes on from the last image all the same. Here the body says whether the followed face is still its
@@ -170,7 +170,7 @@ def _look_for_the_face_only_where_it_is_lost(configuration: Any) -> None:
 
 
 def _look_at_hands_only_when_told(configuration: Any) -> None:
-    """Begin with a hand only where its stream of LOOKS says so."""
+    """Run the networks of a hand only where its stream of LOOKS says so."""
     for side in ("left", "right"):
         by_body = f"handlandmarksleftandrightcpu__{side}_hand_landmarks_from_pose"
         for node in configuration.node:

@@ -63,13 +63,13 @@ _SCORES = {
 }
 _SIDES = {"left_hand": f"{_LEFT}handedness", "right_hand": f"{_RIGHT}handedness"}
 _STREAMS = (*_LANDMARKS.values(), *_SCORES.values(), *_SIDES.values())
+# What the network calls hands: it takes images for those of a mirror.
 _MIRRORED = {"left_hand": "Right", "right_hand": "Left"}
-"""What the network calls hands: it takes images for those of a mirror."""
+# Between two images on the graph's clock. It only orders them: nothing in the graph depends on time without
+# the filter.
 _FRAME_US = 33_333
-"""Between two images on the graph's clock. It only orders them: nothing in the graph depends on time without
-the filter."""
+# How often a wait looks whether the graph has failed.
 _PATIENCE_S = 0.05
-"""How often a wait looks whether the graph has failed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,15 +79,15 @@ class HolisticLandmarks:
     Attributes:
         pose: x, y in [0, 1] of width and height, z, visibility, presence. Shape (33, 5).
         left_hand: x, y likewise, z. Shape (21, 3).
-        right_hand: likewise.
-        face: likewise. Shape (478, 3).
+        right_hand: Likewise.
+        face: Likewise. Shape (478, 3).
         left_hand_world: x, y, z [m] along the camera's axes. Shape (21, 3).
-        right_hand_world: likewise.
-        left_hand_score: how sure it is that this is a hand, in [0, 1].
-        right_hand_score: likewise.
-        face_score: likewise.
-        left_hand_side: how sure it is that this is a left hand, in [0, 1].
-        right_hand_side: that it is a right one.
+        right_hand_world: Likewise.
+        left_hand_score: How sure it is that this is a hand, in [0, 1].
+        right_hand_score: Likewise.
+        face_score: Likewise.
+        left_hand_side: How sure it is that this is a left hand, in [0, 1].
+        right_hand_side: That it is a right one.
     """
 
     pose: FloatArray | None
@@ -149,9 +149,9 @@ class HolisticGraph:
     are still being looked at. Images are taken in the order of the calls.
 
     Args:
-        min_detection_confidence: below which a person's first sight does not count.
-        min_tracking_confidence: below which a followed person counts as lost.
-        lite_hands: look at hands with the smaller of the two networks.
+        min_detection_confidence: Below which a person's first sight does not count.
+        min_tracking_confidence: Below which a followed person counts as lost.
+        lite_hands: Look at hands with the smaller of the two networks.
     """
 
     def __init__(
@@ -183,7 +183,7 @@ class HolisticGraph:
             image: RGB. Shape (height, width, 3).
 
         Raises:
-            DetectorError: the graph failed and cannot be used any more.
+            DetectorError: The graph failed and cannot be used any more.
         """
         frame = packet_creator.create_image_frame(np.ascontiguousarray(image), image_format=ImageFormat.SRGB)
         with self._input_lock:

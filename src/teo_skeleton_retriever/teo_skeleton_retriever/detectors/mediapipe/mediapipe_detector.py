@@ -31,13 +31,13 @@ class MediaPipeDetector:
     nothing: a person who is no longer where they were is looked for anew in the same image.
 
     Args:
-        min_detection_confidence: below which a first sight of a person does not count, in [0, 1]. MediaPipe's
+        min_detection_confidence: Below which a first sight of a person does not count, in [0, 1]. MediaPipe's
             own default.
-        min_tracking_confidence: below which a followed person counts as lost, in [0, 1]. MediaPipe's own
+        min_tracking_confidence: Below which a followed person counts as lost, in [0, 1]. MediaPipe's own
             default.
 
     Raises:
-        DetectorError: a confidence is outside its range.
+        DetectorError: A confidence is outside its range.
     """
 
     name = "mediapipe"

@@ -18,9 +18,10 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 POSE_LANDMARKS = 33
 HAND_LANDMARKS = 21
+# Without and with the irises.
 FACE_LANDMARKS = (468, 478)
-"""Without and with the irises."""
 
+# Small toes have no counterpart.
 BODY_25_FROM_POSE: dict[str, int] = {
     "Nose": 0,
     "RShoulder": 12,
@@ -44,13 +45,13 @@ BODY_25_FROM_POSE: dict[str, int] = {
     "RBigToe": 32,
     "RHeel": 30,
 }
-"""Small toes have no counterpart."""
+# Keypoints that MediaPipe does not give: mean of two, with the lower confidence.
 BODY_25_FROM_PAIRS: dict[str, tuple[str, str]] = {
     "Neck": ("RShoulder", "LShoulder"),
     "MidHip": ("RHip", "LHip"),
 }
-"""Keypoints that MediaPipe does not give: mean of two, with the lower confidence."""
 
+# Face mesh landmark of each of the 70, part by part; the pupils need the irises.
 FACE_70_FROM_MESH: dict[str, tuple[int, ...]] = {
     "Jaw": (127, 234, 93, 132, 58, 136, 150, 176, 152, 400, 379, 365, 288, 361, 323, 454, 356),
     "RBrow": (70, 63, 105, 66, 107),
@@ -64,7 +65,6 @@ FACE_70_FROM_MESH: dict[str, tuple[int, ...]] = {
     "RPupil": (468,),
     "LPupil": (473,),
 }
-"""Face mesh landmark of each of the 70, part by part; the pupils need the irises."""
 
 
 def person_from_holistic(
@@ -82,18 +82,18 @@ def person_from_holistic(
     """Bring one person's landmarks into OpenPose's order and into pixels.
 
     Args:
-        width: of the image [px].
-        height: of the image [px].
+        width: Of the image [px].
+        height: Of the image [px].
         pose: x, y in [0, 1] of width and height, visibility in [0, 1]. Shape (33, 3); None if not seen.
         left_hand: x, y likewise; the person's own left. Shape (21, 2).
-        right_hand: likewise.
-        face: likewise. Shape (468, 2) or (478, 2).
+        right_hand: Likewise.
+        face: Likewise. Shape (468, 2) or (478, 2).
         left_hand_confidence: MediaPipe gives a hand whole or not at all, with one figure for all landmarks.
-        right_hand_confidence: likewise.
-        face_confidence: likewise for the face.
+        right_hand_confidence: Likewise.
+        face_confidence: Likewise for the face.
 
     Raises:
-        KeypointError: a shape is another, or a number is not finite, or a visibility is outside [0, 1]
+        KeypointError: A shape is another, or a number is not finite, or a visibility is outside [0, 1]
             (MediaPipe's own test data holds logits).
     """
     size = np.array([width, height], dtype=np.float64)

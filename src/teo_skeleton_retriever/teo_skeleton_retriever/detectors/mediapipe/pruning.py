@@ -17,19 +17,19 @@ from teo_skeleton_retriever.errors import DetectorError
 
 
 def only_for(configuration: Any, streams: Iterable[str]) -> Any:
-    """Leave out all that none of some streams follows from.
+    """Drop nodes of a graph that do not feed some streams.
 
     A node costs some microseconds in each image also where it has nothing to do.
 
     Args:
-        configuration: a CalculatorGraphConfig without subgraphs.
-        streams: by name.
+        configuration: A CalculatorGraphConfig without subgraphs.
+        streams: By name.
 
     Returns:
         A new one, with the nodes in their order and without outputs: its streams are to be observed.
 
     Raises:
-        DetectorError: nothing gives one of the streams.
+        DetectorError: Nothing gives one of the streams.
     """
     wanted = set(streams)
     needed: set[int] = set()
@@ -65,22 +65,22 @@ def _names(*lists: Iterable[str]) -> set[str]:
     return {entry.rpartition(":")[2] for entries in lists for entry in entries}
 
 
+# What a TensorFlow Lite file begins with, after the place of its root.
 _IDENTIFIER = b"TFL3"
-"""What a TensorFlow Lite file begins with, after the place of its root."""
 
 
 def without_output(network: bytes, shape: tuple[int, ...]) -> bytes:
-    """Leave out one output of a network, and the layers that only it needs.
+    """Remove one output of a network and the layers that feed only it.
 
     Args:
-        network: content of a TensorFlow Lite file with one graph.
-        shape: of the output.
+        network: Content of a TensorFlow Lite file with one graph.
+        shape: Of the output.
 
     Returns:
         The same, with the other outputs in their order.
 
     Raises:
-        DetectorError: it is no such file, or not exactly one of its outputs has this shape.
+        DetectorError: It is no such file, or not exactly one of its outputs has this shape.
     """
     if network[4:8] != _IDENTIFIER:
         raise DetectorError(
@@ -102,7 +102,7 @@ def without_output(network: bytes, shape: tuple[int, ...]) -> bytes:
 
 
 def _needed(operators: list[Any], outputs: Collection[int]) -> list[Any]:
-    """Give those that outputs follow from, in their order, in which each comes after what it reads."""
+    """Operators that feed the outputs, in their order, in which each comes after those it reads from."""
     read = set(outputs)
     needed = []
     for operator in reversed(operators):

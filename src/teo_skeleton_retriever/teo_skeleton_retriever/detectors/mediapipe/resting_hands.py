@@ -1,4 +1,4 @@
-"""Hands that hang at rest, which the networks of hands need not look at in every image.
+"""Hands at rest, on which the hand networks need not run in every image.
 
 The network of a hand hardly ever finds one that hangs beside the thigh, and takes a quarter of the detector's
 time for it all the same. On takes whose hands do hang now and then no hand was found later, or elsewhere, for
@@ -21,8 +21,8 @@ _IN_VAIN = 3  # images without the hand before it is left alone
 _HANGING = 0.85  # least part of the forearm's length that points down: within 32 degrees of it
 _ABOVE_HIP = 0.02  # [image heights] that a wrist at rest may be above the hip
 
+# Elbow, wrist and hip among the pose's landmarks.
 _ARM = {"left_hand": (13, 15, 23), "right_hand": (14, 16, 24)}
-"""Elbow, wrist and hip among the pose's landmarks."""
 
 
 class RestingHands:
@@ -50,11 +50,11 @@ class RestingHands:
         """Take in what was seen in an image.
 
         Args:
-            pose: x and y in [0, 1] of width and height, first of the columns; None if nobody was seen.
+            pose: X and y in [0, 1] of width and height, first of the columns; None if nobody was seen.
                 Shape (33, k).
-            found: whether each of `HANDS` was.
-            width: of the image [px].
-            height: likewise.
+            found: Whether each of `HANDS` was.
+            width: Of the image [px].
+            height: Likewise.
         """
         with self._lock:
             for hand in HANDS:

@@ -1,1 +1,1 @@
-"""OpenPose's files of keypoints, as it writes them or beside a recording."""
+"""OpenPose's files of keypoints: read as it writes them, beside a recording, or all known already."""

@@ -16,8 +16,8 @@ from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
+# Pixels of the image; of the network's input; of the output; [0, 1]; [-1, 1].
 SOURCE, NET, OUTPUT, UNIT, SYMMETRIC = range(5)
-"""Pixels of the image; of the network's input; of the output; [0, 1]; [-1, 1]."""
 
 
 class KeypointScale:
@@ -25,11 +25,11 @@ class KeypointScale:
 
     Args:
         keypoint_scale: OpenPose's option of that name: 0 to 4.
-        resolution: width, height of the network's input for 1 (`--net_resolution`), of the output for 2
+        resolution: Width, height of the network's input for 1 (`--net_resolution`), of the output for 2
             (`--output_resolution`); the image was fitted into it.
 
     Raises:
-        DetectorError: no such scale, or a resolution is missing, superfluous or none.
+        DetectorError: No such scale, or a resolution is missing, superfluous or none.
     """
 
     def __init__(self, keypoint_scale: int, resolution: Sequence[int] | None) -> None:

@@ -18,10 +18,10 @@ from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.errors import KeypointError, OpenPoseFormatError
 from teo_skeleton_retriever.layouts.person_2d import UNKNOWN_ID, Person2D
 
+# The version that is written.
 VERSION = 1.3
-"""The version that is written."""
+# The versions that are read.
 VERSIONS = (0.1, 1.0, 1.1, 1.2, 1.3)
-"""The versions that are read."""
 
 
 class PartKeys(NamedTuple):
@@ -35,6 +35,7 @@ class PartKeys(NamedTuple):
     """numbers per keypoint"""
 
 
+# In the order in which OpenPose writes them.
 PARTS = (
     PartKeys("body", ("pose_keypoints_2d", "pose_keypoints", "body_parts"), 3),
     PartKeys("face", ("face_keypoints_2d", "face_keypoints"), 3),
@@ -45,7 +46,6 @@ PARTS = (
     PartKeys("left_hand_3d", ("hand_left_keypoints_3d",), 4),
     PartKeys("right_hand_3d", ("hand_right_keypoints_3d",), 4),
 )
-"""In the order in which OpenPose writes them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,10 +53,10 @@ class OpenPoseFrame:
     """All people of one image.
 
     Attributes:
-        people: in OpenPose's order, which says nothing about who is who in the next image.
-        part_candidates: body parts before they were assembled to people: x, y [px], score by body part index.
+        people: In OpenPose's order, which says nothing about who is who in the next image.
+        part_candidates: Body parts before they were assembled to people: x, y [px], score by body part index.
             Shape (n, 3) each; empty without `--part_candidates`.
-        version: of the file format.
+        version: Of the file format.
     """
 
     people: tuple[Person2D, ...]
@@ -64,15 +64,15 @@ class OpenPoseFrame:
     version: float = VERSION
 
 
+# A person is about 10 kB of text; nothing that OpenPose writes comes near this.
 MAX_FILE_BYTES = 64 * 1024 * 1024
-"""A person is about 10 kB of text; nothing that OpenPose writes comes near this."""
 
 
 def read_frame(path: Path) -> OpenPoseFrame:
     """Read one file.
 
     Raises:
-        OpenPoseFormatError: the file is missing, too large, no JSON or not OpenPose's; the sentence names it.
+        OpenPoseFormatError: The file is missing, too large, no JSON or not OpenPose's; the sentence names it.
     """
     try:
         size = path.stat().st_size
@@ -94,10 +94,10 @@ def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> OpenP
 
     Args:
         content: UTF-8 text, with or without a byte order mark.
-        source: what errors call it.
+        source: What errors call it.
 
     Raises:
-        OpenPoseFormatError: the code says what is wrong, the sentence where.
+        OpenPoseFormatError: The code says what is wrong, the sentence where.
     """
     try:
         text = content if isinstance(content, str) else content.decode("utf-8-sig")

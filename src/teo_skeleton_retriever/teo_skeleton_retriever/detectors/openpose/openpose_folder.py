@@ -11,25 +11,25 @@ from pathlib import Path
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, read_frame
 from teo_skeleton_retriever.errors import DetectorError, OpenPoseFormatError
 
+# The frame's number is what the name ends in: `000000000012_keypoints.json`, `video_12_keypoints.json`.
 _NAME = re.compile(r"(?:^|.*?)(\d+)_keypoints\.json")
-"""The frame's number is what the name ends in: `000000000012_keypoints.json`, `video_12_keypoints.json`."""
+# How a file looks that is still being written; nothing else of it can be right.
 _HALF_WRITTEN = frozenset({"not_json", "not_text"})
-"""How a file looks that is still being written; nothing else of it can be right."""
+# A folder's time of change is coarse (jiffies, or 10 ms on some file systems): one that changed just now may
+# change again without telling.
 _SETTLED_NS = 100_000_000
-"""A folder's time of change is coarse (jiffies, or 10 ms on some file systems): one that changed just now may
-change again without telling."""
+# Between two looks at the folder [s]; short beside the 0.2 s that OpenPose takes for an image.
 PERIOD = 0.01
-"""Between two looks at the folder [s]; short beside the 0.2 s that OpenPose takes for an image."""
 
 
 class OpenPoseFolder:
     """Finds files by frame number and reads them when they are whole.
 
     Args:
-        folder: what `--write_json` was given.
+        folder: What `--write_json` was given.
 
     Raises:
-        DetectorError: there is no such folder.
+        DetectorError: There is no such folder.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -43,7 +43,7 @@ class OpenPoseFolder:
         """Give the files by frame number, whole or not; looks only if the folder has changed.
 
         Raises:
-            DetectorError: the folder is gone or cannot be read, or a name carries no number.
+            DetectorError: The folder is gone or cannot be read, or a name carries no number.
         """
         try:
             changed_ns = self._folder.stat().st_mtime_ns
@@ -63,7 +63,7 @@ class OpenPoseFolder:
         """Read a file; None if it is not whole yet.
 
         Raises:
-            DetectorError: it is whole and not OpenPose's.
+            DetectorError: It is whole and not OpenPose's.
         """
         try:
             return read_frame(path)

@@ -33,16 +33,16 @@ class OpenPoseJsonDetector:
     A frame that OpenPose left out is one without people; `missing` counts them.
 
     Args:
-        folder: what OpenPose's `--write_json` was given.
+        folder: What OpenPose's `--write_json` was given.
         pairing: `order`, `stamp` or `newest`. Default: `stamp` if there are stamps, else `order`.
-        stamps: the table for `stamp`; see `StampTable`.
-        wait: how long a file is waited for that is not there, or not whole, yet [s]. OpenPose takes about
+        stamps: The table for `stamp`; see `StampTable`.
+        wait: How long a file is waited for that is not there, or not whole, yet [s]. OpenPose takes about
             0.2 s for an image on a good GPU.
-        keypoint_scale: what OpenPose was given; see `KeypointScale`.
-        resolution: likewise.
+        keypoint_scale: What OpenPose was given; see `KeypointScale`.
+        resolution: Likewise.
 
     Raises:
-        DetectorError: no such folder, or options that do not go together.
+        DetectorError: No such folder, or options that do not go together.
     """
 
     name = "openpose_json"
@@ -81,7 +81,7 @@ class OpenPoseJsonDetector:
         """Give the people of the image; see `Detector.detect`.
 
         Raises:
-            DetectorError: a file did not come or was not whole in time, or is not OpenPose's. The next image
+            DetectorError: A file did not come or was not whole in time, or is not OpenPose's. The next image
                 is paired with its own file all the same.
         """
         if self._closed:

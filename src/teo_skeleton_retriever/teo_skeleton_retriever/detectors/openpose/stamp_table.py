@@ -10,19 +10,19 @@ from pathlib import Path
 
 from teo_skeleton_retriever.errors import DetectorError
 
+# How far a stamp may be off [s]: half the time between two images of a usual camera.
 NEAR = 1.0 / 60.0
-"""How far a stamp may be off [s]: half the time between two images of a usual camera."""
 
 
 class StampTable:
     """Frame numbers by time.
 
     Args:
-        stamps: the time of each frame [s] by its number, or a text file of `number,stamp` lines, with or
+        stamps: The time of each frame [s] by its number, or a text file of `number,stamp` lines, with or
             without a headline.
 
     Raises:
-        DetectorError: the file cannot be read, or something in it is no number or no time.
+        DetectorError: The file cannot be read, or something in it is no number or no time.
     """
 
     def __init__(self, stamps: Mapping[int, float] | Mapping[str, float] | str | Path) -> None:

@@ -1,1 +1,1 @@
-"""OpenPose's method, part affinity fields, with a network that the user brings."""
+"""OpenPose's method, part affinity fields, with a network that the user brings as an ONNX file."""

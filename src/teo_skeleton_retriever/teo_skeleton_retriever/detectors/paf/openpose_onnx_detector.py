@@ -22,12 +22,12 @@ from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
+# OpenPose's networks take sizes that are multiples of this.
 MULTIPLE = 16
-"""OpenPose's networks take sizes that are multiples of this."""
+# To 1: beyond, a free side would ask for more memory than there may be.
 WIDEST = 8
-"""To 1: beyond, a free side would ask for more memory than there may be."""
+# A side of the net resolution that follows from the other and from the image's shape.
 FREE = -1
-"""A side of the net resolution that follows from the other and from the image's shape."""
 
 
 class OpenPoseOnnxDetector:
@@ -37,13 +37,13 @@ class OpenPoseOnnxDetector:
     (TPAMI 2021). Not for two threads at once.
 
     Args:
-        model: the ONNX file; OpenPose's own weights may not be used commercially.
-        net_resolution: width, height [px] that the image is fitted into for the network, multiples of 16; -1
+        model: The ONNX file; OpenPose's own weights may not be used commercially.
+        net_resolution: Width, height [px] that the image is fitted into for the network, multiples of 16; -1
             for a side that is to follow from the image's shape. OpenPose's default.
-        maximize_positives: rather see somebody who is not there than miss somebody; as in OpenPose.
+        maximize_positives: Rather see somebody who is not there than miss somebody; as in OpenPose.
 
     Raises:
-        DetectorError: no or no fitting network, or a resolution that is none.
+        DetectorError: No or no fitting network, or a resolution that is none.
     """
 
     name = "openpose_onnx"

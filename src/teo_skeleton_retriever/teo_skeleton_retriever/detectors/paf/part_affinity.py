@@ -16,7 +16,7 @@ from teo_skeleton_retriever.detectors.paf.pose_network import IntArray, MapArray
 
 
 class PafThresholds(NamedTuple):
-    """How much is believed."""
+    """Thresholds from which on parts, limbs and people count."""
 
     peak: float = 0.05
     """confidence above which a maximum is a part"""
@@ -30,14 +30,14 @@ class PafThresholds(NamedTuple):
     """mean score of a person's parts, limbs counted in, at least"""
 
 
+# Few people who are not there.
 CAREFUL = PafThresholds()
-"""Few people who are not there."""
+# Few people missed: OpenPose's `--maximize_positives`.
 GENEROUS = PafThresholds(peak=0.02, along_limb=0.01, agreeing=0.75, parts=2, score=0.05)
-"""Few people missed: OpenPose's `--maximize_positives`."""
 
 
+# OpenPose's limit of people; of noise, only the strongest maxima are looked at.
 MOST_PER_PART = 127
-"""OpenPose's limit of people; of noise, only the strongest maxima are looked at."""
 
 
 class Peaks(NamedTuple):
@@ -58,9 +58,9 @@ def find_peaks(maps: MapArray, size: tuple[int, int], threshold: float) -> Peaks
     cell off; the place between pixels is the top of the parabola through the maximum and its neighbours.
 
     Args:
-        maps: one map for each part. Shape (parts, rows, columns).
-        size: width, height of the network's input [px].
-        threshold: what a maximum must exceed.
+        maps: One map for each part. Shape (parts, rows, columns).
+        size: Width, height of the network's input [px].
+        threshold: What a maximum must exceed.
     """
     parts, positions, scores = [], [], []
     for part, coarse in enumerate(maps):
@@ -109,13 +109,13 @@ def _top(before: FloatArray, middle: FloatArray, after: FloatArray) -> FloatArra
     return slope / np.where(usable, 2.0 * curvature, 1.0)
 
 
+# Places looked at along a limb.
 FEWEST, MOST = 5, 25
-"""Places looked at along a limb."""
+# Of the square root of the area: parts so close together may be joined though the field between them is too
+# coarse to say so (an ear behind a shoulder).
 SHORT = 1.0 / 150.0
-"""Of the square root of the area: parts so close together may be joined though the field between them is too
-coarse to say so (an ear behind a shoulder)."""
+# Candidates looked at together: some 10 MB, and no more whatever the network gives.
 AT_ONCE = 4096
-"""Candidates looked at together: some 10 MB, and no more whatever the network gives."""
 
 
 class Limbs(NamedTuple):
@@ -132,14 +132,14 @@ class Limbs(NamedTuple):
 def find_limbs(
     peaks: Peaks, fields: MapArray, size: tuple[int, int], model: PafModel, thresholds: PafThresholds
 ) -> Limbs:
-    """Join peaks, each with all that its fields allow.
+    """Find all limbs between peaks that the fields support.
 
     Args:
-        peaks: in pixels of the network's input.
-        fields: of all limbs. Shape (channels, rows, columns).
-        size: width, height of the network's input [px].
-        model: which fields lead from which part to which.
-        thresholds: when a limb counts.
+        peaks: In pixels of the network's input.
+        fields: Of all limbs. Shape (channels, rows, columns).
+        size: Width, height of the network's input [px].
+        model: Which fields lead from which part to which.
+        thresholds: When a limb counts.
     """
     of_part = [np.flatnonzero(peaks.part == part) for part in range(len(model.layout))]
     pairs = [
@@ -206,10 +206,10 @@ def _sample(fields: MapArray, channels: IntArray, places: FloatArray, size: tupl
     return mean
 
 
+# How much the confidence of its two parts counts beside a limb's own score when limbs are ranked.
 PEAK_SHARE = 0.1
-"""How much the confidence of its two parts counts beside a limb's own score when limbs are ranked."""
+# Other parts that somebody with feet must have: feet alone are often shoes, or reflections.
 FEWEST_BESIDE_FEET = 5
-"""Other parts that somebody with feet must have: feet alone are often shoes, or reflections."""
 
 
 @dataclass

@@ -28,9 +28,9 @@ class PafModel:
     """A network's output: a confidence map for each part and one of the background, then limb fields.
 
     Attributes:
-        layout: the parts, in the order of their maps.
-        limbs: the two parts that each limb's field leads from and to. Shape (limbs, 2).
-        fields: for each limb the channels of its field's x and y, counted among the fields. Shape (limbs, 2).
+        layout: The parts, in the order of their maps.
+        limbs: The two parts that each limb's field leads from and to. Shape (limbs, 2).
+        fields: For each limb the channels of its field's x and y, counted among the fields. Shape (limbs, 2).
     """
 
     layout: Layout
@@ -94,10 +94,10 @@ class PoseNetwork:
     of a model and the last with as many as its fields count.
 
     Args:
-        path: of the ONNX file.
+        path: Of the ONNX file.
 
     Raises:
-        DetectorError: there is no such file, or OpenCV cannot read it.
+        DetectorError: There is no such file, or OpenCV cannot read it.
     """
 
     def __init__(self, path: Path) -> None:
@@ -119,7 +119,7 @@ class PoseNetwork:
             image: RGB, in the size that the network is to see. Shape (height, width, 3).
 
         Raises:
-            DetectorError: the network does not take an image of this size, or gives something else.
+            DetectorError: The network does not take an image of this size, or gives something else.
         """
         blob = cv2.dnn.blobFromImage(image, 1.0 / 256.0, mean=(128.0, 128.0, 128.0), swapRB=True)
         try:

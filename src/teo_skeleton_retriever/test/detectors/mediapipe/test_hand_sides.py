@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.detectors.mediapipe.hand_sides import own_hands
-from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
-from teo_synthetic_signer import render_take
+from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticLandmarks
 
 HAND = np.zeros((21, 3))
 
@@ -44,12 +43,3 @@ def test_a_hand_that_looks_like_the_other_one_is_not_the_persons(
 
 def test_a_single_hand_is_kept_whatever_it_looks_like() -> None:
     assert own_hands(landmarks(0.1, None)) == (True, False)
-
-
-def test_the_hands_of_a_rendered_person_are_told_apart() -> None:
-    graph = HolisticGraph(min_detection_confidence=0.5, min_tracking_confidence=0.5, lite_hands=False)
-    frame = next(render_take(script="crossing", body="woman_average", distance=1.5, frames=range(50, 51)))
-    found = graph.process(frame.color)
-    graph.close()
-    assert found.left_hand is not None and found.right_hand is not None
-    assert min(found.left_hand_side, found.right_hand_side) > 0.7

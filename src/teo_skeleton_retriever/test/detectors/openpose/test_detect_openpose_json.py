@@ -15,7 +15,7 @@ from openpose_writer import format_frame, frame_path, write_frame
 from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointScale
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
 from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
-from teo_skeleton_retriever.detectors.replay_detector import ReplayDetector
+from teo_skeleton_retriever.detectors.openpose.replay_detector import ReplayDetector
 from teo_skeleton_retriever.errors import DetectorError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D

@@ -4,8 +4,9 @@ import math
 
 import pytest
 
+from teo_common.diagnostics import Level
 from teo_skeleton_retriever.errors import DepthError
-from teo_skeleton_retriever.node.retriever_health import Level, Problem, assess
+from teo_skeleton_retriever.node.health import Problem, assess
 from teo_skeleton_retriever.node.stream_stats import Result, StreamStats
 
 TOPICS = {"color": "/c", "depth": "/d", "camera_info": "/i"}

@@ -75,3 +75,11 @@ def test_a_face_that_comes_back_is_found_again(images: Images) -> None:
     without_head[:200] = 0
     faces = [seen.face for seen in seen_by_ours([images[0], without_head, without_head, images[0]])]
     assert [face is not None for face in faces] == [True, False, False, True]
+
+
+def test_left_and_right_hands_are_told_apart(images: Images) -> None:
+    graph = HolisticGraph(min_detection_confidence=0.5, min_tracking_confidence=0.5, lite_hands=False)
+    found = graph.process(images[0])
+    graph.close()
+    assert found.left_hand is not None and found.right_hand is not None
+    assert min(found.left_hand_side, found.right_hand_side) > 0.7

@@ -1,23 +1,15 @@
-"""What the node says about itself."""
+"""How the node fares, judged by its streams and the problems of images."""
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import NamedTuple
 
+from teo_common.diagnostics import Diagnosis, Level
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.node.stream_stats import Percentiles, StreamReport
 
 _SILENCE = 2.0  # [s] without a message, after which a topic counts as silent: many images of any camera
 _SLOW = 0.9  # a tenth fewer results than images: beyond the jitter of a busy machine
-
-
-class Level(IntEnum):
-    """Levels of diagnostic_msgs/DiagnosticStatus."""
-
-    OK = 0
-    WARN = 1
-    ERROR = 2
 
 
 class Problem(NamedTuple):
@@ -34,21 +26,13 @@ class Problem(NamedTuple):
         return cls("internal", f"fault in the node: {type(error).__name__}: {error}")
 
 
-class Health(NamedTuple):
-    """One line for people, and the values."""
-
-    level: Level
-    message: str
-    values: dict[str, str]
-
-
-def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None) -> Health:
+def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None) -> Diagnosis:
     """Judge how the node fares.
 
     Args:
-        report: of the streams.
-        topics: name of the topic of each stream that must come.
-        problem: of an image since the last time, None if there was none.
+        report: Of the streams.
+        topics: Name of the topic of each stream that must come.
+        problem: Of an image since the last time, None if there was none.
     """
     level, message = Level.OK, f"{report.rates['results']:.1f} images per second"
     silent = [topic for stream, topic in topics.items() if report.silent[stream] > _SILENCE]
@@ -65,7 +49,7 @@ def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None
             f"{report.rates['results']:.1f} of {report.rates['color']:.1f} images per second: "
             "too slow, or depth does not match"
         )
-    return Health(level, message, _values(report))
+    return Diagnosis(level, message, _values(report))
 
 
 def _values(report: StreamReport) -> dict[str, str]:

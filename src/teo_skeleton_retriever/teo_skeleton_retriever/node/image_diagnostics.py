@@ -5,29 +5,28 @@ from __future__ import annotations
 import time
 from typing import Any
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-
-from teo_skeleton_retriever.node.retriever_health import Level, Problem, assess
+from teo_common.diagnostics import Diagnosis, DiagnosticsPublisher, Level
+from teo_skeleton_retriever.node.health import Problem, assess
 from teo_skeleton_retriever.node.stream_stats import StreamStats
 
 _SAY_AGAIN = 5.0  # [s] after which a problem that goes on is logged again
 
 
-class DiagnosticsPublisher:
+class ImageDiagnostics:
     """Publishes the state when asked, and at once when a problem is new. May be used by several threads."""
 
     def __init__(self, node: Any, stats: StreamStats, topics: dict[str, str]) -> None:
         """Create the publisher.
 
         Args:
-            node: to publish and to log with.
-            stats: of its streams.
-            topics: name of the topic of each stream that must come.
+            node: To publish and to log with.
+            stats: Of its streams.
+            topics: Name of the topic of each stream that must come.
         """
         self._node = node
         self._stats = stats
         self._topics = topics
-        self._publisher = node.create_publisher(DiagnosticArray, "diagnostics", 10)
+        self._publisher = DiagnosticsPublisher(node, "images")
         self._problem: Problem | None = None
         self._said: dict[str, float] = {}
 
@@ -35,8 +34,8 @@ class DiagnosticsPublisher:
         """Note a problem for the next diagnostics; tell it at once unless it was told just now.
 
         Args:
-            problem: why an image was left out.
-            details: for the log, which make it an error.
+            problem: Why an image was left out.
+            details: For the log, which make it an error.
         """
         self._problem = problem
         now = time.monotonic()
@@ -53,20 +52,11 @@ class DiagnosticsPublisher:
     def publish(self) -> None:
         """Publish the state, with the problem that there was since the last time."""
         problem, self._problem = self._problem, None
-        message, level = self._publish(problem)
-        if level is not Level.OK and problem is None:
-            self._node.get_logger().warning(message, throttle_duration_sec=_SAY_AGAIN)
+        diagnosis = self._publish(problem)
+        if diagnosis.level is not Level.OK and problem is None:
+            self._node.get_logger().warning(diagnosis.message, throttle_duration_sec=_SAY_AGAIN)
 
-    def _publish(self, problem: Problem | None) -> tuple[str, Level]:
-        health = assess(self._stats.report(time.monotonic()), self._topics, problem)
-        status = DiagnosticStatus(
-            level=bytes([health.level]),
-            name=f"{self._node.get_name()}: images",
-            message=health.message,
-            hardware_id="none",
-            values=[KeyValue(key=key, value=value) for key, value in health.values.items()],
-        )
-        array = DiagnosticArray(status=[status])
-        array.header.stamp = self._node.get_clock().now().to_msg()
-        self._publisher.publish(array)
-        return health.message, health.level
+    def _publish(self, problem: Problem | None) -> Diagnosis:
+        diagnosis = assess(self._stats.report(time.monotonic()), self._topics, problem)
+        self._publisher.publish(diagnosis)
+        return diagnosis

@@ -18,13 +18,13 @@ class ReplayDetector:
     """Gives what is known for the time of an image; nobody where nothing is known.
 
     Args:
-        frames: the time [s] and the people of each image, in any order.
-        folder: instead, a folder of OpenPose's files that is written already.
-        stamps: the time of each file's number; see `StampTable`. Without it, the images are those of the
+        frames: The time [s] and the people of each image, in any order.
+        folder: Instead, a folder of OpenPose's files that is written already.
+        stamps: The time of each file's number; see `StampTable`. Without it, the images are those of the
             files in their order.
 
     Raises:
-        DetectorError: neither frames nor folder, or both, or what `OpenPoseJsonDetector` raises.
+        DetectorError: Neither frames nor folder, or both, or what `OpenPoseJsonDetector` raises.
     """
 
     name = "replay"
