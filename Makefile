@@ -1,32 +1,34 @@
-# make setup | run | demo TEXT="..." | test | lint | bench
+# make setup | run | demo TEXT="..." | test | lint | bench | docs
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
 ENV := . ./env.sh &&
 
-.PHONY: help setup run demo test lint bench
+.PHONY: help setup setup-run run demo test lint bench docs
 
 help: ## what can be made
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 10
 
 setup: ## install what is missing and build the workspace
-	@PYTHON="$(PYTHON)" scripts/setup.sh
+	@PYTHON="$(PYTHON)" scripts/setup.sh all
 
-demo: setup ## sign TEXT="...": leaves the bag, a video and a film strip in out/
+setup-run: # what signs, without what sees, trains and tests
+	@PYTHON="$(PYTHON)" scripts/setup.sh run
+
+demo: setup-run ## sign TEXT="...": leaves the bag, a video and a film strip in out/
 	@$(ENV) python scripts/demo.py "$$TEXT"
 
-run: setup ## start translator, executor and driver, until Ctrl-C
-	@$(ENV) trap 'kill 0' EXIT; \
-	    ros2 run teo_sign_translator translator_node & \
-	    ros2 run teo_lut_executor executor_node & \
-	    ros2 run teo_sim_driver driver_node & \
-	    wait -n
+run: setup-run ## start translator, executor and driver, until Ctrl-C
+	@$(ENV) exec ros2 run teo_bringup start
 
 test: setup ## all tests
 	@$(ENV) python -m pytest
 
 lint: setup ## style, types
 	@$(ENV) scripts/lint.sh
+
+docs: setup ## the pages of docs/ and of the API, in out/docs/
+	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
 
 bench: setup ## the figures of the README
 	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PYTHONPATH" python bench/run.py

@@ -17,7 +17,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import rclpy
-from graph import Graph
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -28,6 +27,7 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import ExecutorStatus
 from trajectory_msgs.msg import JointTrajectory
 
+from teo_bringup.graph import Graph
 from teo_description import ALL_JOINTS, HOME
 
 SENTENCES = 200

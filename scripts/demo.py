@@ -19,7 +19,6 @@ import numpy as np
 import rclpy
 import typer
 from film import FRAMES_PER_SECOND, LiveFilm
-from graph import Graph, GraphError
 from progress import Progress
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -30,6 +29,7 @@ from rich.table import Table
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 
+from teo_bringup.graph import Graph, GraphError
 from teo_description.pictures.rendering import CAMERAS, film_strip, render_pose, save_png
 
 RECORDED = (

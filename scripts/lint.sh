@@ -1,11 +1,23 @@
 #!/usr/bin/env bash
-# Style and types of the whole workspace.
+# Style, types, package graph and licence lines of the whole workspace; `lint.sh types` checks types alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+check_types() {
+    local package name
+    for package in src/*/; do
+        name="$(basename "$package")"
+        if [ -d "$package$name" ]; then mypy "$package$name"; fi
+    done
+    mypy scripts bench
+}
+
+if [ "${1:-}" = types ]; then
+    check_types
+    exit
+fi
 ruff check .
 ruff format --check .
-for package in src/*/; do
-    name="$(basename "$package")"
-    if [ -d "$package$name" ]; then mypy "$package$name"; fi
-done
-mypy scripts bench
+check_types
+lint-imports --no-logo
+python scripts/spdx.py --check

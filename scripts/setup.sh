@@ -1,8 +1,17 @@
 #!/usr/bin/env bash
 # Makes the workspace ready: a virtual environment in .venv and the packages built into install/.
+#   scripts/setup.sh run   what signs, and the demo
+#   scripts/setup.sh all   that, and what sees, trains, tests and documents
 # Does only what is missing; a second call takes well under a second.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+level="${1:-all}"
+case "$level" in
+    run) stamp=.ready-run ;;
+    all) stamp=.ready ;;
+    *) echo "setup: expected 'run' or 'all', got '$level'" >&2 && exit 2 ;;
+esac
 
 # The Python asked for, else the one that .venv was made with, else the system's.
 python="${PYTHON:-$(readlink -e .venv/bin/python || echo python3)}"
@@ -43,11 +52,16 @@ repair_wheel_exports() {
         -e "s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$python_include#g"
 }
 
+# One stamp for each level: everything holds what signs as well.
+is_ready() { # FOLDER WANT
+    [ "$(cat "$1/.ready" 2>/dev/null)" = "$2" ] || [ "$(cat "$1/$stamp" 2>/dev/null)" = "$2" ]
+}
+
 install_requirements() {
     local made_for want options=()
     made_for="$PWD $("$python" --version) $ros"
     want="$made_for $(cat requirements/*.txt scripts/setup.sh | sha256sum | cut -d' ' -f1)"
-    [ "$(cat .venv/.ready 2>/dev/null)" = "$want" ] && return
+    is_ready .venv "$want" && return
     check_tools
     if [ "$(cat .venv/.made-for 2>/dev/null)" != "$made_for" ]; then # paths and versions are all over an environment
         rm -rf .venv build install log
@@ -55,19 +69,49 @@ install_requirements() {
         "$python" -m venv "${options[@]}" .venv
         echo "$made_for" >.venv/.made-for
     fi
-    options=(-r requirements/build.txt -r requirements/run.txt -r requirements/train.txt -r requirements/capture.txt
-        -r requirements/retriever.txt -r requirements/test.txt)
+    # Python compiles a module when it first loads it: most of what is installed is never loaded.
+    local pip=(.venv/bin/python -m pip install --disable-pip-version-check --quiet --no-compile)
+    local building=(-r requirements/build.txt)
     # A sourced ROS 2 Jazzy is built against NumPy 1; its messages do not load beside NumPy 2.
-    if [ "$ros" = sourced ]; then options+=('numpy<2'); else options+=(-r requirements/ros.txt -c requirements/constraints.txt); fi
-    echo "setup: installing Python packages (a few minutes and 3 GB the first time)"
-    .venv/bin/pip install --disable-pip-version-check --quiet "${options[@]}"
-    .venv/bin/pip install --disable-pip-version-check --quiet --no-deps -r requirements/retriever-alone.txt
+    if [ "$ros" = sourced ]; then
+        options=('numpy<2')
+    else
+        options=(-c requirements/constraints.txt)
+        building+=(-r requirements/ros.txt numpy)
+    fi
+    if [ "$level" = run ]; then
+        echo "setup: installing what signs and building it (about a minute and 1.2 GB the first time)"
+    else
+        echo "setup: installing Python packages (a few minutes and 3 GB the first time)"
+    fi
+    "${pip[@]}" "${building[@]}" "${options[@]}"
     repair_wheel_exports
-    echo "$want" >.venv/.ready
+    # The messages take longest to build and need nothing more: they are built while the rest is fetched.
+    build --packages-select teo_sign_msgs &
+    options+=(-r requirements/run.txt)
+    if [ "$level" = all ]; then
+        options+=(-r requirements/train.txt -r requirements/retriever.txt -r requirements/capture.txt -r requirements/test.txt
+            -r requirements/docs.txt)
+        "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
+    fi
+    "${pip[@]}" "${options[@]}"
+    wait $!
+    echo "$want" >".venv/$stamp"
+}
+
+build() { # OPTION...: builds what colcon's options select
+    if [ "$ros" = wheels ]; then
+        local -x AMENT_PREFIX_PATH="$PWD/.venv" CMAKE_PREFIX_PATH="$PWD/.venv"
+        local -x LD_LIBRARY_PATH="$PWD/.venv/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
+    fi
+    local -x PATH="$PWD/.venv/bin:$PATH"
+    .venv/bin/python .venv/bin/colcon --log-level error build --merge-install --symlink-install "$@" \
+        --event-handlers console_direct- console_start_end- parallel_status- summary- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" ||
+        fail "the build failed; its log is in log/latest_build"
 }
 
 build_workspace() {
-    local want
+    local want selection=()
     # Python files are linked, not copied: only a new or renamed file, or one that is generated from, needs a build.
     want="$(
         {
@@ -76,18 +120,13 @@ build_workspace() {
                 -o -name package.xml -o -name 'setup.*' \) -print0 | sort -z | xargs -0 cat
         } | sha256sum | cut -d' ' -f1
     )"
-    [ "$(cat install/.ready 2>/dev/null)" = "$want" ] && return
-    if [ "$ros" = wheels ]; then
-        export AMENT_PREFIX_PATH="$PWD/.venv" CMAKE_PREFIX_PATH="$PWD/.venv"
-        export LD_LIBRARY_PATH="$PWD/.venv/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
-    fi
-    echo "setup: building the workspace (about half a minute the first time)"
+    is_ready install "$want" && return
+    if [ "$level" = run ]; then selection=(--packages-up-to teo_bringup teo_ros2cli); fi
+    echo "setup: building the workspace"
     # Links to files that are gone would stop the build.
     { find build install -xtype l -delete 2>/dev/null || true; }
-    PATH="$PWD/.venv/bin:$PATH" .venv/bin/colcon --log-level error build --merge-install --symlink-install \
-        --event-handlers console_direct- console_start_end- status- summary- --cmake-args -DPython3_EXECUTABLE="$PWD/.venv/bin/python" ||
-        fail "the build failed; its log is in log/latest_build"
-    echo "$want" >install/.ready
+    build "${selection[@]}"
+    echo "$want" >"install/$stamp"
 }
 
 ros=wheels

@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rclpy
-from graph import Graph
 from progress import Progress
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -20,6 +19,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
 
+from teo_bringup.graph import Graph
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, joint_limits
 
 START_TIMEOUT = 60.0  # [s] for all processes to be there, on a loaded machine

@@ -6,21 +6,24 @@ PACKAGE = "teo_description"
 
 setup(
     name=PACKAGE,
-    version="0.1.0",
+    version="0.2.0",
     packages=find_packages(exclude=["test"]),
-    package_data={PACKAGE: ["py.typed", "data/*.csv"]},
+    package_data={PACKAGE: ["py.typed", "data/*.csv", "pictures/fonts/*"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/urdf", sorted(map(str, Path("urdf").glob("*.urdf")))),
     ],
-    install_requires=["numpy", "pin", "rich", "typer"],
+    install_requires=["setuptools", "numpy", "pin"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
     description="TEO's URDF, joint groups, limits, self-collision and a renderer without a display.",
     license="Apache-2.0",
-    extras_require={"pictures": ["av", "matplotlib", "opencv-python-headless", "pillow"], "test": ["pytest"]},
+    extras_require={
+        "pictures": ["av", "opencv-python-headless", "pillow", "rich", "typer"],
+        "test": ["pytest"],
+    },
     entry_points={
         "console_scripts": [
             "render = teo_description.pictures.render_cli:main",

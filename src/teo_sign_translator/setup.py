@@ -6,7 +6,7 @@ PACKAGE = "teo_sign_translator"
 
 setup(
     name=PACKAGE,
-    version="0.1.0",
+    version="0.2.0",
     packages=find_packages(exclude=["test", "test.*"]),
     package_data={PACKAGE: ["py.typed"]},
     data_files=[
@@ -21,7 +21,7 @@ setup(
             for folder in (Path("data"), *sorted(path for path in Path("data").iterdir() if path.is_dir()))
         ),
     ],
-    install_requires=["setuptools", "numpy", "rich", "safetensors", "threadpoolctl", "typer"],
+    install_requires=["setuptools", "numpy", "PyYAML", "rich", "safetensors", "threadpoolctl", "typer"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

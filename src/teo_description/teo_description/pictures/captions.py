@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 from PIL import Image as PilImage
 from PIL import ImageDraw, ImageFont
@@ -14,6 +13,8 @@ from teo_description.pictures.renderer import Image
 
 _INK, _BAND = (25, 30, 40), (255, 255, 255)
 _BAND_OPACITY = 0.82
+# Our own copy (see NOTICE), so that accents look the same on a machine without any fonts.
+_FONT = Path(__file__).parent / "fonts" / "DejaVuSans.ttf"
 
 
 def captioned(image: Image, caption: str) -> Image:
@@ -60,7 +61,4 @@ def _band(caption: str, width: int, height: int) -> Image:
 
 @lru_cache(maxsize=64)
 def _font(size: int) -> ImageFont.FreeTypeFont:
-    # matplotlib ships this font, so accents look the same on a machine without any fonts.
-    return ImageFont.truetype(
-        str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf"), size
-    )
+    return ImageFont.truetype(str(_FONT), size)

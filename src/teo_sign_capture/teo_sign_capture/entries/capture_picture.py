@@ -19,7 +19,7 @@ from teo_signs.pictures import FRAME_RATE, FRONT, pose_at
 Array = NDArray[np.float64]
 
 _MOMENTS = 7
-# [px] Of each picture: seven beside each other are as wide as a screen.
+# [px] Width and height of each picture: seven beside each other are as wide as a screen.
 _SIZE = (320, 240)
 # [px/m] The drawn person fills the height from hands that hang to hands above the head.
 _SCALE = 0.8 * _SIZE[1]

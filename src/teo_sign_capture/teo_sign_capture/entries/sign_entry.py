@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 # [m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
 # apart.
 _SAID_OUT_OF_REACH = 0.12
-# [%] Of the frames, so that a single one decides nothing.
+# [%] Percentile over the frames that errors are given at, so that a single one decides nothing.
 _SHARE = 95.0
 
 

@@ -21,13 +21,13 @@ Array = NDArray[np.float64]
 # [m] A hand that is farther than this from where it belongs is at another part of the body: from the crown to
 # the shoulder.
 MOST_OUT_OF_REACH = 0.30
-# [s] Of the recording around a cut, from which keypoints that are lost at its edges are filled in.
+# [s] Length of the recording before and after a cut from which keypoints lost at its edges are filled in.
 _CONTEXT = 1.0
-# [%] Of the frames, so that a single one decides nothing.
+# [%] Percentile over the frames that is checked, so that a single one decides nothing.
 _SHARE = 95.0
-# Share of a hand's keypoints of which its shape is known.
+# Share of a hand's keypoints that must be seen for its shape to be known.
 _SEEN = 0.5
-# [s] Of sums of times and of stamps; frames are a hundred times as far apart.
+# [s] Rounding of sums of times and of stamps; frames are a hundred times as far apart.
 _ROUNDING = 1e-4
 _HANDS = {"right": ("right_hand",), "left": ("left_hand",), "both": ("right_hand", "left_hand")}
 

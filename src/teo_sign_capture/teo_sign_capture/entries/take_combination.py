@@ -34,7 +34,7 @@ _ALIKE = 1.0
 _AGREE = np.radians(15.0)
 # The mean of two is half of a mistake.
 _LEAST_AVERAGED = 3
-# [%] Of the differences between takes, so that one image does not decide.
+# [%] Percentile of the differences between takes, so that one image does not decide.
 _SPREAD = 95.0
 
 

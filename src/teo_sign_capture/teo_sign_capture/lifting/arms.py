@@ -58,9 +58,10 @@ _SPEED = 1.5
 _JITTER = 0.02
 # [m/s^2] Deviation of a signing wrist's acceleration: 1 Hz over 0.4 m has 8, shakes have 30.
 _ACCELERATION = 15.0
-# [m] Of a point across the view, of one that the detector is sure of and of one that it guesses.
+# [m] Standard deviation of a point across the view: of one that the detector is sure of, of one that it
+# guesses.
 _POINT_SIGMA = (0.008, 0.05)
-# Share of a limb's length by which it is off, measured and by proportion.
+# Standard deviation of a limb's length as a share of it: measured, and by proportion.
 _LENGTH_SIGMA = (0.07, 0.12)
 
 

@@ -12,9 +12,9 @@ from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST
 
 Array = NDArray[np.float64]
 
-# [m] Of an adult, between the centres of the joints. After Drillis and Contini, "Body Segment Parameters"
-# (1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of shoulders, to which
-# and from which detectors measure, are some 4 cm further in and down.
+# [m] Lengths of an adult's limbs, between the centres of the joints. After Drillis and Contini, "Body Segment
+# Parameters" (1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of
+# shoulders, to which and from which detectors measure, are some 4 cm further in and down.
 SHOULDERS, UPPER_ARM, FOREARM = 0.36, 0.28, 0.24
 
 # A person turns, and a limb points at the camera: the length is what few frames exceed.

@@ -34,9 +34,9 @@ Array = NDArray[np.float64]
 # `Keypoint3D.STATUS_*`: seen, its depth follows from limb lengths; or not known.
 _OPTIMISED, _LOST = 3, 0
 _SIDES = ("right", "left")
-# [m] Of shoulders and hips along the view: of a trunk that is turned by 15 deg.
+# [m] Standard deviation of shoulders and hips along the view: that of a trunk that is turned by 15 deg.
 _TRUNK_SIGMA = 0.04
-# [m] Of a point of the body across the view.
+# [m] Standard deviation of a point of the body across the view.
 _ACROSS_SIGMA = 0.01
 
 

@@ -27,10 +27,10 @@ BONES = tuple(
     for bone in range(4)
 )
 
-# [m] Of an adult. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand Segments", Int. J.
-# Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and of 27 mm of carpal
-# bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in the clips of
-# `letter_clips`.
+# [m] Lengths of an adult's bones. Metacarpals and phalanges: Buryanov and Kotiuk, "Proportions of Hand
+# Segments", Int. J. Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and
+# of 27 mm of carpal bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in
+# the clips of `letter_clips`.
 BONE_LENGTHS = 1e-3 * np.array(
     [
         *(36.0, 46.2, 31.6, 21.7),
@@ -45,7 +45,8 @@ BONE_LENGTHS = 1e-3 * np.array(
 _PERCENTILE = 90.0
 # Hands are within these shares of an adult's that suits the body; what is outside was found wrong.
 _SIZE = (0.75, 1.35)
-# Of a bone of that size: never seen at full length below, found wrong above.
+# Measured length of a bone as a share of the usual one: below the first it was never seen at full length,
+# above the second it was found wrong.
 _LEAST_SHARE, _GREATEST_SHARE = 0.85, 1.25
 # Units of the clip for a unit of its depth: pixels for pixels have 1, pixels for widths of the picture some
 # hundreds.
@@ -64,7 +65,7 @@ _NO_GUESS_SHARE, _BENT = 0.6, 0.4
 _STEPS = np.linspace(-1.0, 1.0, 81)
 # [m/s^2] Deviation of the acceleration of a bone's end about its beginning, along the view.
 _ACCELERATION = 12.0
-# [m] Of a point across the view: two pixels of a person who is 500 pixels high.
+# [m] Standard deviation of a point across the view: two pixels of a person who is 500 pixels high.
 _POINT_SIGMA = 0.004
 _MIRROR = np.array([1.0, -1.0, 1.0])
 

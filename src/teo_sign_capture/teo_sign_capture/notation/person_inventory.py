@@ -136,8 +136,8 @@ _SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, fl
 
 FINGERS = ("index", "middle", "ring", "little")
 
-# Of the angle by which a finger goes to and fro: the last joint follows the middle one at half, as they share
-# a tendon.
+# Shares of the angle by which a finger goes to and fro, by joint: the last joint follows the middle one at
+# half, as they share a tendon.
 _SHARES = (1.0, 1.0, 0.5)
 # [deg] A knuckle that is bent more has more room to open than to bend.
 _FAR_BENT = 50.0

@@ -18,7 +18,8 @@ Array = NDArray[np.float64]
 
 # [s] An image this far outside the stroke still shows its beginning or end: three images at 30 Hz.
 _NEAREST = 0.1
-# Of the width of the shoulders, around the keypoints: from the nose to the crown and a little paper.
+# Margin around the keypoints, as a share of the width of the shoulders: from the nose to the crown and a
+# little more.
 _MARGIN = 0.45
 # Nose, right shoulder, elbow and wrist, left shoulder, elbow and wrist in BODY_25.
 _UPPER_BODY = (0, 2, 3, 4, 5, 6, 7)

@@ -16,7 +16,7 @@ LONGEST_WAIT = 8.0
 MOST_COUNTDOWN = 30.0  # [s]
 # [s] Hands that are back at rest for so long have ended the sign; beats of one sign return for less.
 _STAYS = 0.5
-# [s] Of the countdown that is kept: where the hands rest is learned from it.
+# [s] Length of the end of the countdown that is kept: where the hands rest is learned from it.
 _BEFORE = 1.0
 # [s] From one look for the end to the next: each takes some hundredths of a second.
 _LOOK = 0.5

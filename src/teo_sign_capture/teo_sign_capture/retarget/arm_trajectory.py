@@ -41,7 +41,8 @@ SWIFT = np.radians(450.0)
 HASTE = 20.0
 # The search ends after so many steps, or when no joint moves by this any more [rad].
 _STEPS, _ENOUGH = 40, 1e-4
-# The same with collision terms, which are measured anew after it: their slopes are wrong by more.
+# Most steps and least step [rad] with collision terms, which are measured anew after it: their slopes are
+# wrong by more.
 _STEPS_OFF, _ENOUGH_OFF = 20, 3e-4
 # At least this is added to the curvature, so that a step exists where a joint has no say.
 _DAMPING = 1e-4

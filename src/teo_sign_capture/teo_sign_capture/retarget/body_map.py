@@ -28,9 +28,9 @@ from teo_sign_capture.tracks.person import Person
 Array = NDArray[np.float64]
 
 
-# Of the way from the shoulders to the hips.
+# Share of the way from the shoulders to the hips at which the waist is.
 _WAIST = 0.7
-# [m] Farther than any arm: what is there goes on as it was.
+# [m] Distance beyond any arm, from which on lengths are scaled like an arm's.
 _BEYOND = 3.0
 
 

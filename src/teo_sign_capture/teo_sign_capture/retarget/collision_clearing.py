@@ -16,7 +16,7 @@ from teo_signs.errors import LutError
 
 Array = NDArray[np.float64]
 
-# Each finds anew what is near, and solves what still touches with it; after three most hands are off.
+# Most passes. Each finds anew what is near and solves what still touches; after three most hands are off.
 _PASSES = 30
 # Passes after which what still touches begins anew: from hands that are away from everything, each on the
 # side of the other on which the person's is (hands that have gone into each other are pushed to the wrong
@@ -27,17 +27,17 @@ _SPREAD_AFTER, _RESTART_AFTER = 3, 11
 _CAREFUL = np.radians(6.0)
 # [rad] Hands that come from outside are where they belong when a pass turns no joint by more.
 _SETTLED = np.radians(2.0)
-# [s] So much before and after what touches is solved with it: as long as a way aside takes.
+# [s] Time before and after what touches that is solved with it: as long as a way aside takes.
 _GIVE = 0.35
 # Passes at the end over all that was moved, the first of which may have moved some of it too far.
 _EASED = 1
-# [m] So far from each other parts are watched then: what a pass may bring them nearer.
+# [m] Distance within which parts are watched then: what one pass may bring them nearer.
 _SEEN_FROM = 0.06
-# Share of this that moves no hand by more than 1 cm.
+# Share of `_OPEN` that moves no hand by more than 1 cm.
 _FAINT = 0.01
-# By how much less each time, and in how many frames before and after as well.
+# Factor on what is wanted, each time a frame begins anew, and frames before and after that get it as well.
 _LESS, _AROUND = 0.3, 2
-# [m] So far apart hands begin then: TEO's forearms and hands are 10 cm thick.
+# [m] Distance at which hands that come from outside begin: TEO's forearms and hands are 10 cm thick.
 _OPEN = 0.25
 # [s] Deviation of the Gaussian by which arms go away from everything and come back: as swift as a person.
 _OPENING = 0.12
@@ -102,7 +102,7 @@ def clear_arms(
 
 
 class _Clearing:
-    """What is solved anew, and with what."""
+    """One motion that is being cleared: solves runs of its frames anew."""
 
     def __init__(
         self, problem: ArmProblem, model: CollisionModel, times: Array, bounds: list[Bounds]

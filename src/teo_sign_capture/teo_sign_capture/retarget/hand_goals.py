@@ -21,20 +21,22 @@ from teo_sign_capture.tracks.hand_model import palm_axes
 
 Array = NDArray[np.float64]
 
-# [m] Points of a hand that are nearer or farther by this share the contact: about a finger's width.
+# [m] Points of a hand whose distances to the body differ by less than this share the contact: about a
+# finger's width.
 _BLEND = 0.015
 # [m] A keypoint nearer than this to the skin is on it (a finger tip's is 1 cm below its own skin, a palm's 2
 # cm); farther than the other the hand is in the air.
 _ON_BODY, _OFF_BODY = 0.03, 0.12
-# [m] The same between keypoints of two hands.
+# [m] Keypoints of two hands nearer than the first are together, farther than the second apart.
 _TOGETHER, _APART = 0.05, 0.15
-# [m] The same between forearms and hands of both sides: TEO's are thicker than a person's by a half.
+# [m] Forearms and hands of both sides nearer than the first keep the order in which the person has them,
+# farther than the second need not: TEO's are thicker than a person's by a half.
 _BESIDE, _ASUNDER = 0.15, 0.30
-# [s] Deviation of the Gaussian over which that way is smoothed: where fingers pass it turns about.
+# [s] Standard deviation of the Gaussian that smooths that order, which turns about where fingers pass.
 _STEADY = 0.15
-# By this much the right hand is in front where neither is: hands that pass through each other choose.
+# Added to how far the right hand is in front: hands of which neither is in front get an order.
 _UNDECIDED = 0.2
-# Points of a forearm from elbow to wrist that are looked at; elbows themselves stay on their sides.
+# Where on a forearm, from elbow (0) to wrist (1), distances are measured; elbows stay on their sides.
 _FOREARM = np.linspace(0.3, 0.9, 5)
 
 

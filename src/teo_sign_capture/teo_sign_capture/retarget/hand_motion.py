@@ -104,9 +104,9 @@ _RADII, _PALM_FRONT = 0.018, 0.006
 _PALM_TO, _PALM_HALF_WIDTH = 0.032, 0.047
 # Thumbs looked at closely in each frame: those whose tip is best.
 _CANDIDATES = 32
-# Of the table's steps of 2 deg; in between it is smoothed.
+# Every so manieth of the hand table's steps of 2 deg is a candidate; the path is smoothed afterwards.
 _EVERY = 2
-# [s] Deviation of the Gaussian that takes the steps away.
+# [s] Standard deviation of the Gaussian that takes the steps away.
 _TREMBLE = 0.04
 
 

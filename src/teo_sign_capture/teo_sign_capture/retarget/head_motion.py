@@ -15,8 +15,8 @@ from teo_sign_capture.tracks.person import Person
 
 Array = NDArray[np.float64]
 
-# [rad] Less than this from straight at every moment is how a person stands, not something signed: people sway
-# by 3 deg and nod by 4 deg while they sign.
+# [rad] A head or trunk that never leaves straight by more than this does not sign: people sway by 3 deg and
+# nod by 4 deg while they sign.
 _HEAD_MOVES, _TRUNK_MOVES = np.radians(8.0), np.radians(8.0)
 
 

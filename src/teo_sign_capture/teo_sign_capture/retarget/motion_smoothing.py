@@ -26,7 +26,8 @@ BODY_TUBE = np.radians(2.0)
 FINGER_TUBE = np.radians(8.0)
 
 
-# Of the least squares: accelerations come out a billionth from the least, in the time of an exact search.
+# Relative tolerance of the least squares: accelerations come out a billionth from the least, in the time of
+# an exact search.
 _TOLERANCE = 1e-12
 
 

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 _STRAIGHT = np.radians([5.0, 8.0, 5.0])
 # [rad] A joint that is never less bent than this has not been seen straight.
 _SEEN_STRAIGHT = np.radians(20.0)
-# [%] Of the frames a finger is taken for straight in, if it ever is.
+# [%] Share of the frames in which a finger is taken for straight, if it ever is.
 _STRAIGHTEST = 5.0
 
 

@@ -28,16 +28,17 @@ JERK_POWER = 5.0e4
 
 # [s] A keypoint that is lost for longer is not guessed: within that time a hand begins and ends a move.
 LONGEST_FILLED = 0.4
-# [s] So long a hand is taken to keep its shape and direction if its wrist is seen meanwhile and both are the
-# same before and after: hands that hide each other hold still.
+# [s] A hand that is lost for no longer keeps its shape and direction, if its wrist is seen meanwhile and both
+# are the same before and after: hands that hide each other hold still.
 LONGEST_KEPT = 1.2
-# [s] So long before it is first seen, and after it is last seen, a hand is taken to have the shape that it
-# has then, at its wrist: hands that come up from below the image are found some frames after they are there.
+# [s] For so long before it is first seen, and after it is last seen, a hand is given the shape that it has
+# then, at its wrist: hands that come up from below the image are found some frames after they are there.
 LONGEST_EDGE = 0.2
 # [m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found.
 _SAME_SHAPE = 0.03
 
-# [m] Of truth, which says 0; of measurements that say nothing: what good keypoints have.
+# [m] Standard deviation of exact keypoints, which say 0, and of those that do not say theirs: that of good
+# keypoints.
 _LEAST_SIGMA, _UNKNOWN_SIGMA = 0.002, 0.010
 # [m/s], [m/s^2] Before the first measurement nothing is known: what hands reach in fast signing.
 _START_SPEED, _START_ACCELERATION = 3.0, 40.0
@@ -45,9 +46,9 @@ _START_SPEED, _START_ACCELERATION = 3.0, 40.0
 # keypoint that jumps to the other hand for an image is not followed.
 _DOUBTED = 3.0
 _PASSES = 3
-# Of BODY_25.
+# Keypoint of BODY_25 at each hand's wrist.
 _WRISTS = {"right_hand": 4, "left_hand": 7}
-# [m] Of a hand that is put where its wrist is, in the shape it has before and after.
+# [m] Standard deviation of a hand that is put where its wrist is, in the shape it has before and after.
 _FILLED_SIGMA = 0.030
 
 

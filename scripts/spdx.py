@@ -1,0 +1,64 @@
+"""Who holds the rights in each source file, and under which licence: adds the two lines, or checks them.
+
+`python scripts/spdx.py` adds them where they are missing; `--check` names the files that lack them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+# Files that can carry a comment, by the ends of their names; hand-written data among them.
+SUFFIXES = {".cmake", ".py", ".sh", ".yaml", ".yml", ".toml", ".msg", ".srv", ".action"}
+NAMES = {"CMakeLists.txt", "Makefile", "run"}
+HEADER = "# SPDX-FileCopyrightText: 2026 TEO signing project\n# SPDX-License-Identifier: Apache-2.0\n"
+# Made by scripts or taken over from others, with a licence beside it.
+_LEFT_OUT = ("bags/", "test/data/")
+
+
+def sources() -> list[Path]:
+    """Every file of the repository that is to carry the lines."""
+    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "-z"]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\0")
+    return [
+        ROOT / name
+        for name in sorted(set(listed))
+        if name
+        and not name.startswith(_LEFT_OUT)
+        and (Path(name).suffix in SUFFIXES or Path(name).name in NAMES)
+        and (ROOT / name).is_file()
+        and (ROOT / name).stat().st_size > 0
+    ]
+
+
+def with_header(text: str) -> str:
+    """Give a file's text with the two lines, below its shebang if it has one."""
+    if HEADER in text:
+        return text
+    if text.startswith("#!"):
+        shebang, _, rest = text.partition("\n")
+        return f"{shebang}\n{HEADER}{rest}"
+    return f"{HEADER}{text}"
+
+
+def main() -> None:
+    """Add the lines, or check them."""
+    parser = argparse.ArgumentParser(description="Add SPDX lines to every source file.")
+    parser.add_argument(
+        "--check", action="store_true", help="change nothing; exit with 1 if a file lacks them"
+    )
+    check = parser.parse_args().check
+    lacking = [path for path in sources() if HEADER not in path.read_text(encoding="utf-8")]
+    for path in lacking:
+        if check:
+            print(f"{path.relative_to(ROOT)}: expected the SPDX lines; run python scripts/spdx.py")
+        else:
+            path.write_text(with_header(path.read_text(encoding="utf-8")), encoding="utf-8")
+    sys.exit(1 if check and lacking else 0)
+
+
+if __name__ == "__main__":
+    main()

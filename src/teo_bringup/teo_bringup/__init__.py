@@ -1,0 +1,1 @@
+"""Starting what signs: the nodes as supervised processes, without `launch`."""

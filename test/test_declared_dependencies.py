@@ -1,0 +1,148 @@
+"""What a package imports is what its package.xml and setup.py declare."""
+
+from __future__ import annotations
+
+import ast
+import sys
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+SOURCES = Path(__file__).parents[1] / "src"
+PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/setup.py"))
+
+# Import name: rosdep's key (None: it has none, pip installs it) and PyPI's name (None: it comes with ROS).
+ROS = (
+    "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros",
+    "lifecycle_msgs", "rcl_interfaces", "rclpy", "rosgraph_msgs", "rosidl_parser", "sensor_msgs", "std_msgs",
+    "std_srvs", "trajectory_msgs", "visualization_msgs",
+)  # fmt: skip
+DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
+    **{name: (name, None) for name in (*ROS, *PACKAGES, "teo_sign_msgs")},
+    "PIL": ("python3-pil", "pillow"),
+    "anny": (None, "anny"),
+    "av": (None, "av"),
+    "casadi": (None, "casadi"),
+    "coal": ("coal", "coal"),
+    "cv2": ("python3-opencv", "opencv-python-headless"),
+    "distributed": (None, "distributed"),
+    "embreex": (None, "embreex"),
+    "flatbuffers": (None, "flatbuffers"),
+    "google": ("python3-protobuf", "protobuf"),
+    "lz4": (None, "lz4"),
+    "matplotlib": ("python3-matplotlib", "matplotlib"),
+    "mcap": (None, "mcap"),
+    "mediapipe": (None, "mediapipe"),
+    "num2words": (None, "num2words"),
+    "numpy": ("python3-numpy", "numpy"),
+    "pinocchio": ("pinocchio", "pin"),
+    "pose_format": (None, "pose-format"),
+    "pydantic": ("python3-pydantic", "pydantic"),
+    "pydantic_core": ("python3-pydantic", "pydantic"),
+    "rich": ("python3-rich", "rich"),
+    "rosbags": (None, "rosbags"),
+    "ruckig": (None, "ruckig"),
+    "sacrebleu": (None, "sacrebleu"),
+    "safetensors": (None, "safetensors"),
+    "scipy": ("python3-scipy", "scipy"),
+    "simplemma": (None, "simplemma"),
+    "spoken_to_signed": (None, "spoken-to-signed"),
+    "text_to_num": (None, "text2num"),
+    "threadpoolctl": (None, "threadpoolctl"),
+    "torch": (None, "torch"),
+    "trimesh": (None, "trimesh"),
+    "typer": ("python3-typer", "typer"),
+    "yaml": ("python3-yaml", "PyYAML"),
+    "zstandard": (None, "zstandard"),
+}
+# Declared for another reason than an import, and why.
+NOT_IMPORTED = {
+    "teo_bringup": {"teo_lut_executor", "teo_sign_translator", "teo_sim_driver"},  # it starts them
+    "teo_sign_capture": {"teo_lut_executor"},  # its commands join that package's `lut`
+}
+
+
+def imports_of(package: str) -> dict[str, str]:
+    """Top-level packages that a package's modules and launch files import, each with one file that does."""
+    folder = SOURCES / package
+    found: dict[str, str] = {}
+    for path in sorted([*(folder / package).rglob("*.py"), *folder.glob("launch/*.py")]):
+        for module in imported(ast.parse(path.read_text(encoding="utf-8"))):
+            top = module.partition(".")[0]
+            if top not in sys.stdlib_module_names and top != package:
+                found.setdefault(top, str(path.relative_to(SOURCES)))
+    return found
+
+
+def imported(tree: ast.AST) -> Iterator[str]:
+    """Every module that some line imports, by statement or by a name given to `import_module`."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            yield node.module
+        elif isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
+            function = (
+                node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            )
+            if function == "import_module":
+                yield str(node.args[0].value)
+
+
+def rosdep_keys(package: str) -> set[str]:
+    """Keys that a package's package.xml declares for running."""
+    root = ET.parse(SOURCES / package / "package.xml").getroot()
+    return {(element.text or "").strip() for tag in ("exec_depend", "depend") for element in root.iter(tag)}
+
+
+def pypi_names(package: str) -> set[str]:
+    """Names that a package's setup.py requires, always or for one of its extras."""
+    tree = ast.parse((SOURCES / package / "setup.py").read_text(encoding="utf-8"))
+    (call,) = (
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "setup"
+    )
+    keywords = {keyword.arg: keyword.value for keyword in call.keywords}
+    extras: dict[str, list[str]] = ast.literal_eval(keywords["extras_require"])
+    extras.pop("test", None)
+    return {
+        *ast.literal_eval(keywords["install_requires"]),
+        *(name for names in extras.values() for name in names),
+    }
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_import_is_declared(package: str) -> None:
+    imports, keys, names = imports_of(package), rosdep_keys(package), pypi_names(package)
+    missing = []
+    for top, file in imports.items():
+        assert top in DECLARED_AS, f"{file} imports {top}: give DECLARED_AS its rosdep key and PyPI name"
+        key, name = DECLARED_AS[top]
+        if key is not None and key not in keys:
+            missing.append(f"package.xml: {key} ({file})")
+        if name is not None and name not in names:
+            missing.append(f"setup.py: {name} ({file})")
+    assert not missing, "\n".join(missing)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_everything_declared_is_imported(package: str) -> None:
+    used = [DECLARED_AS[top] for top in imports_of(package) if top in DECLARED_AS]
+    keys, names = {key for key, _ in used}, {name for _, name in used}
+    assert rosdep_keys(package) - keys - NOT_IMPORTED.get(package, set()) == set()
+    assert pypi_names(package) - names - {"setuptools"} == set()
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_package_xml_and_setup_py_tell_the_same_version(package: str) -> None:
+    version = ET.parse(SOURCES / package / "package.xml").getroot().findtext("version")
+    tree = ast.parse((SOURCES / package / "setup.py").read_text(encoding="utf-8"))
+    versions = [
+        ast.literal_eval(node.value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.keyword) and node.arg == "version"
+    ]
+    assert versions == [version]
