@@ -112,7 +112,12 @@ def _synthesize(
             highlight=False,
         )
     megabytes = sum(file.stat().st_size for file in out.iterdir()) / 1e6
-    _out.print(f"{out}: {count} frames, {count / rate:.1f} s, {megabytes:.1f} MB", highlight=False)
+    _out.print(
+        f"{out}: {count} frames, {count / rate:.1f} s, {megabytes:.1f} MB",
+        highlight=False,
+        markup=False,
+        soft_wrap=True,
+    )
 
 
 def _parsed(size: str) -> tuple[int, int]:
