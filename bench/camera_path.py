@@ -18,12 +18,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from report import Figure
 from rich.console import Console
 from rich.progress import track as progress
 from rich.table import Table
 
+from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.entries.take import capture_take
 from teo_sign_capture.entries.take_combination import features, warp
@@ -38,8 +38,6 @@ from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.take.take_bag import write_take
-
-Array = NDArray[np.float64]
 
 FEW = ("ADIÓS", "BIEN", "GRACIAS")
 # One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles.

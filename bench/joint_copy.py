@@ -7,17 +7,15 @@ lacks is left out; each finger takes the mean bend of its joints.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
 from teo_sign_capture.tracks.hand_model import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
-
-Array = NDArray[np.float64]
 
 # Columns: along, to the little finger's side and out of the right palm while the arm hangs.
 _PALM_HANGING = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])

@@ -11,12 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from report import Figure
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
+from teo_common.arrays import Array
 from teo_description.hand_geometry import FINGER_LENGTH, FINGERS
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
@@ -28,8 +28,6 @@ from teo_sign_capture.tracks.hand_model import KNUCKLES, THUMB, measure_signer, 
 from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
 from teo_signs.look_up_table import Lut
 from teo_signs.tokens import Kind, Token
-
-Array = NDArray[np.float64]
 
 # Letters of thirty that must be most like their own recording.
 TARGET = 28

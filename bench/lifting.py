@@ -11,16 +11,14 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from report import Figure
 from signer_tracks import signer_track
 
+from teo_common.arrays import Array
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recordings.pose_file import Points, PoseClip
 from teo_sign_capture.tracks.hand_model import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
-
-Array = NDArray[np.float64]
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")

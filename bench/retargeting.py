@@ -16,6 +16,7 @@ from retargeting_errors import Errors, errors
 from scipy.optimize import minimize
 from signer_tracks import signer_track
 
+from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget import robot_motion as motion_retarget
@@ -27,8 +28,6 @@ from teo_sign_capture.retarget.collision_terms import CollisionModel
 from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.sign_schema import Handedness
-
-Array = NDArray[np.float64]
 
 BODIES = ("woman_small", "woman_average", "man_tall", "man_heavy")
 SCRIPTS: tuple[tuple[str, Handedness], ...] = (

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.script.motion import Motion
 from teo_synthetic_signer.script.scripts import script as script_named
-
-Array = NDArray[np.float64]
 
 
 def signer_track(script: str, body: str, rate: float = 30.0) -> SkeletonTrack:

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.skeleton_track import BODY, FACE, HAND, Keypoints, SkeletonTrack
-
-Array = NDArray[np.float64]
 
 UPPER, FORE = 0.29, 0.26  # [m]
 SHOULDER = {"right": np.array([0.0, -0.18, 0.0]), "left": np.array([0.0, 0.18, 0.0])}

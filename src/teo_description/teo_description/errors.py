@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
+from teo_common.errors import CodedError
 
-class DescriptionError(Exception):
-    """Something about the robot was asked for or given wrongly.
 
-    Attributes:
-        code: Stable reason for programs, for example ``unknown_joint``.
-    """
-
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(message)
-        self.code = code
+class DescriptionError(CodedError):
+    """Something about the robot was asked for or given wrongly; a code is for example ``unknown_joint``."""

@@ -12,10 +12,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
-
-Array = NDArray[np.float64]
 
 FINGERS = ("Index", "Middle", "Ring", "Pinky")
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import sample_at
 from teo_signs.errors import LutError
 from teo_signs.export.sign_motion import PARTS, SignMotion
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
-
-Array = NDArray[np.float64]
 
 # Between two rows [s]: drives take no more than 50 set-points a second, and straight lines over more than 0.1
 # s cut the corners of a sign by more than 2 deg.

@@ -12,12 +12,10 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_signs.sign import Sign
-
-Array = NDArray[np.float64]
 
 # Just noticeable difference of a length [m]: the thickness of one of TEO's fingers.
 SEEN_LENGTH = 0.015

@@ -15,16 +15,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_description.robot import Robot
 from teo_signs.sign import Sign
 from teo_signs.sign_file import LIMIT_TOLERANCE
 from teo_signs.sign_schema import Handedness
-
-Array = NDArray[np.float64]
 
 _OTHER_HAND: dict[Handedness, Handedness] = {"right": "left", "left": "right", "both": "both"}
 _ARMS = {"right": RIGHT_ARM, "left": LEFT_ARM}

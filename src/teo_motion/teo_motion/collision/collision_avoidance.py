@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.collision.detour import detours, with_detour
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import ARMS, Composition
@@ -18,8 +18,6 @@ from teo_motion.sentence.route import Route
 from teo_motion.sentence.timing import SentenceTiming, TimedRoute
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError
-
-Array = NDArray[np.float64]
 
 # A sentence may be led around the robot's body by so many postures for each of its signs.
 _DETOURS_PER_TOKEN = 2

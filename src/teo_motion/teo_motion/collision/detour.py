@@ -6,14 +6,12 @@ import dataclasses
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS
 from teo_motion.sentence.composition import ARMS, LIMBS, REST
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
-
-Array = NDArray[np.float64]
 
 # What lifts the upper arms sideways, brings them forward, opens the elbows; half way, to pass the body.
 _SIDEWAYS = {"SagittalLeftShoulder": 1.0, "SagittalRightShoulder": -1.0}

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.sentence.head_gestures import GestureKind
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_signs.tokens import Token
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.sentence.composition import TokenSpan
 from teo_motion.trajectory.ruckig_segment import State
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

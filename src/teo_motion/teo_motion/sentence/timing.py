@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.sentence.composition import REST, Composition
 from teo_motion.sentence.plan import Plan, Samples, TokenTiming, sample_at, sample_times
 from teo_motion.sentence.route import Route
@@ -15,8 +15,6 @@ from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import ROUNDING
 from teo_motion.trajectory.waypoint_timing import WaypointTiming
 from teo_signs.errors import PlanError
-
-Array = NDArray[np.float64]
 
 
 class TimedRoute(NamedTuple):

@@ -13,12 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import ruckig
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.trajectory.joint_motion import Pieces
 from teo_signs.errors import PlanError
-
-Array = NDArray[np.float64]
 
 # A motion may be beyond a position limit by this much, from the rounding of its sums [rad].
 ROUNDING = 1e-8

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.trajectory.relaxed_limits import relaxed_bounds
 from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSegment, RuckigSolver, State
 from teo_motion.trajectory.waypoint_states import waypoint_states
-
-Array = NDArray[np.float64]
 
 # While times are looked for, a segment that fitted is tried again only when the velocity or acceleration at
 # its ends has changed by more than this share of their limits, or its duration by more than this share [1].

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from teo_common.arrays import Array
 
 # A cubic between two knots is monotone if its end slopes are at most three times the chord's: C. de Boor and
 # B. Swartz, "Piecewise monotone interpolation" (J. Approx. Theory 21, 1977).

@@ -12,12 +12,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSegment, State
 from teo_motion.trajectory.waypoint_chain import WaypointChain, waypoint_chains
 from teo_signs.errors import PlanError
-
-Array = NDArray[np.float64]
 
 # No two waypoints are closer than this [s]: a twentieth of the time between two set-points of TEO's drives.
 _LEAST_STEP = 1e-3

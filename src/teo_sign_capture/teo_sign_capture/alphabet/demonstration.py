@@ -10,8 +10,8 @@ import datetime
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
 from teo_description.tendons import RIGHT_AXES
@@ -19,8 +19,6 @@ from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness, Provenance
-
-Array = NDArray[np.float64]
 
 # Right arm [deg], in the order of RIGHT_ARM, while TEO spells.
 SPELLING_POSES = {

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM, RIGHT_HAND
 from teo_description.hand_geometry import FINGERS
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME
-
-Array = NDArray[np.float64]
 
 # [m] TEO's face in ``base_link`` at home: half its width, its lower and upper edge, how far before the axis.
 _HALF_WIDTH, _CHIN, _TOP, _PLANE = 0.10, 0.625, 0.80, 0.09

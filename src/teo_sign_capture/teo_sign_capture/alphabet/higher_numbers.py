@@ -13,15 +13,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS, HOME, RIGHT_HAND
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
-
-Array = NDArray[np.float64]
 
 _FLICKED = {"12": "2", "13": "3", "14": "4", "15": "5", "16": "6", "17": "7", "18": "8", "19": "9"}
 _SEEN = ("11", "12", "13", "14")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation, Slerp
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES
 from teo_description.robot import Robot
@@ -26,7 +27,6 @@ from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, m
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
 
-Array = NDArray[np.float64]
 Frames = NDArray[np.int64]
 
 JOINTS = RIGHT_ARM + RIGHT_HAND

@@ -12,8 +12,8 @@ import datetime
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.spelling_arm import ArmFit, fit_arm
@@ -21,8 +21,6 @@ from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
-
-Array = NDArray[np.float64]
 
 # Straight fingers by digit (index, middle, ring, little), palm side, whether the left hand is there: from
 # GungorUmit/VozVisible, clips "uno" to "diez", medians of joint angles: straight ones bend 2 to 29 deg in all

@@ -8,17 +8,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds
 from teo_sign_capture.retarget.arm_kinematics import ELBOW, ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
-
-Array = NDArray[np.float64]
 
 PALM_FRAME = "right_palm"
 

@@ -10,16 +10,14 @@ from __future__ import annotations
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
 from teo_sign_capture.alphabet.spelling_hand import HandProblem, fit_dextra
 from teo_sign_capture.tracks.hand_model import HandPose
-
-Array = NDArray[np.float64]
 
 # [1/cm] Weight of a centimetre at a finger tip: about the angle in radians under which a finger's length sees
 # it.

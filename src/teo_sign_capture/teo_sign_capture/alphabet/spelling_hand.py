@@ -21,9 +21,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from teo_common.arrays import Array
 from teo_description import HOME, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import (
     FINGER_LENGTH,
@@ -35,8 +35,6 @@ from teo_description.hand_geometry import (
 )
 from teo_description.robot import Robot
 from teo_sign_capture.tracks.hand_model import HandPose, finger_directions
-
-Array = NDArray[np.float64]
 
 # Weights of the bending plane and of the viewer's plane; chosen by eye on pictures of the thirty letters.
 _SHAPE, _SEEN = 0.6, 1.0

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.recordings.letter_clips import LetterClip
 from teo_sign_capture.tracks.hand_model import INDEX, KNUCKLES, PALM, WRIST, palm_axes
-
-Array = NDArray[np.float64]
 
 # Figures below are in pixels of the normalised clips, where wrist to middle knuckle is 59 pixels, and in
 # degrees; "still" and "moving" letters lie well apart on each, as said there.

@@ -74,7 +74,7 @@ def perform_scores(
         _errors.print(f"not_written: --out: expected a place to write to, got: {error}", soft_wrap=True)
         raise typer.Exit(1) from error
     if scripts_only:
-        _output.print(f"{out}: {len(chosen)} scripts")
+        _output.print(f"{out}: {len(chosen)} scripts", soft_wrap=True)
         return
     options = ["--body", body, "--sensor", sensor, "--scene", scene, "--size", size]
     options += ["--distance", f"{distance:g}", "--rate", f"{rate:g}", "--seed", str(seed)]
@@ -84,7 +84,8 @@ def perform_scores(
     for gloss, reason in failed.items():
         _errors.print(f"not_performed: {gloss}: {reason}", soft_wrap=True, markup=False)
     kept = len(chosen) - len(open_ones)
-    _output.print(f"{out}: {len(open_ones) - len(failed)} signs performed" + f", {kept} kept" * bool(kept))
+    made = len(open_ones) - len(failed)
+    _output.print(f"{out}: {made} signs performed" + f", {kept} kept" * bool(kept), soft_wrap=True)
     if failed:
         raise typer.Exit(1)
 

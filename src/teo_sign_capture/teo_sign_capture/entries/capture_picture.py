@@ -7,16 +7,14 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description.pictures.rendering import Image, film_strip, render_pose, save_png, write_video
 from teo_sign_capture.entries.sign_entry import Captured
 from teo_sign_capture.entries.take import Take
 from teo_sign_capture.recordings.colour_images import colour_images
 from teo_sign_capture.recordings.recording import Recording, skeletons_of
 from teo_signs.pictures import FRAME_RATE, FRONT, pose_at
-
-Array = NDArray[np.float64]
 
 _MOMENTS = 7
 # [px] Width and height of each picture: seven beside each other are as wide as a screen.

@@ -7,8 +7,8 @@ from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import joint_limits
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
@@ -17,8 +17,6 @@ from teo_sign_capture.retarget.motion_smoothing import tube_radii
 from teo_signs.errors import LutError, PlanError
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
-
-Array = NDArray[np.float64]
 
 _KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
 # [rad] The planner passes knots exactly; entries keep six decimals.

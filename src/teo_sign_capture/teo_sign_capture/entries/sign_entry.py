@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import description_hash
 from teo_description.robot import Robot
 from teo_sign_capture.entries.playback import Playback, play
@@ -20,8 +20,6 @@ from teo_sign_capture.retarget.quality_figures import limit_margin_deg
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_schema import Kind, Provenance, Standing
-
-Array = NDArray[np.float64]
 
 # [m] Said in the entry's notes: the hand may be at another place, forehead, mouth, chin and chest are so far
 # apart.

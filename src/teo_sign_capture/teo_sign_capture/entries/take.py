@@ -16,8 +16,6 @@ from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
 
-Array = NDArray[np.float64]
-
 # [m] A hand that is farther than this from where it belongs is at another part of the body: from the crown to
 # the shoulder.
 MOST_OUT_OF_REACH = 0.30

@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
+from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # [m] Unit of places: two fingers' breadth.
 _PLACE = 0.03

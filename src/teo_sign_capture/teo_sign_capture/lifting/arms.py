@@ -15,13 +15,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.lifting.body_measure import BodyMeasure
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
 from teo_sign_capture.viterbi import cheapest_path
-
-Array = NDArray[np.float64]
 
 # Upper arm and forearm: towards the viewer or away.
 _SIGNS = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]])

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.recordings.pose_file import Points
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST
-
-Array = NDArray[np.float64]
 
 # [m] Lengths of an adult's limbs, between the centres of the joints. After Drillis and Contini, "Body Segment
 # Parameters" (1966), a person of 1.65 m has arms of 0.31 and 0.24 and acromia 0.43 m apart; joints of

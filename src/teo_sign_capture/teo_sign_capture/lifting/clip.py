@@ -8,8 +8,8 @@ head (`head_lifting`). Shoulders and hips are in one plane across the view.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.lifting.arms import lift_arm
 from teo_sign_capture.lifting.body_measure import BodyMeasure, measure_body
 from teo_sign_capture.lifting.hands import LiftedHand, has_depth, lift_hand
@@ -28,8 +28,6 @@ from teo_sign_capture.tracks.skeleton_track import (
     SkeletonTrack,
 )
 from teo_sign_capture.tracks.skeleton_track import WRIST as BODY_WRIST
-
-Array = NDArray[np.float64]
 
 # `Keypoint3D.STATUS_*`: seen, its depth follows from limb lengths; or not known.
 _OPTIMISED, _LOST = 3, 0

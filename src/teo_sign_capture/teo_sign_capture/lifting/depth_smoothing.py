@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-Array = NDArray[np.float64]
+from teo_common.arrays import Array
 
 
 def smooth_depth(depths: Array, sigmas: Array, *, period: float, acceleration: float) -> Array:

@@ -14,11 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
 from teo_sign_capture.recordings.pose_file import Points
 from teo_sign_capture.tracks.hand_model import INDEX, KNUCKLES, LITTLE, PALM, THUMB, WRIST, palm_axes
-
-Array = NDArray[np.float64]
 
 # Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out.
 BONES = tuple(

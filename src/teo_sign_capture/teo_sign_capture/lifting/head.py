@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.skeleton_track import EAR, EYE, NOSE
-
-Array = NDArray[np.float64]
 
 # Places in BODY_25.
 POINTS = (NOSE, EYE["right"], EYE["left"], EAR["right"], EAR["left"])

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description.hand_geometry import DextraHand
 from teo_description.robot import Robot
 from teo_sign_capture.notation.targets import HandTarget
@@ -22,8 +22,6 @@ from teo_sign_capture.retarget.arm_residuals import EASY_ARM, JOINTS, ArmProblem
 from teo_sign_capture.retarget.arm_search import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.viterbi import cheapest_path
-
-Array = NDArray[np.float64]
 
 _WEIGHTS = ArmWeights(
     # 10 cm beside a place count as much as 80 deg of orientation where a hand meets something, as 29 deg in

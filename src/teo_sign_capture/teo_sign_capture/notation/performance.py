@@ -12,14 +12,12 @@ from typing import Any
 
 import numpy as np
 import yaml
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.notation.person_inventory import FINGERS, person_place, person_shape
 from teo_sign_capture.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import split_place
-
-Array = NDArray[np.float64]
 
 # [s] The hands hang before and after a sign: longer than any hold, so that rest is told from sign.
 REST = 0.5

@@ -14,11 +14,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.signing_space.places import OTHER_HAND, find_place
-
-Array = NDArray[np.float64]
 
 # [m] From the middle: hands that meet or cross are as far apart on both.
 _ALIKE = 0.10

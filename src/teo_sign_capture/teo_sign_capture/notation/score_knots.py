@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.notation.arm_solver import ArmCandidate
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture
 from teo_sign_capture.retarget.arm_bounds import Side, arm_bounds, mirrored
-
-Array = NDArray[np.float64]
 
 _ARM_SWINGS = {"wrist": 5, "forearm": 4, "elbow": 3}
 _HAND_SWINGS = {"thumb": 1, "index": 2, "middle": 3, "ring": 4, "little": 5}

@@ -7,8 +7,8 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
@@ -21,8 +21,6 @@ from teo_sign_capture.retarget.quality_figures import clearance_mm, least_cleara
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
-
-Array = NDArray[np.float64]
 
 # [m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the
 # planner's curves between the knots (0.02 rad, a centimetre at the hand) do not close.

@@ -6,14 +6,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.notation.handshapes import handshape
 from teo_sign_capture.notation.score_schema import Circle, HandScore, Part, Score, Step, Wiggle, flattened
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import OTHER_HAND, find_place, split_place
-
-Array = NDArray[np.float64]
 
 # [m] A hand that is farther than this from its place on the body is before it, not on it: its orientation
 # counts as in the air.

@@ -8,13 +8,11 @@ from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 from rosbags.highlevel import AnyReader
 
+from teo_common.arrays import Array
 from teo_description.pictures.rendering import Image
 from teo_sign_capture.recordings.skeleton_bag import TYPE
-
-Array = NDArray[np.float64]
 
 # [s] An image this far outside the stroke still shows its beginning or end: three images at 30 Hz.
 _NEAREST = 0.1

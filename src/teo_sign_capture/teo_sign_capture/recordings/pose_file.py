@@ -15,11 +15,10 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.recordings.pose_layouts import LAYOUTS, Layout
 from teo_sign_capture.tracks.skeleton_track import BODY, HAND, SHOULDER
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out.
 MAX_FILE_BYTES = 256 * 1024**2

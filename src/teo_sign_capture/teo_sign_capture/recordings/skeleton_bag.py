@@ -8,14 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from rosbags.highlevel import AnyReader
 
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.skeleton_track import BODY, FACE, HAND, Keypoints, SkeletonTrack
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 TYPE = "teo_sign_msgs/msg/SkeletonArray"
 # Begins the topics in which a renderer says where everything truly was.

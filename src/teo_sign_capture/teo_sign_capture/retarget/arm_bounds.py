@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
 
-Array = NDArray[np.float64]
 Bounds = tuple[Array, Array]
 Side = Literal["right", "left"]
 

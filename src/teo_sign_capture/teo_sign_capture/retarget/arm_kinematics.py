@@ -14,12 +14,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM
 from teo_description.robot import Robot
-
-Array = NDArray[np.float64]
 
 # Joints whose axes go through the elbow and the wrist.
 ELBOW, WRIST = 3, 5

@@ -13,12 +13,12 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM
 from teo_sign_capture.retarget.arm_kinematics import ELBOW, WRIST, ArmKinematics, ArmPoses
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
-Array = NDArray[np.float64]
 Goals = TypeVar("Goals", HandGoals, PairGoals)
 
 JOINTS = len(RIGHT_ARM)

@@ -11,10 +11,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
-
-Array = NDArray[np.float64]
 
 # [rad] Right arms that sign, one in each valley. 64 starts more, spread evenly over the bounds, find nothing
 # better for any posture of the shipped scores; an arm that hangs finds nothing better for captured motions.

@@ -12,13 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
+from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem, Quadratic
 from teo_sign_capture.retarget.arm_search import ON_BOUND, search_arms
 from teo_sign_capture.retarget.collision_terms import CollisionTerms
 from teo_sign_capture.viterbi import cheapest_path
-
-Array = NDArray[np.float64]
 
 # [s] From one frame to the next that is sought from all starts: valleys change slower than hands move.
 _EVERY = 0.1

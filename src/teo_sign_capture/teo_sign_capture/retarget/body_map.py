@@ -15,18 +15,15 @@ from __future__ import annotations
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
+from teo_common.arrays import Array
 from teo_description import urdf_text
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.head_motion import HeadMotion
 from teo_sign_capture.signing_space.places import find_place
 from teo_sign_capture.tracks.person import Person
-
-Array = NDArray[np.float64]
-
 
 # Share of the way from the shoulders to the hips at which the waist is.
 _WAIST = 0.7

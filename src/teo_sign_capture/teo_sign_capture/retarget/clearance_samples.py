@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.retarget.collision_terms import LEAST, CollisionModel, between
-
-Array = NDArray[np.float64]
 
 # [rad] A posture that moves by less keeps its distances to a tenth of a millimetre.
 _STILL = 1e-4

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
+from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import TRUSTED, refine_arms
@@ -13,8 +14,6 @@ from teo_sign_capture.retarget.clearance_samples import ClearanceSamples, sample
 from teo_sign_capture.retarget.collision_terms import LEAST, WANTED, WATCHED, CollisionModel, CollisionTerms
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # Most passes. Each finds anew what is near and solves what still touches; after three most hands are off.
 _PASSES = 30

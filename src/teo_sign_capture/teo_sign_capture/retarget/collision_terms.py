@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.clearance import Clearance, Contact
 from teo_description.robot import Robot
@@ -14,8 +15,6 @@ from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.retarget.arm_kinematics import WRIST, ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import JOINTS, Quadratic
 from teo_sign_capture.signing_space.hand_points import MIRROR
-
-Array = NDArray[np.float64]
 
 # [m] Parts that come nearer than this are pushed apart.
 WANTED = 0.014

@@ -11,15 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
+from teo_common.arrays import Array
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
 from teo_sign_capture.signing_space.hand_points import COUNT, MIRROR, PALM, person_hand_points
 from teo_sign_capture.tracks.hand_model import palm_axes
-
-Array = NDArray[np.float64]
 
 # [m] Points of a hand whose distances to the body differ by less than this share the contact: about a
 # finger's width.

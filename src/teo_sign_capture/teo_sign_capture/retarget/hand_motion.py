@@ -18,15 +18,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES, DextraTable
 from teo_sign_capture.signing_space.hand_points import KNUCKLES
 from teo_sign_capture.tracks.body_axes import smoothed
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
 from teo_sign_capture.viterbi import cheapest_path
-
-Array = NDArray[np.float64]
 
 
 class HandMotion(NamedTuple):

@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_description import HEAD, TRUNK, joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.tracks.head_pose import HeadPose
 from teo_sign_capture.tracks.person import Person
-
-Array = NDArray[np.float64]
 
 # [rad] A head or trunk that never leaves straight by more than this does not sign: people sway by 3 deg and
 # nod by 4 deg while they sign.

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BPoly
 
+from teo_common.arrays import Array
 from teo_motion.trajectory.waypoint_chain import OVERSHOOT
 from teo_motion.trajectory.waypoint_states import waypoint_states
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 # [rad] 9 mm at the end of TEO's stretched arm for one joint, below what retargeting errs by; fewer knots

@@ -12,12 +12,10 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
+from teo_common.arrays import Array
 from teo_description import joint_limits
-
-Array = NDArray[np.float64]
 
 # [rad] Arms, head, trunk: with all joints of an arm at its edge the hand is 2 cm off.
 BODY_TUBE = np.radians(2.0)

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import joint_limits
 from teo_description.robot import Robot
-
-Array = NDArray[np.float64]
 
 # Poses from one knot to the next at which the clearance is measured.
 _SAMPLES = 5

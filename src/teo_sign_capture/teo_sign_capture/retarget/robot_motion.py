@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
 from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
@@ -27,8 +27,6 @@ from teo_sign_capture.tracks.person import Person, measure_person
 from teo_sign_capture.tracks.skeleton_track import ELBOW, HAND, SHOULDER, WRIST, SkeletonTrack
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
-
-Array = NDArray[np.float64]
 
 _SIDES: dict[Handedness, tuple[Side, ...]] = {
     "right": ("right",),

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from teo_common.arrays import Array
 
 # Seen from the right hand, in ``base_link`` (REP-103: x front, y left, z up). The left hand mirrors them, so
 # that `in` is always towards the other side of the body and `out` away from it.

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description.hand_geometry import DextraTable
-
-Array = NDArray[np.float64]
 
 WRIST, KNUCKLES = 0, (5, 9, 13, 17)
 _MIDDLES, _TIPS = (6, 10, 14, 18), (8, 12, 16, 20)

@@ -12,11 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.signing_space.directions import displacement
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,14 +12,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.skeleton_track import HIP, SHOULDER, Keypoints, SkeletonTrack, check_times
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # Up in an upright camera's optical frame (x right, y down, z forward).
 CAMERA_UP = (0.0, -1.0, 0.0)

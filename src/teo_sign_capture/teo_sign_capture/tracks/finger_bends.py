@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.signing_space.hand_points import KNUCKLES, WRIST
 from teo_sign_capture.tracks.hand_model import palm_axes
-
-Array = NDArray[np.float64]
 
 # [rad] What knuckle, middle and last joint seem bent by in a straight finger, where the signer shows none:
 # joint centres do not lie on a line. Means over the synthetic signer's flat hands.

@@ -10,11 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-Array = NDArray[np.float64]
+from teo_common.arrays import Array
 
 # MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
 # each.

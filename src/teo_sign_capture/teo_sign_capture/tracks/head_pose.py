@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.body_axes import filled
 from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, FACE, NOSE, SkeletonTrack
-
-Array = NDArray[np.float64]
 
 # Keypoints of the head that keep their places to each other: of the body nose, eyes, ears; of the face the
 # bridge of the nose and the corners of the eyes. Rows of body and face, one after the other.

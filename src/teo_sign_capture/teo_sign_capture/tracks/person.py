@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.signing_space.hand_points import HEEL, MIRROR, PALM, person_hand_points
 from teo_sign_capture.tracks.finger_bends import straight_bends
 from teo_sign_capture.tracks.head_pose import head_pose, head_shape
@@ -22,8 +22,6 @@ from teo_sign_capture.tracks.skeleton_track import (
     SkeletonTrack,
 )
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # Rows of `head_shape`.
 _CHIN, _LIPS, _BROWS = BODY + 8, (BODY + 51, BODY + 57), (BODY + 21, BODY + 22)

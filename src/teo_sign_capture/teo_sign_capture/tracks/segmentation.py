@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import runs, seen
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 # Shoulder, elbow and wrist in BODY_25.

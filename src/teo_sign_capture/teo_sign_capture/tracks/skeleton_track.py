@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # Keypoints of OpenPose's BODY_25, of a hand (OpenPose's and MediaPipe's order) and of OpenPose's face.
 BODY, HAND, FACE = 25, 21, 70

@@ -15,9 +15,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
 
-Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Part = Literal["body", "left_hand", "right_hand", "face"]
 PARTS: tuple[Part, ...] = ("body", "left_hand", "right_hand", "face")

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import FINGERS, PHALANGES, DextraHand, segment_distances
 from teo_description.robot import Robot
@@ -24,8 +24,6 @@ from teo_sign_capture.cli.capture_table import letters_main
 from teo_sign_capture.recordings.letter_clips import DEPTH_SCALE, LetterClip, load_letter_clips
 from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, measure_signer, palm_axes
 from teo_signs.look_up_table import Lut, LutError
-
-Array = NDArray[np.float64]
 
 
 @pytest.fixture(scope="module")

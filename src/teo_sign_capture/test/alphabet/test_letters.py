@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.hand_geometry import DextraHand, thumb_clearances
 from teo_description.robot import Robot
@@ -21,8 +21,6 @@ from teo_sign_capture.alphabet.stroke import find_stroke, palm_centres
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory
-
-Array = NDArray[np.float64]
 
 TABLE = default_lut_directory()
 HANDSHAPES = Path(__file__).parents[1] / "data" / "lse_letter_handshapes.json"

@@ -6,15 +6,14 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
 from teo_sign_capture.entries.take_combination import combine, warp
 from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_signs.errors import LutError
 
-Array = NDArray[np.float64]
 NAMES = ("one", "two", "three", "four", "five")
 RAISED = np.radians([-73.0, 10.0, 10.0, -75.0, 35.0, 2.0, 10.0, 8.0, 8.0, 8.0, 8.0, 8.0])
 

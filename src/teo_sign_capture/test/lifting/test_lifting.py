@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
 from teo_sign_capture.recordings.pose_file import Points, PoseClip
@@ -17,8 +17,6 @@ from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.hand_model import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, WRIST, SkeletonTrack
-
-Array = NDArray[np.float64]
 
 BAG = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 PIXELS = 550.0

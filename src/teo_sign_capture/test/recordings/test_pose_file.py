@@ -13,20 +13,18 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from pose_format import Pose
 from pose_format.numpy import NumPyPoseBody
 from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
 from pose_format.utils.openpose import OpenPose_Components
 from typer.testing import CliRunner, Result
 
+from teo_common.arrays import Array
 from teo_lut_executor.cli.lut import app
 from teo_sign_capture.recordings import pose_file
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
 from teo_signs.errors import LutError
-
-Array = NDArray[np.float64]
 
 # MediaPipe's names, as its documentation gives them.
 SIDED = (

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from teo_common.arrays import Array
 from teo_sign_capture.retarget.knot_reduction import TOLERANCE, deviations, passed, reduce_to_knots
 
-Array = NDArray[np.float64]
 TIMES = np.arange(0.0, 2.0, 1.0 / 30.0)
 
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.motion_smoothing import BODY_TUBE, FINGER_TUBE, smoothest_motion, tube_radii
 
-Array = NDArray[np.float64]
 JOINTS = RIGHT_ARM + RIGHT_HAND
 TIMES = np.arange(0.0, 1.5, 1.0 / 30.0)
 MIDDLE = (joint_limits(JOINTS).lower + joint_limits(JOINTS).upper) / 2.0

@@ -7,14 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_tracks import HANGING, Move, lose, make_track, path
-from numpy.typing import NDArray
 
 from teo_sign_capture.tracks.segmentation import SignSpan, find_signs, the_sign
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
 from teo_signs.errors import LutError
 
-Array = NDArray[np.float64]
 RATE = 30.0
 FRAMES = 2.0 / RATE  # [s]
 REST = tuple(HANGING["right"])

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from made_tracks import HANGING, lose, make_track, path
-from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_sign_capture.tracks.smoothing import LONGEST_FILLED, smooth_positions, smooth_track
 
-Array = NDArray[np.float64]
 MIDDLE = np.array([0.3, -0.2, -0.1])
 WRIST = 4
 

@@ -8,13 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from teo_common.arrays import Array
 from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
 from teo_signs.sign import Sign
-
-Array = NDArray[np.float64]
 
 # TEO's control boards, as their ports are named, and the joints of each in its order.
 PARTS = {

@@ -1,0 +1,8 @@
+"""Names for the types of arrays that the packages pass to each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
