@@ -13,8 +13,8 @@ from collections.abc import Iterable
 from statistics import median
 from typing import Any
 
+from glosses.systems import SENTENCES, judged, systems
 from report import Figure, share
-from translation_systems import SENTENCES, judged, systems
 
 from teo_sign_translator.model_files import models_directory
 from teo_sign_translator.training.metrics import fewest_edits

@@ -8,7 +8,7 @@ from collections import Counter
 
 import numpy as np
 from report import Figure
-from second_look import SecondLook
+from signs.second_look import SecondLook
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner

@@ -12,7 +12,7 @@ from functools import cache
 
 import numpy as np
 from report import Figure
-from signer_tracks import signer_track
+from signs.signer_tracks import signer_track
 
 from teo_common.arrays import Array
 from teo_sign_capture.lifting.clip import lift_clip

@@ -9,12 +9,12 @@ from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
-from joint_copy import copied_joints
 from numpy.typing import NDArray
 from report import Figure
-from retargeting_errors import Errors, errors
 from scipy.optimize import minimize
-from signer_tracks import signer_track
+from signs.joint_copy import copied_joints
+from signs.retargeting_errors import Errors, errors
+from signs.signer_tracks import signer_track
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot

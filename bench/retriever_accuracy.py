@@ -1,7 +1,7 @@
 """How far the retriever's joints are from the truth, beside the usual way and the original's in the same run.
 
 The truth is the joint's centre, from the skeleton of the rendered person. Body shapes and motions are others
-than those that the skin's depth, the detector's bias and sigmas were calibrated on (`accuracy_tuning.py`).
+than those that the skin's depth, the detector's bias and sigmas were calibrated on (`accuracy/tuning.py`).
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from accuracy_errors import Errors, body_errors, face_errors, hand_errors
-from accuracy_methods import detected, one_pixel, original, ours, perfect
-from accuracy_takes import TakeSettings, default_cache, take
+from accuracy.errors import Errors, body_errors, face_errors, hand_errors
+from accuracy.methods import detected, one_pixel, original, ours, perfect
+from accuracy.takes import TakeSettings, default_cache, take
 from report import Figure
 from rich.console import Console
 from rich.progress import track

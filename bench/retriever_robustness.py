@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
-from accuracy_errors import Errors, body_errors, hand_errors
-from accuracy_methods import Estimate, estimate_of, nothing
-from accuracy_takes import TakeFrame, default_cache, take
+from accuracy.errors import Errors, body_errors, hand_errors
+from accuracy.methods import Estimate, estimate_of, nothing
+from accuracy.takes import TakeFrame, default_cache, take
 from report import Figure
 from retriever_accuracy import TEST_TAKES
 from rich.console import Console

@@ -20,8 +20,8 @@ from pathlib import Path
 from statistics import median
 
 import blind_sentences
+from glosses.systems import SENTENCES, System, judged, lines, plain, systems
 from report import Figure, percentiles, share
-from translation_systems import SENTENCES, System, judged, lines, plain, systems
 
 from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus import Pair

@@ -116,7 +116,7 @@ _LIMBS: dict[str, tuple[tuple[str, str], ...]] = {
     "thigh": (("RHip", "RKnee"), ("LHip", "LKnee")),
     "shank": (("RKnee", "RAnkle"), ("LKnee", "LAnkle")),
 }
-# [m] Of an adult, between the joints. The first three by the 27 people of `bench/accuracy_tuning.py`; limbs
+# [m] Of an adult, between the joints. The first three by the 27 people of `bench/accuracy/tuning.py`; limbs
 # of 1.7 m after Drillis and Contini, "Body Segment Parameters" (1966): 0.29, 0.25, 0.42 and 0.42.
 _AVERAGE = {"shoulders": 0.36, "upper arm": 0.274, "forearm": 0.236, "thigh": 0.42, "shank": 0.42}
 # Power of the shoulders' width that a limb grows with: broad shoulders are not long arms.

@@ -1,6 +1,6 @@
 """How MediaPipe's keypoints differ from the centres of the joints: constant offsets, and standard deviations.
 
-Calibrated on rendered people (`bench/accuracy_tuning.py`); other bodies and motions are tested.
+Calibrated on rendered people (`bench/accuracy/tuning.py`); other bodies and motions are tested.
 """
 
 from __future__ import annotations

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from gloss_baselines import lemmas_in_spanish_order, spoken_to_signed
-
+from glosses.baselines import lemmas_in_spanish_order, spoken_to_signed
 from teo_sign_translator.corpus.accepted_translations import accepted, plain_gloss
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator
@@ -14,7 +13,7 @@ from teo_sign_translator.pipeline.translator import Translator
 Glosses = tuple[str, ...]
 System = Callable[[str], Glosses]
 
-SENTENCES = Path(__file__).parents[1] / "test" / "data"
+SENTENCES = Path(__file__).parents[2] / "test" / "data"
 
 
 def systems(ours: Translator | None = None) -> dict[str, System]:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from accuracy_takes import TakeFrame
 from numpy.typing import NDArray
 
+from accuracy.takes import TakeFrame
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from accuracy_methods import Estimate
-from accuracy_takes import TakeFrame
 from numpy.typing import NDArray
 
+from accuracy.methods import Estimate
+from accuracy.takes import TakeFrame
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from accuracy_takes import TakeSettings
 
+from accuracy.takes import TakeSettings
 from teo_synthetic_signer.body.body_shapes import BODIES, BodyShape, Color
 from teo_synthetic_signer.body.phenotype import Phenotype
 

@@ -1,0 +1,1 @@
+"""How near a retriever comes to the truth: takes, methods beside ours, errors, and what was tuned on."""

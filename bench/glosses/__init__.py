@@ -1,0 +1,1 @@
+"""The systems that the translator is measured beside."""
