@@ -49,8 +49,7 @@ def run_list(options: argparse.Namespace) -> int:
     if any(count > 1 for count in Counter(names).values()):
         print(
             "WARNING: Be aware that there are nodes in the graph that share an exact name, which can have "
-            "unintended "
-            "side effects."
+            "unintended side effects."
         )
     return 0
 

@@ -105,8 +105,7 @@ def add_graph_arguments(parser: argparse.ArgumentParser) -> None:
         "--spin-time",
         type=non_negative_float,
         help="Spin time in seconds to wait for discovery (default: until all participants of this machine "
-        "are "
-        "known, and 0.5 s where other machines may take part)",
+        "are known, and 0.5 s where other machines may take part)",
     )
     parser.add_argument("-s", "--use-sim-time", action="store_true", help="Enable ROS simulation time")
     parser.add_argument("--no-daemon", action="store_true", help="Accepted; there is no daemon")

@@ -98,8 +98,7 @@ def add_call_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default="{}",
         help='Values to fill the service request with in YAML format (e.g. "{a: 1, b: 2}"), otherwise the '
-        "service "
-        "request will be published with default values",
+        "service request will be published with default values",
     )
     parser.add_argument(
         "-r", "--rate", metavar="N", type=positive_float, help="Repeat the call at a specific rate in Hz"

@@ -77,8 +77,7 @@ class AdaptiveSubscription:
                 self._told = True
                 self._warn(
                     f"A publisher of topic '{self._topic}' offers less than the profile asks for: its "
-                    f"messages "
-                    "are not received."
+                    "messages are not received."
                 )
             return
         latched = self._blind and all(offer.durability == "transient_local" for offer in offers)

@@ -103,8 +103,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--use-sim-time",
         action="store_true",
         help="Use simulation time for message timestamps by subscribing to the /clock topic. Until first "
-        "/clock "
-        "message is received, no messages will be written to bag.",
+        "/clock message is received, no messages will be written to bag.",
     )
     parser.add_argument("--node-name", default="rosbag2_recorder", help="Specify the recorder node name.")
     parser.add_argument(
@@ -115,8 +114,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="extend",
         default=[],
         help='Store the custom data in metadata under "rosbag2_bagfile_information/custom_data". The last '
-        "value of a "
-        "key holds.",
+        "value of a key holds.",
     )
     parser.add_argument(
         "--storage-preset-profile",
@@ -156,8 +154,7 @@ def _add_selection(parser: argparse.ArgumentParser) -> None:
         "--regex",
         default="",
         help="Record only topics containing provided regular expression. Note: --all or --all-topics will "
-        "override "
-        "--regex.",
+        "override --regex.",
     )
     parser.add_argument(
         "--exclude-regex",

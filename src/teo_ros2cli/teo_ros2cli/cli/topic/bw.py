@@ -68,9 +68,8 @@ def bandwidth_text(arrivals: list[tuple[float, int]], now: float) -> str:
     sizes = [size for _, size in arrivals]
     per_second = sum(sizes) / (now - arrivals[0][0])
     return (
-        f"{_bytes(per_second)}/s from {len(sizes)} messages\n"
-        f"\tMessage size mean: {_bytes(sum(sizes) / len(sizes))} min: {_bytes(min(sizes))} max: "
-        f"{_bytes(max(sizes))}"
+        f"{_bytes(per_second)}/s from {len(sizes)} messages\n\tMessage size mean: "
+        f"{_bytes(sum(sizes) / len(sizes))} min: {_bytes(min(sizes))} max: {_bytes(max(sizes))}"
     )
 
 

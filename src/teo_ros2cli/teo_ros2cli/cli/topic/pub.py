@@ -39,9 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default="{}",
         help='Values to fill the message with in YAML format (e.g. "data: Hello World"), otherwise the '
-        "message "
-        "will be published with default values. `header: auto` and `stamp: now` stand for the time of "
-        "publishing.",
+        "message will be published with default values. `header: auto` and `stamp: now` stand for the time "
+        "of publishing.",
     )
     group = parser.add_mutually_exclusive_group()
     group.add_argument(
