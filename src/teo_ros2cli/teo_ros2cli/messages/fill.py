@@ -24,7 +24,7 @@ from rosidl_parser.definition import (
 
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import interface_class, interface_name_of
-from teo_ros2cli.messages.yaml_text import Scalar, plain
+from teo_ros2cli.messages.yaml_text import Scalar, parse, plain
 
 # A builtin_interfaces/msg/Time.
 Stamp = Any
@@ -67,6 +67,21 @@ def fill_message(message: Any, values: Any, *, automatic_stamps: bool = False) -
     setters: list[StampSetter] = []
     _Filler(automatic_stamps, setters).fill(message, values, "")
     return setters
+
+
+def fill_from_text(message: Any, text: str, *, automatic_stamps: bool = False) -> list[StampSetter]:
+    """Set the fields of a message as a mapping in YAML says; the rest is as for `fill_message`.
+
+    Raises:
+        Ros2CliError: `invalid_yaml`, `invalid_field`.
+    """
+    values = parse(text)
+    if not isinstance(values, dict):
+        raise Ros2CliError("invalid_yaml", "The passed value needs to be a dictionary in YAML format")
+    try:
+        return fill_message(message, values, automatic_stamps=automatic_stamps)
+    except Ros2CliError as error:
+        raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
 
 
 class _Filler:

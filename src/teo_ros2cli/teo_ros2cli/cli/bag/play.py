@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from teo_ros2cli.bags.bag import Bag, open_bag
 from teo_ros2cli.bags.qos_record import read_overrides
-from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
+from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
 from teo_ros2cli.errors import Ros2CliError
 
@@ -122,6 +122,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--node-name", default="rosbag2_player", help="Name of the player node.")
 
 
+@bag_errors()
 def run(options: argparse.Namespace) -> int:
     """Play the bag until its end, or until SIGINT or SIGTERM comes.
 
@@ -129,13 +130,6 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_bag`.
     """
     stop = StopSignals()
-    try:
-        return _play(options, stop)
-    except Ros2CliError as error:
-        raise as_bag_error(error) from error
-
-
-def _play(options: argparse.Namespace, stop: StopSignals) -> int:
     selects = _selector(options)
     remap = dict(map(_remapping, options.remap))
     overrides = read_overrides(options.qos_profile_overrides_path)

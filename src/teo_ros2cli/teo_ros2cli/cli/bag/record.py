@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from teo_ros2cli.bags.qos_record import read_overrides
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import DEFAULT_PRESET, PRESETS, BagWriter
-from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
+from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
 from teo_ros2cli.errors import Ros2CliError
 
@@ -174,6 +174,7 @@ def _add_selection(parser: argparse.ArgumentParser) -> None:
     )
 
 
+@bag_errors()
 def run(options: argparse.Namespace) -> int:
     """Record until SIGINT or SIGTERM comes, then finish the bag.
 
@@ -182,13 +183,6 @@ def run(options: argparse.Namespace) -> int:
             `output_unwritable`, or `bag_unwritable`.
     """
     stop = StopSignals()
-    try:
-        return _record(options, stop)
-    except Ros2CliError as error:
-        raise as_bag_error(error) from error
-
-
-def _record(options: argparse.Namespace, stop: StopSignals) -> int:
     if options.topics_positional:
         warn('Positional "topics" argument deprecated. Please use optional "--topics" argument instead.')
     selection = _selection(options)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
 
 VERBS = {
     "bw": Entry(f"{__name__}.bw", "Display bandwidth used by topic"),
@@ -17,8 +15,3 @@ VERBS = {
     "pub": Entry(f"{__name__}.pub", "Publish a message to a topic"),
     "type": Entry(f"{__name__}.listing", "Print a topic's type", "type"),
 }
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 topic", "Various topic related sub-commands", "verb", VERBS, words)

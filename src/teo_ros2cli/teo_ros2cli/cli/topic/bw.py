@@ -7,43 +7,24 @@ import time
 from collections import deque
 from typing import Any
 
-from teo_ros2cli.cli.options import add_graph_arguments, positive_int
-
-DEFAULT_WINDOW = 100
-# Interval of printing [s].
-_REPORT = 1.0
+from teo_ros2cli.cli.topic.measuring import add_window_arguments, measure, measured_topics
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
-    add_graph_arguments(parser)
+    add_window_arguments(parser, 100, "Maximum window size")
     parser.add_argument("topic_name", help="Topic name to monitor for bandwidth utilization")
-    parser.add_argument(
-        "--window",
-        "-w",
-        dest="window_size",
-        type=positive_int,
-        default=DEFAULT_WINDOW,
-        metavar="WINDOW",
-        help=f"Maximum window size, in # of messages, for calculating rate (default: {DEFAULT_WINDOW})",
-    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the bandwidth once a second, until interrupted.
 
     Raises:
-        Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`.
+        Ros2CliError: As of `measured_topics`.
     """
-    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-    from teo_ros2cli.graph.listening import ANYTHING, listen
-    from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
-    from teo_ros2cli.messages.classes import message_class
-
     arrivals: deque[tuple[float, int]] = deque(maxlen=options.window_size)
 
-    def receive(message: Any, _info: dict[str, Any]) -> None:
+    def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
         arrivals.append((time.monotonic(), len(message)))
 
     def report() -> None:
@@ -51,13 +32,9 @@ def run(options: argparse.Namespace) -> int:
         if text:
             print(text)
 
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        topic = full_topic_name(node, options.topic_name)
-        settle(node, options.spin_time)
-        cls = message_class(wait_for_type(node, topic, "measure"))
-        print(f"Subscribed to [{topic}]")
-        subscription = AdaptiveSubscription(node, topic, cls, receive, fixed=ANYTHING, raw=True, warn=print)
-        listen(node, [subscription], every=(_REPORT, report))
+    with measured_topics(options, [options.topic_name]) as (node, classes):
+        print(f"Subscribed to [{next(iter(classes))}]")
+        measure(node, classes, receive, report, raw=True)
     return 0
 
 

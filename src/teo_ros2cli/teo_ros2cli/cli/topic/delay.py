@@ -7,50 +7,31 @@ import math
 from collections import deque
 from typing import Any
 
-from teo_ros2cli.cli.options import add_graph_arguments, positive_int
+from teo_ros2cli.cli.topic.measuring import add_window_arguments, measure, measured_topics
 from teo_ros2cli.errors import Ros2CliError
-
-DEFAULT_WINDOW = 10000
-# Interval of printing [s].
-_REPORT = 1.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
-    add_graph_arguments(parser)
+    add_window_arguments(parser, 10000)
     parser.add_argument("topic", help="Topic name to calculate the delay for")
-    parser.add_argument(
-        "--window",
-        "-w",
-        dest="window_size",
-        type=positive_int,
-        default=DEFAULT_WINDOW,
-        metavar="WINDOW",
-        help=f"Window size, in # of messages, for calculating rate (default: {DEFAULT_WINDOW})",
-    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the delay once a second, until interrupted.
 
     Raises:
-        Ros2CliError: `no_header`, `invalid_topic`, `invalid_type`, `ambiguous_type`.
+        Ros2CliError: `no_header`, and as of `measured_topics`.
     """
-    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-    from teo_ros2cli.graph.listening import ANYTHING, listen
-    from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
-    from teo_ros2cli.messages.classes import message_class
-
     delays: deque[float] = deque(maxlen=options.window_size)
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        topic = full_topic_name(node, options.topic)
-        settle(node, options.spin_time)
-        cls = message_class(wait_for_type(node, topic, "measure"))
-        if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
-            raise Ros2CliError("no_header", f"Messages of topic '{topic}' have no header, and so no stamp")
+    with measured_topics(options, [options.topic]) as (node, classes):
+        for topic, cls in classes.items():
+            if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
+                raise Ros2CliError(
+                    "no_header", f"Messages of topic '{topic}' have no header, and so no stamp"
+                )
 
-        def receive(message: Any, _info: dict[str, Any]) -> None:
+        def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
             stamp = message.header.stamp
             delays.append((node.get_clock().now().nanoseconds - stamp.sec * 10**9 - stamp.nanosec) * 1e-9)
 
@@ -58,8 +39,7 @@ def run(options: argparse.Namespace) -> int:
             if delays:
                 print(delay_text(list(delays)))
 
-        subscription = AdaptiveSubscription(node, topic, cls, receive, fixed=ANYTHING, warn=print)
-        listen(node, [subscription], every=(_REPORT, report))
+        measure(node, classes, receive, report)
     return 0
 
 
