@@ -19,7 +19,7 @@ from teo_ros2cli.bags.metadata import (
     offered_qos_text,
     write_metadata,
 )
-from teo_ros2cli.definitions.schema_text import Schema
+from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
 
 PROFILE = "ros2"

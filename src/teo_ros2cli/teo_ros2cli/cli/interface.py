@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.definitions.listing import definition_lines
+from teo_ros2cli.definitions import definition_lines
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import InterfaceName, interface_file, interfaces, package_prefix
 

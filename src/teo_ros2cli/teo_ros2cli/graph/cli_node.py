@@ -6,10 +6,10 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.participants import local_participants
 from teo_ros2cli.packages import package_prefix
 
 NODE_NAME_PREFIX = "_ros2cli"
@@ -30,6 +30,14 @@ _LONGEST = 3.5
 _QUIET = 0.3
 # Interval of looking at the graph [s].
 _POLL = 0.02
+
+# Ports of the RTPS specification (OMG DDSI-RTPS 2.5, section 9.6.2.3): those that are bound tell how many
+# participants run on this machine, so how many there are to wait for.
+_PORT_BASE = 7400
+_DOMAIN_GAIN = 250
+_UNICAST_OFFSET = 10
+_PARTICIPANT_GAIN = 2
+_UDP_TABLE = Path("/proc/net/udp")
 
 
 @contextmanager
@@ -176,3 +184,26 @@ def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
             and qos_check_compatible(publisher.qos_profile, info.qos_profile)[0] != QoSCompatibility.ERROR
         )
     )
+
+
+def local_participants(domain: int) -> int:
+    """Return the number of participants of a domain on this machine; 0 where that cannot be told."""
+    try:
+        return count_participants(_UDP_TABLE.read_text(encoding="ascii"), domain)
+    except (OSError, UnicodeDecodeError):
+        return 0
+
+
+def count_participants(udp_table: str, domain: int) -> int:
+    """Count the discovery ports of a domain in a text of the form of `/proc/net/udp`."""
+    first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
+    last = _PORT_BASE + _DOMAIN_GAIN * (domain + 1)
+    ports = set()
+    for line in udp_table.splitlines()[1:]:
+        fields = line.split()
+        if len(fields) > 1 and ":" in fields[1]:
+            try:
+                ports.add(int(fields[1].rsplit(":", 1)[1], 16))
+            except ValueError:
+                continue
+    return sum(first <= port < last and (port - first) % _PARTICIPANT_GAIN == 0 for port in ports)

@@ -7,6 +7,7 @@ so every value is checked here against the type of its field, with the field nam
 from __future__ import annotations
 
 import array
+import contextlib
 import math
 import struct
 from collections.abc import Callable
@@ -213,30 +214,21 @@ def _integer(meant: Any, value: Any, name: str, path: str) -> int:
     elif isinstance(meant, float) and meant.is_integer():
         number = int(meant)
     elif isinstance(meant, str):
-        try:
+        with contextlib.suppress(ValueError):
             number = int(meant, 0)
-        except ValueError:
-            number = None
     if number is None or not low <= number <= high:
         raise _fault(path, f"an integer from {low} to {high}", value)
     return number
 
 
 def _real(meant: Any, value: Any, name: str, path: str) -> float:
-    number: float | None = None
-    if isinstance(meant, int | float) and not isinstance(meant, bool):
-        try:
-            number = float(meant)
-        except OverflowError:
-            number = None
-    elif isinstance(meant, str):
-        # YAML 1.1 reads 1e-3, which has no point, as a string.
-        try:
-            number = float(meant)
-        except ValueError:
-            number = None
-    if number is None:
+    # YAML 1.1 reads 1e-3, which has no point, as a string.
+    if isinstance(meant, bool) or not isinstance(meant, int | float | str):
         raise _fault(path, "a number", value)
+    try:
+        number = float(meant)
+    except (OverflowError, ValueError) as error:
+        raise _fault(path, "a number", value) from error
     if name == "float" and math.isfinite(number):
         try:
             struct.pack("<f", number)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from teo_ros2cli.cli.dispatch import Entry
 
 VERBS = {
-    "bw": Entry(f"{__name__}.bw", "Display bandwidth used by topic"),
-    "delay": Entry(f"{__name__}.delay", "Display delay of topic from timestamp in header"),
+    "bw": Entry(f"{__name__}.measuring", "Display bandwidth used by topic", "bw"),
+    "delay": Entry(f"{__name__}.measuring", "Display delay of topic from timestamp in header", "delay"),
     "echo": Entry(f"{__name__}.echo", "Output messages from a topic"),
     "find": Entry(f"{__name__}.listing", "Output a list of available topics of a given type", "find"),
     "hz": Entry(f"{__name__}.hz", "Print the average receiving rate to screen"),
