@@ -260,9 +260,9 @@ def test_the_choices_of_quality_are_those_of_rclpy() -> None:
 
     assert set(options.QOS_PRESETS) == set(QoSPresetProfiles.short_keys())
     for choices, policy in (
-        (options.QOS_HISTORIES, HistoryPolicy),
-        (options.QOS_RELIABILITIES, ReliabilityPolicy),
-        (options.QOS_DURABILITIES, DurabilityPolicy),
-        (options.QOS_LIVELINESSES, LivelinessPolicy),
+        (options.QOS_POLICIES["history"], HistoryPolicy),
+        (options.QOS_POLICIES["reliability"], ReliabilityPolicy),
+        (options.QOS_POLICIES["durability"], DurabilityPolicy),
+        (options.QOS_POLICIES["liveliness"], LivelinessPolicy),
     ):
         assert set(choices) == set(policy.short_keys())

@@ -135,11 +135,6 @@ class BagWriter:
             ) from error
         self._file = self._open_file()
 
-    @property
-    def messages(self) -> int:
-        """Number of messages written so far."""
-        return self._span.messages
-
     def add_topic(self, topic: TopicRecord, schema: Schema) -> None:
         """Make a topic known, with or without messages to follow. A known one stays as it is."""
         if topic.name not in self._channels:

@@ -63,11 +63,6 @@ class Recorder:
         self._discovering = True
         self._next_look = 0.0
 
-    @property
-    def paused(self) -> bool:
-        """True while nothing is recorded."""
-        return self._paused
-
     def toggle_paused(self) -> None:
         """Pause, or go on recording."""
         self._paused = not self._paused

@@ -1,4 +1,4 @@
-"""`ros2 topic bw` and `delay`, and what they share with `hz`: a window of messages, a report once a second."""
+"""`ros2 topic bw` and `delay`, and what they share with `hz`: a window and a report each second."""
 
 from __future__ import annotations
 
