@@ -101,8 +101,7 @@ def schema_of(type_name: str) -> Schema:
 
 
 def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
-    # An action's feedback travels in a message that no file defines: the goal's identifier and the feedback
-    # part.
+    # An action's feedback travels in a message that no file defines: the goal's identifier and the feedback.
     definition = _text(InterfaceName(package, "action", action))
     parts = split_sections(definition)
     if len(parts) != 3:

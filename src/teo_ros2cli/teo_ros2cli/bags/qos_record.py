@@ -33,8 +33,7 @@ _POLICIES: Mapping[str, tuple[str, ...]] = {
 }
 # The fields of a profile that are times.
 DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
-# What implementations of the first ROS 2 releases gave for an infinite time [s, ns]: rosbag2 maps these as
-# well.
+# What implementations of the first ROS 2 releases gave for an infinite time [s, ns]: rosbag2 maps them too.
 _OLD_INFINITES = {(2**31 - 1, 2**32 - 1), (2**31 - 1, 2**31 - 1)}
 
 

@@ -41,8 +41,7 @@ class Preset(NamedTuple):
 
 
 PRESETS: Mapping[str, Preset] = {
-    # 1 MiB is MCAP's own default; the player reads a chunk ahead, so that its size does not disturb the
-    # timing.
+    # 1 MiB is MCAP's own default; the player reads a chunk ahead, so that the timing is not disturbed.
     "none": Preset(1024 * 1024, CompressionType.NONE),
     "fastwrite": Preset(0, CompressionType.NONE, checksums=False),
     # The default. A crash loses the open chunk: a quarter of the usual size, and closed every second besides.

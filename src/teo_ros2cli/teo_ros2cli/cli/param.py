@@ -24,8 +24,7 @@ VERBS = {
 # Time that a node gets to answer [s].
 _TIMEOUT = 5.0
 
-# By the number of the type in rcl_interfaces/msg/ParameterType: how the value is announced, and the field it
-# is in.
+# By the number in rcl_interfaces/msg/ParameterType: how the value is announced, its field, its type's name.
 _TYPES = {
     1: ("Boolean value is:", "bool_value", "boolean"),
     2: ("Integer value is:", "integer_value", "integer"),

@@ -59,8 +59,7 @@ class AdaptiveSubscription:
         self._lost = lost
         self._told = False
         self.first_offers = self._offers()
-        # Without publishers there is nothing to fit yet; what comes may come again with a latched
-        # subscription.
+        # Without publishers there is nothing to fit yet; a latched subscription may bring a message again.
         self._blind = not self.first_offers
         self._repetitions = _Repetitions() if self._blind else None
         self.request = fixed if fixed is not None else self._fitting(self.first_offers)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.messages.classes import interface_name_of
 from teo_ros2cli.packages import package_prefix
 
 NODE_NAME_PREFIX = "_ros2cli"
@@ -158,13 +159,11 @@ def _picture(node: Any, names: bool, publisher: Any) -> _Picture:
     announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
     participants = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
     # Every node publishes parameter events: by these one sees whether a node's name has come.
-    nodes = (
-        [info.node_name for info in node.get_publishers_info_by_topic("/parameter_events")] if names else []
-    )
+    owners = node.get_publishers_info_by_topic("/parameter_events") if names else []
     topics = tuple((name, *types) for name, types in node.get_topic_names_and_types())
     return _Picture(
         len(participants),
-        tuple(sorted(nodes)),
+        tuple(sorted(info.node_name for info in owners)),
         topics,
         () if publisher is None else _takers(node, publisher),
         0 if publisher is None else publisher.get_subscription_count(),
@@ -175,7 +174,7 @@ def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
     """Return the identifiers of the subscriptions that a publisher's type and quality of service suit."""
     from rclpy.qos import QoSCompatibility, qos_check_compatible
 
-    kind = "/".join((*publisher.msg_type.__module__.split(".")[:2], publisher.msg_type.__name__))
+    kind = interface_name_of(publisher.msg_type)
     return tuple(
         sorted(
             bytes(info.endpoint_gid)

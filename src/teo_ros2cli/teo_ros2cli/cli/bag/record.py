@@ -191,6 +191,8 @@ def run(options: argparse.Namespace) -> int:
     if directory.exists():
         raise Ros2CliError("output_exists", f"Output folder '{directory}' already exists.")
 
+    from rclpy.logging import LoggingSeverity
+
     from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.keyboard import SPACE, keys
     from teo_ros2cli.graph.recorder import Recorder, RecorderSettings
@@ -210,7 +212,8 @@ def run(options: argparse.Namespace) -> int:
         cli_node(options.node_name, use_sim_time=options.use_sim_time, own_signals=True) as node,
         keys(not options.disable_keyboard_controls) as pressed,
     ):
-        _set_log_level(node, options.log_level)
+        log = node.get_logger()
+        log.set_level(LoggingSeverity[options.log_level.upper()])
         writer = BagWriter(
             Path.cwd() / directory,
             preset=options.storage_preset_profile,
@@ -219,7 +222,6 @@ def run(options: argparse.Namespace) -> int:
             custom_data=dict(options.custom_data),
             ros_distro=os.environ.get("ROS_DISTRO", "jazzy"),
         )
-        log = node.get_logger()
         recorder = Recorder(node, writer, settings)
         try:
             if pressed is not None:
@@ -249,12 +251,6 @@ def _spin(node: Any, recorder: Recorder, stop: StopSignals, toggled: Callable[[]
             executor.spin_once(timeout_sec=_STEP)
     finally:
         executor.remove_node(node)
-
-
-def _set_log_level(node: Any, level: str) -> None:
-    from rclpy.logging import LoggingSeverity
-
-    node.get_logger().set_level(LoggingSeverity[level.upper()])
 
 
 def _selection(options: argparse.Namespace) -> TopicSelection:
