@@ -88,8 +88,7 @@ def watched_pairs() -> tuple[tuple[str, str], ...]:
     pairs: list[tuple[str, str]] = []
     for side in ("Left", "Right"):
         pairs += product(_upper_arm(side) + _forearm(side) + _hand(side), _TORSO)
-        # The rest of the hand's own arm: two joints at the wrist lie between, so it is not a neighbour of the
-        # elbow link.
+        # The rest of the hand's own arm: two joints at the wrist lie between it and the elbow link.
         pairs += product(_hand(side)[1:], (*_shoulder(side), *_upper_arm(side), _forearm(side)[0]))
     left, right = (
         _shoulder(side) + _upper_arm(side) + _forearm(side) + _hand(side) for side in ("Left", "Right")

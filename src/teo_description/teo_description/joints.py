@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
+from teo_description.errors import DescriptionError
+
 _ARM = (
     "Frontal{}Shoulder",
     "Sagittal{}Shoulder",
@@ -42,6 +46,22 @@ LEG_JOINTS = LEFT_LEG + RIGHT_LEG
 
 # The 40 joints of the joint state; the phalanges that follow a tendon are not among them.
 ALL_JOINTS = COMMANDED_JOINTS + LEG_JOINTS
+
+
+def check_joint_names(names: Iterable[str], where: str = "") -> None:
+    """Refuse names that are not among `ALL_JOINTS`.
+
+    Args:
+        names: The names.
+        where: What the message begins with: their source, a colon and a blank.
+
+    Raises:
+        DescriptionError: ``unknown_joint``.
+    """
+    unknown = [name for name in names if name not in ALL_JOINTS]
+    if unknown:
+        expected, got = ", ".join(ALL_JOINTS), ", ".join(map(repr, unknown))
+        raise DescriptionError("unknown_joint", f"{where}expected joints among {expected}; got {got}")
 
 
 def mirrored_name(name: str) -> str:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from teo_common.package_files import package_path
 from teo_description.errors import DescriptionError
-from teo_description.joints import ALL_JOINTS, COMMANDED_JOINTS
+from teo_description.joints import COMMANDED_JOINTS, check_joint_names
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -77,13 +77,8 @@ def joint_limits(names: Sequence[str] = COMMANDED_JOINTS) -> JointLimits:
     Raises:
         DescriptionError: ``unknown_joint``.
     """
+    check_joint_names(names)
     table = _limits()
-    unknown = [name for name in names if name not in table]
-    if unknown:
-        raise DescriptionError(
-            "unknown_joint",
-            f"expected joints among {', '.join(ALL_JOINTS)}; got {', '.join(map(repr, unknown))}",
-        )
     values = np.array([table[name] for name in names], dtype=np.float64).reshape(-1, 3)
     values.setflags(write=False)
     return JointLimits(names=tuple(names), lower=values[:, 0], upper=values[:, 1], velocity=values[:, 2])

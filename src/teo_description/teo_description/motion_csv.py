@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.errors import DescriptionError
-from teo_description.joints import ALL_JOINTS
+from teo_description.joints import ALL_JOINTS, check_joint_names
 from teo_description.limits import joint_limits
 
 # Positions written with six decimals may end this little outside a limit that they stand on [rad].
@@ -109,13 +109,7 @@ def _checked_header(path: Path, header: list[str]) -> tuple[str, ...]:
             "bad_header",
             f"{path.name}: expected a header with time first and then joint names, got {','.join(header)!r}",
         )
-    unknown = [name for name in names if name not in ALL_JOINTS]
-    if unknown:
-        raise DescriptionError(
-            "unknown_joint",
-            f"{path.name}: expected joints among {', '.join(ALL_JOINTS)}; "
-            f"got {', '.join(map(repr, unknown))}",
-        )
+    check_joint_names(names, f"{path.name}: ")
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise DescriptionError(

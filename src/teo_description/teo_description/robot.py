@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from teo_description.clearance import HEAD_LINKS, Clearance, ClearanceChecker, Contact
 from teo_description.errors import DescriptionError
 from teo_description.home import HOME
-from teo_description.joints import ALL_JOINTS
+from teo_description.joints import ALL_JOINTS, check_joint_names
 from teo_description.limits import urdf_text
 
 Matrix = NDArray[np.float64]
@@ -81,14 +81,11 @@ class Robot:
         Raises:
             DescriptionError: ``unknown_joint`` or ``not_finite``.
         """
+        if not positions.keys() <= self._column.keys():
+            check_joint_names(positions)
         values = self._home.copy()
         for name, value in positions.items():
-            column = self._column.get(name)
-            if column is None:
-                raise DescriptionError(
-                    "unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {name!r}"
-                )
-            values[column] = value
+            values[self._column[name]] = value
         if not np.isfinite(values).all():
             bad = [name for name, value in zip(ALL_JOINTS, values, strict=True) if not np.isfinite(value)]
             raise DescriptionError(
@@ -140,11 +137,7 @@ class Robot:
             DescriptionError: ``unknown_frame``, ``unknown_joint`` or ``wrong_shape``.
         """
         index = self._frame_index(frame)
-        unknown = [name for name in joints if name not in self._column]
-        if unknown:
-            raise DescriptionError(
-                "unknown_joint", f"expected joints among {', '.join(ALL_JOINTS)}; got {unknown}"
-            )
+        check_joint_names(joints)
         columns = [self._column[name] for name in joints]
         full = pin.computeFrameJacobian(
             self.model, self.data, self._checked(q), index, pin.LOCAL_WORLD_ALIGNED

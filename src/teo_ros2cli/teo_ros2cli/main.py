@@ -44,7 +44,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return int(signal.SIGINT)
     except BrokenPipeError:
-        # Whoever read the output has left: `ros2 topic list | head -1`. Nothing more can be written, at exit
-        # neither.
+        # Whoever read the output has left: `ros2 topic list | head -1`. Even at exit nothing can be written.
         os.dup2(os.open(os.devnull, os.O_WRONLY), cast(TextIO, sys.stdout).fileno())
         return 128 + int(signal.SIGPIPE)

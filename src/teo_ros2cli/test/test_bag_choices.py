@@ -21,8 +21,8 @@ from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, read_ove
 from teo_ros2cli.bags.schedule import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.cli.topic.rates import RateMeter
-from teo_ros2cli.definitions.schema_text import schema_of
+from teo_ros2cli.cli.topic.hz import RateMeter
+from teo_ros2cli.definitions import schema_of
 from teo_ros2cli.errors import Ros2CliError
 
 RELIABLE = QosRecord()

@@ -18,8 +18,7 @@ from teo_ros2cli.bags.metadata import NO_START, TopicRecord, read_metadata
 from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.summary import moment_text, size_text, summary
 from teo_ros2cli.bags.writer import PRESETS, BagWriter
-from teo_ros2cli.definitions.schema_text import schema_of
-from teo_ros2cli.definitions.type_hash import installed_type_hash
+from teo_ros2cli.definitions import installed_type_hash, schema_of
 from teo_ros2cli.errors import Ros2CliError
 
 START = 1_700_000_000_123_456_789

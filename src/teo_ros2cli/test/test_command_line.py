@@ -179,7 +179,7 @@ def test_interfaces_are_shown(ros2: Callable[..., Any]) -> None:
 def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) -> None:
     from teo_ros2cli.bags.metadata import TopicRecord
     from teo_ros2cli.bags.writer import BagWriter
-    from teo_ros2cli.definitions.schema_text import schema_of
+    from teo_ros2cli.definitions import schema_of
 
     for name, count in (("good", 3000), ("empty", 0)):
         writer = BagWriter(tmp_path / name)
@@ -260,9 +260,9 @@ def test_the_choices_of_quality_are_those_of_rclpy() -> None:
 
     assert set(options.QOS_PRESETS) == set(QoSPresetProfiles.short_keys())
     for choices, policy in (
-        (options.QOS_HISTORIES, HistoryPolicy),
-        (options.QOS_RELIABILITIES, ReliabilityPolicy),
-        (options.QOS_DURABILITIES, DurabilityPolicy),
-        (options.QOS_LIVELINESSES, LivelinessPolicy),
+        (options.QOS_POLICIES["history"], HistoryPolicy),
+        (options.QOS_POLICIES["reliability"], ReliabilityPolicy),
+        (options.QOS_POLICIES["durability"], DurabilityPolicy),
+        (options.QOS_POLICIES["liveliness"], LivelinessPolicy),
     ):
         assert set(choices) == set(policy.short_keys())

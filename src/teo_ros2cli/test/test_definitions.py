@@ -6,10 +6,13 @@ import pytest
 from mcap_ros2._dynamic import generate_dynamic
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from teo_ros2cli.definitions.listing import definition_lines
-from teo_ros2cli.definitions.references import referenced_types
-from teo_ros2cli.definitions.schema_text import SEPARATOR, schema_of
-from teo_ros2cli.definitions.type_hash import installed_type_hash
+from teo_ros2cli.definitions import (
+    SEPARATOR,
+    definition_lines,
+    installed_type_hash,
+    referenced_types,
+    schema_of,
+)
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import InterfaceName, interfaces
 

@@ -1,4 +1,4 @@
-from teo_ros2cli.graph.participants import count_participants
+from teo_ros2cli.graph.cli_node import count_participants
 
 HEADER = "   sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode\n"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from typing import NamedTuple, NoReturn
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -119,20 +119,20 @@ def _with_all_joints(points: Points, start: MotionState, limits: JointLimits) ->
 def _check_points(points: Points, limits: JointLimits) -> None:
     low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
     for i, j in _where((points.positions < low) | (points.positions > high)):
-        _refuse(
+        raise TrajectoryError(
             Refusal.POSITION_LIMIT,
             f"point {i}: expected {limits.names[j]} within "
             f"{limits.lower[j]:.4f} .. {limits.upper[j]:.4f} rad, got {points.positions[i, j]:.6g} rad",
         )
     top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
     for i, j in _where(np.abs(points.velocities) > top):
-        _refuse(
+        raise TrajectoryError(
             Refusal.VELOCITY_LIMIT,
             f"point {i}: expected {limits.names[j]} within +-{limits.velocity[j]:.4f} rad/s, "
             f"got {points.velocities[i, j]:.6g} rad/s",
         )
     for _, j in _where(np.abs(points.velocities[-1:]) > REST_VELOCITY):
-        _refuse(
+        raise TrajectoryError(
             Refusal.MOVING_AT_END,
             f"last point: expected {limits.names[j]} at rest, got {points.velocities[-1, j]:.6g} rad/s",
         )
@@ -163,7 +163,7 @@ def _check_start(
     distance = np.maximum(low - start.positions, start.positions - high)
     j = int(np.argmax(distance))
     if distance[j] > rules.start_tolerance:
-        _refuse(
+        raise TrajectoryError(
             Refusal.START_MISMATCH,
             f"expected {limits.names[j]} where the robot is, {start.positions[j]:.4f} rad, within "
             f"{rules.start_tolerance:g} rad; the trajectory starts at {where[-1, j]:.4f} rad: "
@@ -171,7 +171,7 @@ def _check_start(
         )
     if past == len(due):
         for _, j in _where(np.abs(start.velocities[None]) > REST_VELOCITY):
-            _refuse(
+            raise TrajectoryError(
                 Refusal.START_MISMATCH,
                 f"every point is due at once and {limits.names[j]} moves at {start.velocities[j]:.4f} rad/s: "
                 "give the robot time to stop",
@@ -209,7 +209,7 @@ def _check_between(trajectory: Trajectory, first: int, limits: JointLimits) -> N
         for i, j in _where(np.abs(steps) > top * durations[:, None]):
             segment = begin + i
             place = _place(segment, first)
-            _refuse(
+            raise TrajectoryError(
                 Refusal.START_TOO_FAST if segment == 0 else Refusal.SPEED_BETWEEN_POINTS,
                 f"{place}, {limits.names[j]} has {durations[i]:.6g} s for {abs(steps[i, j]):.4f} rad: "
                 f"{abs(steps[i, j]) / durations[i]:.4g} rad/s; limit {limits.velocity[j]:.4f} rad/s",
@@ -224,7 +224,7 @@ def _check_between(trajectory: Trajectory, first: int, limits: JointLimits) -> N
             segment, j = begin + excess.segment, excess.joint
             code, bounds = _between_code(what, segment), (lower[j], upper[j])
             moment = trajectory.times[segment] + excess.fraction * durations[excess.segment]
-            _refuse(
+            raise TrajectoryError(
                 code,
                 f"{_place(segment, first)}, the curve through the given points takes {limits.names[j]} to a "
                 f"{what} of {excess.value:.6g} {'rad' if what == 'position' else 'rad/s'}, "
@@ -248,7 +248,3 @@ def _where(bad: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """The first place where it is true, if any: (point, joint)."""
     flat = int(np.argmax(bad))
     return [(flat // bad.shape[1], flat % bad.shape[1])] if bad.flat[flat] else []
-
-
-def _refuse(code: Refusal, sentence: str) -> NoReturn:
-    raise TrajectoryError(code, sentence)

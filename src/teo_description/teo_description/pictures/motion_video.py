@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from fractions import Fraction
 from pathlib import Path
 from types import TracebackType
@@ -44,7 +44,7 @@ class MotionVideo:
             )
         self._path = path
         self._rate = Fraction(frames_per_second).limit_denominator(1001)
-        self._file = atomic_path(path)
+        self._open = ExitStack()
         self._container: Any = None
         self._stream: Any = None
         self._shape: tuple[int, ...] | None = None
@@ -52,7 +52,8 @@ class MotionVideo:
         """Frames added so far."""
 
     def __enter__(self) -> Self:
-        temporary = self._file.__enter__()
+        temporary = self._open.enter_context(atomic_path(self._path))
+        self._open.push(self._finish)
         # faststart: the index comes first, so a browser can start before it has everything.
         self._container = av.open(str(temporary), "w", format="mp4", options={"movflags": "faststart"})
         return self
@@ -92,21 +93,16 @@ class MotionVideo:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        try:
-            self._finish(whole=kind is None)
-        except BaseException as failure:
-            self._file.__exit__(type(failure), failure, failure.__traceback__)
-            raise
-        self._file.__exit__(kind, error, trace)
+        self._open.__exit__(kind, error, trace)
 
-    def _finish(self, *, whole: bool) -> None:
-        if whole and self.frame_count:
+    def _finish(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is None and self.frame_count:
             self._container.mux(self._stream.encode(None))
             self._container.close()
             return
         with suppress(av.FFmpegError):  # a film without an ending is not valid, and it is thrown away
             self._container.close()
-        if whole:
+        if kind is None:
             raise DescriptionError(
                 "empty_motion", f"expected at least one frame for {self._path.name}, got none"
             )

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from teo_description.errors import DescriptionError
-from teo_description.joints import ALL_JOINTS
+from teo_description.joints import ALL_JOINTS, check_joint_names
 from teo_description.motion_csv import check_limits
 
 
@@ -33,12 +33,7 @@ def read_pose(arguments: Iterable[str]) -> dict[str, float]:
             pose[name] = _radians(name, value)
         else:
             pose.update(_from_json(Path(argument)))
-    unknown = [name for name in pose if name not in ALL_JOINTS]
-    if unknown:
-        raise DescriptionError(
-            "unknown_joint",
-            f"expected joints among {', '.join(ALL_JOINTS)}; got {', '.join(map(repr, unknown))}",
-        )
+    check_joint_names(pose)
     bad = [name for name, value in pose.items() if not math.isfinite(value)]
     if bad:
         raise DescriptionError(

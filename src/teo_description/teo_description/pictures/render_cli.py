@@ -76,16 +76,15 @@ def _render(
                 "bad_options", "expected --out FILE for a pose, or --csv FILE with --mp4 or --strip"
             )
     except DescriptionError as error:
-        _console.print(f"render: {error}", style="red", markup=False, highlight=False, soft_wrap=True)
+        _complain(str(error))
         raise typer.Exit(2 if error.code == "bad_options" else 1) from error
     except OSError as error:
-        _console.print(
-            f"render: cannot write {error.filename}: {error.strerror}",
-            style="red",
-            markup=False,
-            soft_wrap=True,
-        )
+        _complain(f"cannot write {error.filename}: {error.strerror}")
         raise typer.Exit(1) from error
+
+
+def _complain(sentence: str) -> None:
+    _console.print(f"render: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
 
 
 def _view(camera: str, size: str) -> Camera:

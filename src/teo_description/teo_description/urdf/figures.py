@@ -93,19 +93,20 @@ def _mirrored_axial(vector: Vector) -> Vector:
     return -vector[0] + 0.0, vector[1], -vector[2] + 0.0
 
 
+def _joint(row: dict[str, str], name: str, parent: str) -> JointRow:
+    return JointRow(
+        name=name,
+        parent=parent,
+        origin=_vector(row, "x", "y", "z"),
+        axis=AXES[row["axis"]],
+        lower=math.radians(float(row["lower_deg"])),
+        upper=math.radians(float(row["upper_deg"])),
+    )
+
+
 def body_joints() -> tuple[JointRow, ...]:
     """The 28 joints of trunk, head, arms and legs."""
-    return tuple(
-        JointRow(
-            name=row["joint"],
-            parent=row["parent"],
-            origin=_vector(row, "x", "y", "z"),
-            axis=AXES[row["axis"]],
-            lower=math.radians(float(row["lower_deg"])),
-            upper=math.radians(float(row["upper_deg"])),
-        )
-        for row in _rows("joints.csv")
-    )
+    return tuple(_joint(row, row["joint"], row["parent"]) for row in _rows("joints.csv"))
 
 
 def hand_joints(side: str) -> tuple[JointRow, ...]:
@@ -113,18 +114,11 @@ def hand_joints(side: str) -> tuple[JointRow, ...]:
 
     A joint that follows goes through its range as the joint that it follows goes through its own.
     """
-    mirror = side == "Left"
     joints: dict[str, JointRow] = {}
     for row in _rows("hand_joints.csv"):
-        origin, axis = _vector(row, "x", "y", "z"), AXES[row["axis"]]
-        joint = JointRow(
-            name=side + row["joint"],
-            parent=f"{side}{row['parent']}_link",
-            origin=_mirrored(origin) if mirror else origin,
-            axis=_mirrored_axial(axis) if mirror else axis,
-            lower=math.radians(float(row["lower_deg"])),
-            upper=math.radians(float(row["upper_deg"])),
-        )
+        joint = _joint(row, side + row["joint"], f"{side}{row['parent']}_link")
+        if side == "Left":
+            joint = replace(joint, origin=_mirrored(joint.origin), axis=_mirrored_axial(joint.axis))
         if row["follows"]:
             joint = _following(joint, joints[side + row["follows"]])
         joints[joint.name] = joint
@@ -162,14 +156,9 @@ def fixed_frames() -> tuple[FixedFrame, ...]:
         )
         frames.append(frame)
         if mirrored_name(frame.name) != frame.name:
-            frames.append(
-                FixedFrame(
-                    name=mirrored_name(frame.name),
-                    parent=mirrored_name(frame.parent),
-                    origin=_mirrored(frame.origin),
-                    rpy=_mirrored_axial(frame.rpy),
-                )
-            )
+            name, parent = mirrored_name(frame.name), mirrored_name(frame.parent)
+            origin, rpy = _mirrored(frame.origin), _mirrored_axial(frame.rpy)
+            frames.append(FixedFrame(name=name, parent=parent, origin=origin, rpy=rpy))
     return tuple(frames)
 
 
@@ -187,15 +176,9 @@ def shapes() -> tuple[Shape, ...]:
             end=_vector(row, "x2", "y2", "z2"),
         )
         found.append(shape)
-        if mirrored_name(shape.link) != shape.link:
-            found.append(
-                replace(
-                    shape,
-                    link=mirrored_name(shape.link),
-                    start=_mirrored(shape.start),
-                    end=_mirrored(shape.end),
-                )
-            )
+        link = mirrored_name(shape.link)
+        if link != shape.link:
+            found.append(replace(shape, link=link, start=_mirrored(shape.start), end=_mirrored(shape.end)))
     return tuple(found)
 
 

@@ -114,16 +114,6 @@ def uniform_inertial(mass: float, solids: Iterable[Solid]) -> Inertial:
         offset = np.array(solid.centre) - centre
         own = turned @ np.diag(solid.principal_inertia()) @ turned.T
         total += part * (own + offset @ offset * np.eye(3) - np.outer(offset, offset))
-    x, y, z = (float(value) for value in centre)
-    return Inertial(
-        mass=mass,
-        centre=(x, y, z),
-        inertia=(
-            float(total[0, 0]),
-            float(total[1, 1]),
-            float(total[2, 2]),
-            float(total[0, 1]),
-            float(total[0, 2]),
-            float(total[1, 2]),
-        ),
-    )
+    x, y, z = centre.tolist()
+    (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = total.tolist()
+    return Inertial(mass=mass, centre=(x, y, z), inertia=(ixx, iyy, izz, ixy, ixz, iyz))

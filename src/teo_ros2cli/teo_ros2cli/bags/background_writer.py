@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from teo_ros2cli.bags.metadata import BagMetadata, TopicRecord
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions.schema_text import Schema
+from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
 
 # How often what was written goes to the operating system [s]: what a crash of this process loses.

@@ -65,8 +65,7 @@ class Bag:
                 on_problem(problem)
 
 
-# Messages are stored in the order in which their topics' queues were emptied, a little beside that of their
-# times.
+# Messages are stored in the order in which their topics' queues were emptied, nearly that of their times.
 _LOOK_AHEAD = 512
 
 

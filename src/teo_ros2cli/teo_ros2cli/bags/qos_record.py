@@ -6,7 +6,7 @@ Source of names and numbers: rmw/types.h and rmw/qos_string_conversions.h of ROS
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,26 +17,23 @@ from teo_ros2cli.errors import Ros2CliError
 # RMW_DURATION_INFINITE [ns].
 INFINITE = 2**63 - 1
 
-_HISTORY = {"system_default": 0, "keep_last": 1, "keep_all": 2, "unknown": 3}
-_RELIABILITY = {"system_default": 0, "reliable": 1, "best_effort": 2, "unknown": 3, "best_available": 4}
-_DURABILITY = {"system_default": 0, "transient_local": 1, "volatile": 2, "unknown": 3, "best_available": 4}
-_LIVELINESS = {
-    "system_default": 0,
-    "automatic": 1,
-    "manual_by_node": 2,
-    "manual_by_topic": 3,
-    "unknown": 4,
-    "best_available": 5,
+# Names of the values of each policy; the number of a value is its place.
+_POLICIES: Mapping[str, tuple[str, ...]] = {
+    "history": ("system_default", "keep_last", "keep_all", "unknown"),
+    "reliability": ("system_default", "reliable", "best_effort", "unknown", "best_available"),
+    "durability": ("system_default", "transient_local", "volatile", "unknown", "best_available"),
+    "liveliness": (
+        "system_default",
+        "automatic",
+        "manual_by_node",
+        "manual_by_topic",
+        "unknown",
+        "best_available",
+    ),
 }
-_POLICIES: Mapping[str, Mapping[str, int]] = {
-    "history": _HISTORY,
-    "reliability": _RELIABILITY,
-    "durability": _DURABILITY,
-    "liveliness": _LIVELINESS,
-}
-_DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
-# What implementations of the first ROS 2 releases gave for an infinite time [s, ns]: rosbag2 maps these as
-# well.
+# The fields of a profile that are times.
+DURATIONS = ("deadline", "lifespan", "liveliness_lease_duration")
+# What implementations of the first ROS 2 releases gave for an infinite time [s, ns]: rosbag2 maps them too.
 _OLD_INFINITES = {(2**31 - 1, 2**32 - 1), (2**31 - 1, 2**31 - 1)}
 
 
@@ -68,17 +65,8 @@ class QosRecord:
 
     def to_tree(self) -> dict[str, Any]:
         """Return the profile as rosbag2 writes it into metadata (version 9)."""
-        return {
-            "history": self.history,
-            "depth": self.depth,
-            "reliability": self.reliability,
-            "durability": self.durability,
-            "deadline": _time(self.deadline),
-            "lifespan": _time(self.lifespan),
-            "liveliness": self.liveliness,
-            "liveliness_lease_duration": _time(self.liveliness_lease_duration),
-            "avoid_ros_namespace_conventions": self.avoid_ros_namespace_conventions,
-        }
+        fields = asdict(self)
+        return {name: _time(value) if name in DURATIONS else value for name, value in fields.items()}
 
     @classmethod
     def from_tree(cls, tree: Mapping[str, Any]) -> QosRecord:
@@ -94,7 +82,7 @@ class QosRecord:
         for name, known in _POLICIES.items():
             if name in tree:
                 values[name] = _policy(name, tree[name], known)
-        for name in _DURATIONS:
+        for name in DURATIONS:
             if name in tree:
                 values[name] = _nanoseconds(name, tree[name])
         if "depth" in tree:
@@ -107,12 +95,11 @@ class QosRecord:
         return cls(**values)
 
 
-def _policy(name: str, value: Any, known: Mapping[str, int]) -> str:
+def _policy(name: str, value: Any, known: Sequence[str]) -> str:
     if isinstance(value, str) and value.lower() in known:
         return value.lower()
-    for word, number in known.items():
-        if value == number and not isinstance(value, bool):
-            return word
+    if isinstance(value, int | float) and not isinstance(value, bool) and value in range(len(known)):
+        return known[int(value)]
     raise ValueError(f"QoS {name} must be one of {', '.join(known)}, got {value!r}")
 
 
@@ -157,8 +144,7 @@ def request_for(topic: str, offers: Sequence[QosRecord]) -> Adapted:
     if any(latched) and not all(latched):
         warnings.append(
             f'Some, but not all, publishers on topic "{topic}" are transient local. Falling back to '
-            f"volatile, "
-            "which connects to all of them; messages latched before now are not received."
+            "volatile, which connects to all of them; messages latched before now are not received."
         )
     profile = QosRecord(
         reliability="best_effort" if offers and not all(reliable) else "reliable",

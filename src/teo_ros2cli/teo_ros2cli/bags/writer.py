@@ -19,7 +19,7 @@ from teo_ros2cli.bags.metadata import (
     offered_qos_text,
     write_metadata,
 )
-from teo_ros2cli.definitions.schema_text import Schema
+from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
 
 PROFILE = "ros2"
@@ -41,8 +41,7 @@ class Preset(NamedTuple):
 
 
 PRESETS: Mapping[str, Preset] = {
-    # 1 MiB is MCAP's own default; the player reads a chunk ahead, so that its size does not disturb the
-    # timing.
+    # 1 MiB is MCAP's own default; the player reads a chunk ahead, so that the timing is not disturbed.
     "none": Preset(1024 * 1024, CompressionType.NONE),
     "fastwrite": Preset(0, CompressionType.NONE, checksums=False),
     # The default. A crash loses the open chunk: a quarter of the usual size, and closed every second besides.
@@ -134,11 +133,6 @@ class BagWriter:
                 "output_unwritable", f"Output folder '{directory}' cannot be made: {error}"
             ) from error
         self._file = self._open_file()
-
-    @property
-    def messages(self) -> int:
-        """Number of messages written so far."""
-        return self._span.messages
 
     def add_topic(self, topic: TopicRecord, schema: Schema) -> None:
         """Make a topic known, with or without messages to follow. A known one stays as it is."""

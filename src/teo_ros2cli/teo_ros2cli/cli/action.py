@@ -5,10 +5,16 @@ from __future__ import annotations
 import argparse
 import signal
 import textwrap
-from collections.abc import Sequence
 from typing import Any
 
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
+from teo_ros2cli.cli.graph_view import (
+    NamesAndTypes,
+    add_listing_arguments,
+    known_graph,
+    print_names,
+    print_types,
+)
 from teo_ros2cli.cli.options import add_graph_arguments, full_name
 from teo_ros2cli.errors import Ros2CliError
 
@@ -31,35 +37,14 @@ _STATUS = {
 _SUCCEEDED = 4
 
 
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 action", "Various action related sub-commands", "verb", VERBS, words)
-
-
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `list`."""
-    add_graph_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the action type")
-    parser.add_argument(
-        "-c", "--count-actions", action="store_true", help="Only display the number of actions"
-    )
+    add_listing_arguments(parser, "action", hidden=False)
 
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the actions of the graph."""
-    from rclpy.action import get_action_names_and_types
-
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
-        actions = get_action_names_and_types(node)
-    if options.count_actions:
-        print(len(actions))
-        return 0
-    for name, types in actions:
-        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
-    return 0
+    return print_names(options, _actions(options))
 
 
 def add_type_arguments(parser: argparse.ArgumentParser) -> None:
@@ -70,16 +55,14 @@ def add_type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_type(options: argparse.Namespace) -> int:
     """Print the types of an action; exit status 1 if there is no such action."""
+    return print_types(_actions(options), options.action_name)
+
+
+def _actions(options: argparse.Namespace) -> NamesAndTypes:
     from rclpy.action import get_action_names_and_types
 
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
-        types = dict(get_action_names_and_types(node)).get(full_name(options.action_name), [])
-    for kind in types:
-        print(kind)
-    return 0 if types else 1
+    with known_graph(options) as node:
+        return list(get_action_names_and_types(node))
 
 
 def add_info_arguments(parser: argparse.ArgumentParser) -> None:
@@ -99,21 +82,18 @@ def run_info(options: argparse.Namespace) -> int:
         get_action_server_names_and_types_by_node,
     )
 
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-
     action = full_name(options.action_name)
     print(f"Action: {action}")
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time, names=True)
+    with known_graph(options, names=True) as node:
         own = node.get_name()
-        nodes = [entry for entry in node.get_node_names_and_namespaces() if entry[0] != own]
+        nodes = {entry for entry in node.get_node_names_and_namespaces() if entry[0] != own}
         for noun, find in (
             ("clients", get_action_client_names_and_types_by_node),
             ("servers", get_action_server_names_and_types_by_node),
         ):
             found = [
                 (f"{namespace.rstrip('/')}/{name}", types)
-                for name, namespace in sorted(set(nodes))
+                for name, namespace in sorted(nodes)
                 for entry, types in find(node, name, namespace)
                 if entry == action
             ]
@@ -141,18 +121,11 @@ def run_send_goal(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_type`, `invalid_yaml`, `invalid_field`, `goal_rejected`.
     """
     from teo_ros2cli.messages.classes import interface_class
-    from teo_ros2cli.messages.fill import fill_message
-    from teo_ros2cli.messages.yaml_text import parse
+    from teo_ros2cli.messages.fill import fill_from_text
 
     cls = interface_class(options.action_type, "action")
     goal = cls.Goal()
-    values = parse(options.goal)
-    if not isinstance(values, dict):
-        raise Ros2CliError("invalid_yaml", "The passed value needs to be a dictionary in YAML format")
-    try:
-        fill_message(goal, values)
-    except Ros2CliError as error:
-        raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
+    fill_from_text(goal, options.goal)
 
     from rclpy.action import ActionClient
 

@@ -3,24 +3,14 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
 
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
 
 VERBS = {
     "start": Entry(__name__, "Start the daemon: there is none to start", "start"),
     "status": Entry(__name__, "Output the status of the daemon", "status"),
-    "stop": Entry(__name__, "Stop the daemon: there is none to stop", "stop"),
+    "stop": Entry(__name__, "Stop the daemon: there is none to stop", "status"),
 }
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 daemon", "Various daemon related sub-commands", "verb", VERBS, words)
-
-
-def add_start_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `start`: there are none."""
 
 
 def run_start(_options: argparse.Namespace) -> int:
@@ -29,21 +19,7 @@ def run_start(_options: argparse.Namespace) -> int:
     return 0
 
 
-def add_status_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `status`: there are none."""
-
-
 def run_status(_options: argparse.Namespace) -> int:
-    """Say that no daemon runs."""
-    print("The daemon is not running")
-    return 0
-
-
-def add_stop_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `stop`: there are none."""
-
-
-def run_stop(_options: argparse.Namespace) -> int:
     """Say that no daemon runs."""
     print("The daemon is not running")
     return 0

@@ -16,11 +16,11 @@ class Entry(NamedTuple):
     """Something to choose.
 
     Args:
-        module: The module that does it. It has either `run_words(words) -> int`, and then reads the words
-            itself, or `add_arguments(parser)` and `run(options) -> int`.
+        module: The module that does it. It has either `VERBS`, the entries to choose from next, or
+            `run(options) -> int` and, unless there are no arguments, `add_arguments(parser)`.
         summary: One line on what it does.
-        verb: For a module with several small verbs: the functions are `add_<verb>_arguments` and
-            `run_<verb>`.
+        verb: For a module with several small verbs: the functions are `run_<verb>` and
+            `add_<verb>_arguments`.
     """
 
     module: str
@@ -48,7 +48,6 @@ def choose(
         usage=f"{program} [-h] {metavar} ...",
         formatter_class=_ListingFormatter,
     )
-    parser.entries = entries  # type: ignore[attr-defined]
     listing = parser.add_argument_group(f"{kind.capitalize()}s")
     width = max(map(len, entries)) + 2
     listing.description = "\n".join(f"{name.ljust(width)}{entry.summary}" for name, entry in entries.items())
@@ -79,10 +78,12 @@ class _ListingFormatter(argparse.HelpFormatter):
 def _call(program: str, entry: Entry, words: list[str]) -> int:
     module = importlib.import_module(entry.module)
     try:
-        if not entry.verb and hasattr(module, "run_words"):
-            return int(module.run_words(words))
+        if not entry.verb and hasattr(module, "VERBS"):
+            return choose(program, entry.summary, "verb", module.VERBS, words)
         parser = argparse.ArgumentParser(prog=program, description=entry.summary)
-        getattr(module, f"add_{entry.verb}_arguments" if entry.verb else "add_arguments")(parser)
+        add_arguments = f"add_{entry.verb}_arguments" if entry.verb else "add_arguments"
+        if hasattr(module, add_arguments):
+            getattr(module, add_arguments)(parser)
         return int(getattr(module, f"run_{entry.verb}" if entry.verb else "run")(parser.parse_args(words)))
     except Ros2CliError as error:
         print(error, file=sys.stderr)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
 
-from teo_ros2cli.cli.dispatch import Entry, choose
-from teo_ros2cli.definitions.listing import definition_lines
+from teo_ros2cli.cli.dispatch import Entry
+from teo_ros2cli.definitions import definition_lines
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import InterfaceName, interface_file, interfaces, package_prefix
 
@@ -20,11 +19,6 @@ VERBS = {
 }
 _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 _OPTIONS = (("-m", "--only-msgs", "msg"), ("-s", "--only-srvs", "srv"), ("-a", "--only-actions", "action"))
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 interface", "Show information about ROS interfaces", "verb", VERBS, words)
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -55,19 +49,13 @@ def add_package_arguments(parser: argparse.ArgumentParser) -> None:
 def run_package(options: argparse.Namespace) -> int:
     """Print the names of a package's interfaces."""
     package_prefix(options.package_name)
-    found = [
-        f"{options.package_name}/{kind}/{name}"
-        for kind in _TITLES
-        for name in interfaces(kind).get(options.package_name, [])
-    ]
-    for name in found:
-        print(name)
+    for kind in _TITLES:
+        for name in interfaces(kind).get(options.package_name, []):
+            print(f"{options.package_name}/{kind}/{name}")
     return 0
 
 
-def add_packages_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `packages`."""
-    add_list_arguments(parser)
+add_packages_arguments = add_list_arguments
 
 
 def run_packages(options: argparse.Namespace) -> int:

@@ -4,23 +4,17 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry, choose
-from teo_ros2cli.cli.options import add_graph_arguments
+from teo_ros2cli.cli.dispatch import Entry
+from teo_ros2cli.cli.graph_view import known_graph, node_names
+from teo_ros2cli.cli.options import add_graph_arguments, full_name
 from teo_ros2cli.errors import Ros2CliError
 
 VERBS = {
     "info": Entry(__name__, "Output information about a node", "info"),
     "list": Entry(__name__, "Output a list of available nodes", "list"),
 }
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 node", "Various node related sub-commands", "verb", VERBS, words)
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,11 +28,8 @@ def add_list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the full names of the nodes of the graph, this command's own left out."""
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time, names=True)
-        names = sorted(_full_names(node))
+    with known_graph(options, names=True) as node:
+        names = sorted(node_names(node))
     if not options.all:
         names = [name for name in names if not is_hidden(name)]
     if options.count_nodes:
@@ -49,8 +40,7 @@ def run_list(options: argparse.Namespace) -> int:
     if any(count > 1 for count in Counter(names).values()):
         print(
             "WARNING: Be aware that there are nodes in the graph that share an exact name, which can have "
-            "unintended "
-            "side effects."
+            "unintended side effects."
         )
     return 0
 
@@ -75,20 +65,16 @@ def run_info(options: argparse.Namespace) -> int:
         get_action_server_names_and_types_by_node,
     )
 
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-
-    full = options.node_name if options.node_name.startswith("/") else f"/{options.node_name}"
-    namespace, name = (full.rpartition("/")[0] or "/"), full.rpartition("/")[2]
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time, names=True)
-        count = _full_names(node).count(full)
+    full = full_name(options.node_name)
+    namespace, _, name = full.rpartition("/")
+    with known_graph(options, names=True) as node:
+        count = node_names(node).count(full)
         if not count:
             raise Ros2CliError("node_unknown", f"Unable to find node '{options.node_name}'")
         if count > 1:
             print(
                 f'There are {count} nodes in the graph with the exact name "{full}". You are seeing '
-                f"information "
-                "about only one of them."
+                "information about only one of them."
             )
         print(full)
         for title, find in (
@@ -100,18 +86,9 @@ def run_info(options: argparse.Namespace) -> int:
             ("Action Clients", lambda *at: get_action_client_names_and_types_by_node(node, *at)),
         ):
             print(f"  {title}:")
-            for entry, types in sorted(find(name, namespace)):
+            for entry, types in sorted(find(name, namespace or "/")):
                 if options.include_hidden or not is_hidden(entry):
                     print(f"    {entry}: {', '.join(types)}")
             if title != "Action Clients":
                 print()
     return 0
-
-
-def _full_names(node: Any) -> list[str]:
-    own = (node.get_name(), node.get_namespace())
-    return [
-        f"{namespace.rstrip('/')}/{name}"
-        for name, namespace in node.get_node_names_and_namespaces()
-        if (name, namespace) != own
-    ]

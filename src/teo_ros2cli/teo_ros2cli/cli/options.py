@@ -21,10 +21,12 @@ QOS_PRESETS = (
     "action_status_default",
     "best_available",
 )
-QOS_HISTORIES = ("system_default", "keep_last", "keep_all", "unknown")
-QOS_RELIABILITIES = ("system_default", "reliable", "best_effort", "unknown", "best_available")
-QOS_DURABILITIES = ("system_default", "transient_local", "volatile", "unknown", "best_available")
-QOS_LIVELINESSES = ("system_default", "automatic", "manual_by_topic", "unknown", "best_available")
+QOS_POLICIES = {
+    "history": ("system_default", "keep_last", "keep_all", "unknown"),
+    "reliability": ("system_default", "reliable", "best_effort", "unknown", "best_available"),
+    "durability": ("system_default", "transient_local", "volatile", "unknown", "best_available"),
+    "liveliness": ("system_default", "automatic", "manual_by_topic", "unknown", "best_available"),
+}
 
 
 def positive_float(text: str) -> float:
@@ -105,8 +107,7 @@ def add_graph_arguments(parser: argparse.ArgumentParser) -> None:
         "--spin-time",
         type=non_negative_float,
         help="Spin time in seconds to wait for discovery (default: until all participants of this machine "
-        "are "
-        "known, and 0.5 s where other machines may take part)",
+        "are known, and 0.5 s where other machines may take part)",
     )
     parser.add_argument("-s", "--use-sim-time", action="store_true", help="Enable ROS simulation time")
     parser.add_argument("--no-daemon", action="store_true", help="Accepted; there is no daemon")
@@ -146,12 +147,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, doing: str, preset: str) 
     parser.add_argument(
         "--qos-depth", metavar="N", type=non_negative_int, action=_QosAction, help=f"Queue size {where}"
     )
-    for name, choices in (
-        ("history", QOS_HISTORIES),
-        ("reliability", QOS_RELIABILITIES),
-        ("durability", QOS_DURABILITIES),
-        ("liveliness", QOS_LIVELINESSES),
-    ):
+    for name, choices in QOS_POLICIES.items():
         parser.add_argument(
             f"--qos-{name}", choices=choices, action=_QosAction, help=f"Quality of service {name} {where}"
         )

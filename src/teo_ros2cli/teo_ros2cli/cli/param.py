@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
+from teo_ros2cli.cli.graph_view import known_graph, node_names
 from teo_ros2cli.cli.options import add_graph_arguments, full_name
 from teo_ros2cli.errors import Ros2CliError
 
@@ -22,8 +24,7 @@ VERBS = {
 # Time that a node gets to answer [s].
 _TIMEOUT = 5.0
 
-# By the number of the type in rcl_interfaces/msg/ParameterType: how the value is announced, and the field it
-# is in.
+# By the number in rcl_interfaces/msg/ParameterType: how the value is announced, its field, its type's name.
 _TYPES = {
     1: ("Boolean value is:", "bool_value", "boolean"),
     2: ("Integer value is:", "integer_value", "integer"),
@@ -37,23 +38,15 @@ _TYPES = {
 }
 
 
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 param", "Various param related sub-commands", "verb", VERBS, words)
-
-
-def _add_common(parser: argparse.ArgumentParser, *, node_required: bool = True) -> None:
+def _add_common(parser: argparse.ArgumentParser) -> None:
     add_graph_arguments(parser)
-    if node_required:
-        parser.add_argument("node_name", help="Name of the ROS node")
-    else:
-        parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all)")
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `list`."""
-    _add_common(parser, node_required=False)
+    _add_common(parser)
+    parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all)")
     parser.add_argument(
         "--param-type", action="store_true", help="Print parameter types with parameter names"
     )
@@ -61,8 +54,12 @@ def add_list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the parameters of one node or of all."""
-    with _Parameters(options) as parameters:
-        nodes = [full_name(options.node_name)] if options.node_name else parameters.nodes()
+    with _parameters(options) as parameters:
+        nodes = (
+            [full_name(options.node_name)]
+            if options.node_name
+            else parameters.nodes(hidden=options.include_hidden_nodes)
+        )
         for node in nodes:
             try:
                 names = parameters.names(node)
@@ -82,6 +79,7 @@ def run_list(options: argparse.Namespace) -> int:
 def add_get_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `get`."""
     _add_common(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
     parser.add_argument("parameter_name", help="Name of the parameter")
     parser.add_argument("--hide-type", action="store_true", help="Hide the type information")
 
@@ -92,7 +90,7 @@ def run_get(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `node_unknown`, `parameter_unset`.
     """
-    with _Parameters(options) as parameters:
+    with _parameters(options) as parameters:
         value = parameters.get(full_name(options.node_name), [options.parameter_name])[0]
     if value.type not in _TYPES:
         raise Ros2CliError("parameter_unset", "Parameter not set.")
@@ -104,6 +102,7 @@ def run_get(options: argparse.Namespace) -> int:
 def add_set_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `set`."""
     _add_common(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
     parser.add_argument("parameter_name", help="Name of the parameter")
     parser.add_argument("value", help="Value of the parameter")
 
@@ -122,7 +121,7 @@ def run_set(options: argparse.Namespace) -> int:
         raise Ros2CliError(
             "invalid_value", f"'{options.value}' is no value for a parameter: {error}"
         ) from error
-    with _Parameters(options) as parameters:
+    with _parameters(options) as parameters:
         result = parameters.set(full_name(options.node_name), options.parameter_name, value)
     reason = f": {result.reason}" if result.reason else ""
     if not result.successful:
@@ -134,12 +133,13 @@ def run_set(options: argparse.Namespace) -> int:
 def add_describe_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `describe`."""
     _add_common(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
     parser.add_argument("parameter_names", nargs="+", help="Names of the parameters")
 
 
 def run_describe(options: argparse.Namespace) -> int:
     """Print the descriptors of parameters."""
-    with _Parameters(options) as parameters:
+    with _parameters(options) as parameters:
         descriptors = parameters.describe(full_name(options.node_name), options.parameter_names)
     for descriptor in descriptors:
         print(descriptor_text(descriptor))
@@ -149,6 +149,7 @@ def run_describe(options: argparse.Namespace) -> int:
 def add_dump_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `dump`."""
     _add_common(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
 
 
 def run_dump(options: argparse.Namespace) -> int:
@@ -156,7 +157,7 @@ def run_dump(options: argparse.Namespace) -> int:
     from teo_ros2cli.messages.yaml_text import dump
 
     node = full_name(options.node_name)
-    with _Parameters(options) as parameters:
+    with _parameters(options) as parameters:
         names = parameters.names(node)
         values = parameters.get(node, names)
     tree: dict[str, Any] = {}
@@ -199,80 +200,53 @@ def descriptor_text(descriptor: Any) -> str:
     return "\n".join(lines)
 
 
+@contextmanager
+def _parameters(options: argparse.Namespace) -> Iterator[_Parameters]:
+    with known_graph(options, names=True) as node:
+        yield _Parameters(node)
+
+
 class _Parameters:
-    """Talks to the parameter services of nodes."""
+    """Asks the parameter services of nodes."""
 
-    def __init__(self, options: argparse.Namespace) -> None:
-        from teo_ros2cli.graph.cli_node import cli_node
+    def __init__(self, node: Any) -> None:
+        self._node = node
 
-        self._options = options
-        self._opened = cli_node(use_sim_time=options.use_sim_time)
-
-    def __enter__(self) -> _Parameters:
-        from teo_ros2cli.graph.cli_node import settle
-
-        self._node = self._opened.__enter__()
-        settle(self._node, self._options.spin_time, names=True)
-        return self
-
-    def __exit__(self, *details: Any) -> None:
-        self._opened.__exit__(*details)
-
-    def nodes(self) -> list[str]:
-        own = self._node.get_name()
-        names = {
-            f"{namespace.rstrip('/')}/{name}"
-            for name, namespace in self._node.get_node_names_and_namespaces()
-            if name != own
-        }
-        return sorted(name for name in names if self._options.include_hidden_nodes or not is_hidden(name))
+    def nodes(self, *, hidden: bool) -> list[str]:
+        return sorted(name for name in set(node_names(self._node)) if hidden or not is_hidden(name))
 
     def names(self, node: str) -> list[str]:
-        from rcl_interfaces.srv import ListParameters
-
-        return sorted(
-            self._call(ListParameters, node, "list_parameters", ListParameters.Request()).result.names
-        )
+        return sorted(self._call(node, "list_parameters").result.names)
 
     def types(self, node: str, names: list[str]) -> list[str]:
-        from rcl_interfaces.srv import GetParameterTypes
-
-        request = GetParameterTypes.Request(names=names)
-        numbers = self._call(GetParameterTypes, node, "get_parameter_types", request).types
+        numbers = self._call(node, "get_parameter_types", names=names).types
         return [_TYPES[number][2] if number in _TYPES else "not set" for number in numbers]
 
     def get(self, node: str, names: list[str]) -> list[Any]:
-        from rcl_interfaces.srv import GetParameters
-
-        request = GetParameters.Request(names=names)
-        values = list(self._call(GetParameters, node, "get_parameters", request).values)
+        values = list(self._call(node, "get_parameters", names=names).values)
         if len(values) != len(names):
             raise Ros2CliError("parameter_unset", "Parameter not set.")
         return values
 
     def describe(self, node: str, names: list[str]) -> list[Any]:
-        from rcl_interfaces.srv import DescribeParameters
-
-        request = DescribeParameters.Request(names=names)
-        descriptors = list(self._call(DescribeParameters, node, "describe_parameters", request).descriptors)
+        descriptors = list(self._call(node, "describe_parameters", names=names).descriptors)
         if len(descriptors) != len(names):
             raise Ros2CliError("parameter_unset", f"One of the parameters {', '.join(names)} is not declared")
         return descriptors
 
     def set(self, node: str, name: str, value: Any) -> Any:
         from rcl_interfaces.msg import Parameter
-        from rcl_interfaces.srv import SetParameters
 
-        request = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
-        return self._call(SetParameters, node, "set_parameters", request).results[0]
+        parameter = Parameter(name=name, value=value)
+        return self._call(node, "set_parameters", parameters=[parameter]).results[0]
 
-    def _call(self, service_class: Any, node: str, service: str, request: Any) -> Any:
+    def _call(self, node: str, service: str, **request: Any) -> Any:
+        """Call `<node>/list_parameters`, of rcl_interfaces/srv/ListParameters, and the like."""
+        from rcl_interfaces import srv
+
         from teo_ros2cli.graph.calls import call
 
-        known = [
-            f"{namespace.rstrip('/')}/{name}"
-            for name, namespace in self._node.get_node_names_and_namespaces()
-        ]
-        if node not in known:
+        if node not in node_names(self._node):
             raise Ros2CliError("node_unknown", "Node not found")
-        return call(self._node, service_class, f"{node}/{service}", request, timeout=_TIMEOUT)
+        cls = getattr(srv, service.title().replace("_", ""))
+        return call(self._node, cls, f"{node}/{service}", cls.Request(**request), timeout=_TIMEOUT)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Sequence
 
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import executables, iter_package_names, package_prefix
 
@@ -16,11 +15,6 @@ VERBS = {
     "prefix": Entry(__name__, "Output the prefix path of a package", "prefix"),
     "xml": Entry(__name__, "Output the XML of the package manifest or a specific tag", "xml"),
 }
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 pkg", "Various package related sub-commands", "verb", VERBS, words)
 
 
 def add_executables_arguments(parser: argparse.ArgumentParser) -> None:
@@ -36,10 +30,6 @@ def run_executables(options: argparse.Namespace) -> int:
         for path in executables(package):
             print(path if options.full_path else f"{package} {path.name}")
     return 0
-
-
-def add_list_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments of `list`: there are none."""
 
 
 def run_list(options: argparse.Namespace) -> int:  # noqa: ARG001 - as every verb

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Sequence
-from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
-from teo_ros2cli.cli.dispatch import Entry, choose
-from teo_ros2cli.cli.options import add_graph_arguments, full_name, positive_float
-from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.cli.dispatch import Entry
+from teo_ros2cli.cli.graph_view import (
+    NamesAndTypes,
+    add_listing_arguments,
+    known_graph,
+    print_names,
+    print_types,
+)
+from teo_ros2cli.cli.options import add_graph_arguments, positive_float
 from teo_ros2cli.packages import InterfaceName
 
 VERBS = {
@@ -21,32 +25,14 @@ VERBS = {
 }
 
 
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 service", "Various service related sub-commands", "verb", VERBS, words)
-
-
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `list`."""
-    add_graph_arguments(parser)
-    parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the service type")
-    parser.add_argument(
-        "-c", "--count-services", action="store_true", help="Only display the number of services"
-    )
-    parser.add_argument(
-        "-a", "--include-hidden-services", action="store_true", help="Consider hidden services as well"
-    )
+    add_listing_arguments(parser, "service")
 
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the services of the graph."""
-    services = _services(options, options.include_hidden_services)
-    if options.count_services:
-        print(len(services))
-        return 0
-    for name, types in services:
-        print(f"{name} [{', '.join(types)}]" if options.show_types else name)
-    return 0
+    return print_names(options, _services(options, options.include_hidden))
 
 
 def add_type_arguments(parser: argparse.ArgumentParser) -> None:
@@ -59,34 +45,20 @@ def add_type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_type(options: argparse.Namespace) -> int:
     """Print the types of a service; exit status 1 if there is no such service."""
-    types = dict(_services(options, True)).get(full_name(options.service_name), [])
-    for kind in types:
-        print(kind)
-    return 0 if types else 1
+    return print_types(_services(options, True), options.service_name)
 
 
 def add_find_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `find`."""
-    add_graph_arguments(parser)
+    add_listing_arguments(parser, "service", types=False)
     parser.add_argument("service_type", help="Name of the ROS service type to filter for")
-    parser.add_argument(
-        "-c", "--count-services", action="store_true", help="Only display the number of services"
-    )
-    parser.add_argument(
-        "-a", "--include-hidden-services", action="store_true", help="Consider hidden services as well"
-    )
 
 
 def run_find(options: argparse.Namespace) -> int:
     """Print the services of a type."""
     wanted = str(InterfaceName.parse(options.service_type, "srv"))
-    names = [name for name, types in _services(options, options.include_hidden_services) if wanted in types]
-    if options.count_services:
-        print(len(names))
-        return 0
-    for name in names:
-        print(name)
-    return 0
+    services = _services(options, options.include_hidden)
+    return print_names(options, [entry for entry in services if wanted in entry[1]])
 
 
 def add_call_arguments(parser: argparse.ArgumentParser) -> None:
@@ -98,8 +70,7 @@ def add_call_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default="{}",
         help='Values to fill the service request with in YAML format (e.g. "{a: 1, b: 2}"), otherwise the '
-        "service "
-        "request will be published with default values",
+        "service request will be published with default values",
     )
     parser.add_argument(
         "-r", "--rate", metavar="N", type=positive_float, help="Repeat the call at a specific rate in Hz"
@@ -113,18 +84,11 @@ def run_call(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_type`, `invalid_yaml`, `invalid_field`.
     """
     from teo_ros2cli.messages.classes import interface_class
-    from teo_ros2cli.messages.fill import fill_message
-    from teo_ros2cli.messages.yaml_text import parse
+    from teo_ros2cli.messages.fill import fill_from_text
 
     cls = interface_class(options.service_type, "srv")
     request = cls.Request()
-    values = parse(options.values)
-    if not isinstance(values, dict):
-        raise Ros2CliError("invalid_yaml", "The passed value needs to be a dictionary in YAML format")
-    try:
-        stamps = fill_message(request, values, automatic_stamps=True)
-    except Ros2CliError as error:
-        raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
+    stamps = fill_from_text(request, options.values, automatic_stamps=True)
 
     from teo_ros2cli.graph.calls import wait_for
     from teo_ros2cli.graph.cli_node import cli_node
@@ -144,20 +108,11 @@ def run_call(options: argparse.Namespace) -> int:
             time.sleep(1.0 / options.rate)
 
 
-def _services(options: argparse.Namespace, hidden: bool) -> list[tuple[str, list[str]]]:
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        settle(node, options.spin_time)
-        own = _own_services(node)
+def _services(options: argparse.Namespace, hidden: bool) -> NamesAndTypes:
+    with known_graph(options) as node:
+        own = dict(node.get_service_names_and_types_by_node(node.get_name(), node.get_namespace()))
         return [
-            (name, list(types))
+            (name, types)
             for name, types in node.get_service_names_and_types()
             if name not in own and (hidden or not is_hidden(name))
         ]
-
-
-def _own_services(node: Any) -> set[str]:
-    return {
-        name for name, _ in node.get_service_names_and_types_by_node(node.get_name(), node.get_namespace())
-    }

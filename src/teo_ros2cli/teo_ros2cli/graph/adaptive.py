@@ -59,8 +59,7 @@ class AdaptiveSubscription:
         self._lost = lost
         self._told = False
         self.first_offers = self._offers()
-        # Without publishers there is nothing to fit yet; what comes may come again with a latched
-        # subscription.
+        # Without publishers there is nothing to fit yet; a latched subscription may bring a message again.
         self._blind = not self.first_offers
         self._repetitions = _Repetitions() if self._blind else None
         self.request = fixed if fixed is not None else self._fitting(self.first_offers)
@@ -77,8 +76,7 @@ class AdaptiveSubscription:
                 self._told = True
                 self._warn(
                     f"A publisher of topic '{self._topic}' offers less than the profile asks for: its "
-                    f"messages "
-                    "are not received."
+                    "messages are not received."
                 )
             return
         latched = self._blind and all(offer.durability == "transient_local" for offer in offers)

@@ -6,10 +6,11 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.graph.participants import local_participants
+from teo_ros2cli.messages.classes import interface_name_of
 from teo_ros2cli.packages import package_prefix
 
 NODE_NAME_PREFIX = "_ros2cli"
@@ -30,6 +31,14 @@ _LONGEST = 3.5
 _QUIET = 0.3
 # Interval of looking at the graph [s].
 _POLL = 0.02
+
+# Ports of the RTPS specification (OMG DDSI-RTPS 2.5, section 9.6.2.3): those that are bound tell how many
+# participants run on this machine, so how many there are to wait for.
+_PORT_BASE = 7400
+_DOMAIN_GAIN = 250
+_UNICAST_OFFSET = 10
+_PARTICIPANT_GAIN = 2
+_UDP_TABLE = Path("/proc/net/udp")
 
 
 @contextmanager
@@ -150,13 +159,11 @@ def _picture(node: Any, names: bool, publisher: Any) -> _Picture:
     announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
     participants = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
     # Every node publishes parameter events: by these one sees whether a node's name has come.
-    nodes = (
-        [info.node_name for info in node.get_publishers_info_by_topic("/parameter_events")] if names else []
-    )
+    owners = node.get_publishers_info_by_topic("/parameter_events") if names else []
     topics = tuple((name, *types) for name, types in node.get_topic_names_and_types())
     return _Picture(
         len(participants),
-        tuple(sorted(nodes)),
+        tuple(sorted(info.node_name for info in owners)),
         topics,
         () if publisher is None else _takers(node, publisher),
         0 if publisher is None else publisher.get_subscription_count(),
@@ -167,7 +174,7 @@ def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
     """Return the identifiers of the subscriptions that a publisher's type and quality of service suit."""
     from rclpy.qos import QoSCompatibility, qos_check_compatible
 
-    kind = "/".join((*publisher.msg_type.__module__.split(".")[:2], publisher.msg_type.__name__))
+    kind = interface_name_of(publisher.msg_type)
     return tuple(
         sorted(
             bytes(info.endpoint_gid)
@@ -176,3 +183,26 @@ def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
             and qos_check_compatible(publisher.qos_profile, info.qos_profile)[0] != QoSCompatibility.ERROR
         )
     )
+
+
+def local_participants(domain: int) -> int:
+    """Return the number of participants of a domain on this machine; 0 where that cannot be told."""
+    try:
+        return count_participants(_UDP_TABLE.read_text(encoding="ascii"), domain)
+    except (OSError, UnicodeDecodeError):
+        return 0
+
+
+def count_participants(udp_table: str, domain: int) -> int:
+    """Count the discovery ports of a domain in a text of the form of `/proc/net/udp`."""
+    first = _PORT_BASE + _DOMAIN_GAIN * domain + _UNICAST_OFFSET
+    last = _PORT_BASE + _DOMAIN_GAIN * (domain + 1)
+    ports = set()
+    for line in udp_table.splitlines()[1:]:
+        fields = line.split()
+        if len(fields) > 1 and ":" in fields[1]:
+            try:
+                ports.add(int(fields[1].rsplit(":", 1)[1], 16))
+            except ValueError:
+                continue
+    return sum(first <= port < last and (port - first) % _PARTICIPANT_GAIN == 0 for port in ports)

@@ -10,8 +10,7 @@ from teo_ros2cli.bags.metadata import BagMetadata, TopicRecord
 from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions.schema_text import Schema, schema_of
-from teo_ros2cli.definitions.type_hash import installed_type_hash
+from teo_ros2cli.definitions import Schema, installed_type_hash, schema_of
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.graph.adaptive import AdaptiveSubscription
 from teo_ros2cli.messages.classes import message_class
@@ -63,11 +62,6 @@ class Recorder:
         self._paused = settings.start_paused
         self._discovering = True
         self._next_look = 0.0
-
-    @property
-    def paused(self) -> bool:
-        """True while nothing is recorded."""
-        return self._paused
 
     def toggle_paused(self) -> None:
         """Pause, or go on recording."""

@@ -7,6 +7,7 @@ so every value is checked here against the type of its field, with the field nam
 from __future__ import annotations
 
 import array
+import contextlib
 import math
 import struct
 from collections.abc import Callable
@@ -24,7 +25,7 @@ from rosidl_parser.definition import (
 
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import interface_class, interface_name_of
-from teo_ros2cli.messages.yaml_text import Scalar, plain
+from teo_ros2cli.messages.yaml_text import Scalar, parse, plain
 
 # A builtin_interfaces/msg/Time.
 Stamp = Any
@@ -67,6 +68,21 @@ def fill_message(message: Any, values: Any, *, automatic_stamps: bool = False) -
     setters: list[StampSetter] = []
     _Filler(automatic_stamps, setters).fill(message, values, "")
     return setters
+
+
+def fill_from_text(message: Any, text: str, *, automatic_stamps: bool = False) -> list[StampSetter]:
+    """Set the fields of a message as a mapping in YAML says; the rest is as for `fill_message`.
+
+    Raises:
+        Ros2CliError: `invalid_yaml`, `invalid_field`.
+    """
+    values = parse(text)
+    if not isinstance(values, dict):
+        raise Ros2CliError("invalid_yaml", "The passed value needs to be a dictionary in YAML format")
+    try:
+        return fill_message(message, values, automatic_stamps=automatic_stamps)
+    except Ros2CliError as error:
+        raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
 
 
 class _Filler:
@@ -198,30 +214,21 @@ def _integer(meant: Any, value: Any, name: str, path: str) -> int:
     elif isinstance(meant, float) and meant.is_integer():
         number = int(meant)
     elif isinstance(meant, str):
-        try:
+        with contextlib.suppress(ValueError):
             number = int(meant, 0)
-        except ValueError:
-            number = None
     if number is None or not low <= number <= high:
         raise _fault(path, f"an integer from {low} to {high}", value)
     return number
 
 
 def _real(meant: Any, value: Any, name: str, path: str) -> float:
-    number: float | None = None
-    if isinstance(meant, int | float) and not isinstance(meant, bool):
-        try:
-            number = float(meant)
-        except OverflowError:
-            number = None
-    elif isinstance(meant, str):
-        # YAML 1.1 reads 1e-3, which has no point, as a string.
-        try:
-            number = float(meant)
-        except ValueError:
-            number = None
-    if number is None:
+    # YAML 1.1 reads 1e-3, which has no point, as a string.
+    if isinstance(meant, bool) or not isinstance(meant, int | float | str):
         raise _fault(path, "a number", value)
+    try:
+        number = float(meant)
+    except (OverflowError, ValueError) as error:
+        raise _fault(path, "a number", value) from error
     if name == "float" and math.isfinite(number):
         try:
             struct.pack("<f", number)

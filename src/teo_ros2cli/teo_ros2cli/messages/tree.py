@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from rosidl_parser.definition import AbstractNestedType, AbstractSequence
@@ -44,8 +44,7 @@ def message_tree(message: Any, abridgement: Abridgement = EVERYTHING) -> dict[st
 def value_tree(value: Any, abridgement: Abridgement = EVERYTHING) -> Any:
     """Return one value of a message (a message, a sequence or a single value) as plain values."""
     if isinstance(value, bytes):
-        text = value.decode("latin-1")
-        return _cut(text, abridgement.length)
+        return _cut(value.decode("latin-1"), abridgement.length)
     if isinstance(value, str):
         if abridgement.no_strings:
             return f"<string length: <{len(value)}>>"
@@ -54,18 +53,11 @@ def value_tree(value: Any, abridgement: Abridgement = EVERYTHING) -> Any:
         return value
     if hasattr(value, "get_fields_and_field_types"):
         return message_tree(value, abridgement)
-    if hasattr(value, "tolist"):  # array.array and numpy: numbers only
-        limit = abridgement.length
-        if limit is not None and len(value) > limit:
-            return [*value[:limit].tolist(), "..."]
-        return value.tolist()
-    return _list(value, abridgement)
-
-
-def _list(value: Sequence[Any], abridgement: Abridgement) -> list[Any]:
     limit = abridgement.length
     if limit is not None and len(value) > limit:
-        return [*(value_tree(item, abridgement) for item in value[:limit]), "..."]
+        return [*value_tree(value[:limit], abridgement), "..."]
+    if hasattr(value, "tolist"):  # array.array and numpy: numbers only
+        return value.tolist()
     return [value_tree(item, abridgement) for item in value]
 
 

@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
 
 VERBS = {
     "info": Entry(f"{__name__}.info", "Print information about a bag to the screen"),
     "play": Entry(f"{__name__}.play", "Play back ROS data from a bag"),
     "record": Entry(f"{__name__}.record", "Record ROS data to a bag"),
 }
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 bag", "Various rosbag related sub-commands", "verb", VERBS, words)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import signal
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import FrameType
 
 from teo_ros2cli.errors import Ros2CliError
@@ -14,9 +16,13 @@ def warn(sentence: str) -> None:
     print(f"[WARN] [ros2bag]: {sentence}", file=sys.stderr)
 
 
-def as_bag_error(error: Ros2CliError) -> Ros2CliError:
-    """Return an error whose text says that it comes from the bag tool."""
-    return Ros2CliError(error.code, f"[ERROR] [ros2bag]: {error}")
+@contextmanager
+def bag_errors() -> Iterator[None]:
+    """Let the text of an error in the block, or in a function decorated so, say that the bag tool speaks."""
+    try:
+        yield
+    except Ros2CliError as error:
+        raise Ros2CliError(error.code, f"[ERROR] [ros2bag]: {error}") from error
 
 
 class StopSignals:

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.summary import summary
-from teo_ros2cli.cli.bag.console import as_bag_error, warn
-from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.cli.bag.console import bag_errors, warn
 
 # Largest bag that is read through to check it [bytes]: some seconds.
 VERIFIED_SIZE = 1024**3
@@ -23,18 +22,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-t", "--topic-name", action="store_true", help="Only display topic names.")
 
 
+@bag_errors()
 def run(options: argparse.Namespace) -> int:
     """Print the summary, after a warning for each thing that is wrong with the bag.
 
     Raises:
         Ros2CliError: The bag cannot be read at all; codes as of `open_bag`.
     """
-    try:
-        bag = open_bag(options.bag_path)
-        if not bag.problems and bag.size <= VERIFIED_SIZE:
-            bag = open_bag(options.bag_path, verify=True)
-    except Ros2CliError as error:
-        raise as_bag_error(error) from error
+    bag = open_bag(options.bag_path)
+    if not bag.problems and bag.size <= VERIFIED_SIZE:
+        bag = open_bag(options.bag_path, verify=True)
     for problem in bag.problems:
         warn(problem)
     if options.topic_name:

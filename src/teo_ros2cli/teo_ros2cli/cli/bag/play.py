@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from teo_ros2cli.bags.bag import Bag, open_bag
 from teo_ros2cli.bags.qos_record import read_overrides
-from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
+from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.keyboard import DOWN, RIGHT, SPACE, UP, keys
 
 if TYPE_CHECKING:
     from teo_ros2cli.graph.player import Player
@@ -122,6 +123,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--node-name", default="rosbag2_player", help="Name of the player node.")
 
 
+@bag_errors()
 def run(options: argparse.Namespace) -> int:
     """Play the bag until its end, or until SIGINT or SIGTERM comes.
 
@@ -129,13 +131,6 @@ def run(options: argparse.Namespace) -> int:
         Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_bag`.
     """
     stop = StopSignals()
-    try:
-        return _play(options, stop)
-    except Ros2CliError as error:
-        raise as_bag_error(error) from error
-
-
-def _play(options: argparse.Namespace, stop: StopSignals) -> int:
     selects = _selector(options)
     remap = dict(map(_remapping, options.remap))
     overrides = read_overrides(options.qos_profile_overrides_path)
@@ -145,7 +140,6 @@ def _play(options: argparse.Namespace, stop: StopSignals) -> int:
     _check_selected(options, bag)
 
     from teo_ros2cli.graph.cli_node import cli_node
-    from teo_ros2cli.graph.keyboard import keys
     from teo_ros2cli.graph.player import Player, PlayerSettings
 
     until = options.playback_until_nsec
@@ -174,7 +168,8 @@ def _play(options: argparse.Namespace, stop: StopSignals) -> int:
         log.info(f"Set rate to {settings.rate:g}")
         player = Player(node, bag, settings, stopped=lambda: stop.came, command=_key_action(pressed))
         if pressed is not None:
-            _explain_keys(log.info)
+            for name, effect, _ in _KEYS.values():
+                log.info(f"Press {name} for {effect}")
         if not player.topics:
             log.warning("There is no topic to play.")
         log.info(f"Playback until timestamp: {-1 if settings.until is None else settings.until}")
@@ -190,28 +185,21 @@ def _acknowledgement_time(milliseconds: float | None) -> float:
     return milliseconds * 1e-3 if milliseconds > 0 else math.inf
 
 
-def _key_action(pressed: Callable[[], str] | None) -> Callable[[Player], None]:
-    from teo_ros2cli.graph import keyboard
+# By the characters that a key sends: its name, what it is for, and that.
+_KEYS: Mapping[str, tuple[str, str, Callable[[Player], None]]] = {
+    SPACE: ("SPACE", "Pause/Resume", lambda player: player.toggle_paused()),
+    RIGHT: ("CURSOR_RIGHT", "Play Next Message", lambda player: player.play_next()),
+    UP: ("CURSOR_UP", "Increase Rate 10%", lambda player: player.change_rate(_RATE_STEP)),
+    DOWN: ("CURSOR_DOWN", "Decrease Rate 10%", lambda player: player.change_rate(1 / _RATE_STEP)),
+}
 
+
+def _key_action(pressed: Callable[[], str] | None) -> Callable[[Player], None]:
     def act(player: Player) -> None:
-        key = pressed() if pressed is not None else ""
-        if key == keyboard.SPACE:
-            player.toggle_paused()
-        elif key == keyboard.RIGHT:
-            player.play_next()
-        elif key == keyboard.UP:
-            player.change_rate(_RATE_STEP)
-        elif key == keyboard.DOWN:
-            player.change_rate(1 / _RATE_STEP)
+        if pressed is not None and (key := _KEYS.get(pressed())):
+            key[-1](player)
 
     return act
-
-
-def _explain_keys(tell: Callable[[str], object]) -> None:
-    tell("Press SPACE for Pause/Resume")
-    tell("Press CURSOR_RIGHT for Play Next Message")
-    tell("Press CURSOR_UP for Increase Rate 10%")
-    tell("Press CURSOR_DOWN for Decrease Rate 10%")
 
 
 def _selector(options: argparse.Namespace) -> Callable[[str], bool]:

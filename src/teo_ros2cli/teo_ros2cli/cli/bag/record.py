@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from teo_ros2cli.bags.qos_record import read_overrides
 from teo_ros2cli.bags.selection import TopicSelection
 from teo_ros2cli.bags.writer import DEFAULT_PRESET, PRESETS, BagWriter
-from teo_ros2cli.cli.bag.console import StopSignals, as_bag_error, warn
+from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
 from teo_ros2cli.errors import Ros2CliError
 
@@ -103,8 +103,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--use-sim-time",
         action="store_true",
         help="Use simulation time for message timestamps by subscribing to the /clock topic. Until first "
-        "/clock "
-        "message is received, no messages will be written to bag.",
+        "/clock message is received, no messages will be written to bag.",
     )
     parser.add_argument("--node-name", default="rosbag2_recorder", help="Specify the recorder node name.")
     parser.add_argument(
@@ -115,8 +114,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="extend",
         default=[],
         help='Store the custom data in metadata under "rosbag2_bagfile_information/custom_data". The last '
-        "value of a "
-        "key holds.",
+        "value of a key holds.",
     )
     parser.add_argument(
         "--storage-preset-profile",
@@ -156,8 +154,7 @@ def _add_selection(parser: argparse.ArgumentParser) -> None:
         "--regex",
         default="",
         help="Record only topics containing provided regular expression. Note: --all or --all-topics will "
-        "override "
-        "--regex.",
+        "override --regex.",
     )
     parser.add_argument(
         "--exclude-regex",
@@ -177,6 +174,7 @@ def _add_selection(parser: argparse.ArgumentParser) -> None:
     )
 
 
+@bag_errors()
 def run(options: argparse.Namespace) -> int:
     """Record until SIGINT or SIGTERM comes, then finish the bag.
 
@@ -185,13 +183,6 @@ def run(options: argparse.Namespace) -> int:
             `output_unwritable`, or `bag_unwritable`.
     """
     stop = StopSignals()
-    try:
-        return _record(options, stop)
-    except Ros2CliError as error:
-        raise as_bag_error(error) from error
-
-
-def _record(options: argparse.Namespace, stop: StopSignals) -> int:
     if options.topics_positional:
         warn('Positional "topics" argument deprecated. Please use optional "--topics" argument instead.')
     selection = _selection(options)
@@ -199,6 +190,8 @@ def _record(options: argparse.Namespace, stop: StopSignals) -> int:
     directory = options.output or Path(datetime.datetime.now().strftime("rosbag2_%Y_%m_%d-%H_%M_%S"))
     if directory.exists():
         raise Ros2CliError("output_exists", f"Output folder '{directory}' already exists.")
+
+    from rclpy.logging import LoggingSeverity
 
     from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.keyboard import SPACE, keys
@@ -219,7 +212,8 @@ def _record(options: argparse.Namespace, stop: StopSignals) -> int:
         cli_node(options.node_name, use_sim_time=options.use_sim_time, own_signals=True) as node,
         keys(not options.disable_keyboard_controls) as pressed,
     ):
-        _set_log_level(node, options.log_level)
+        log = node.get_logger()
+        log.set_level(LoggingSeverity[options.log_level.upper()])
         writer = BagWriter(
             Path.cwd() / directory,
             preset=options.storage_preset_profile,
@@ -228,7 +222,6 @@ def _record(options: argparse.Namespace, stop: StopSignals) -> int:
             custom_data=dict(options.custom_data),
             ros_distro=os.environ.get("ROS_DISTRO", "jazzy"),
         )
-        log = node.get_logger()
         recorder = Recorder(node, writer, settings)
         try:
             if pressed is not None:
@@ -258,12 +251,6 @@ def _spin(node: Any, recorder: Recorder, stop: StopSignals, toggled: Callable[[]
             executor.spin_once(timeout_sec=_STEP)
     finally:
         executor.remove_node(node)
-
-
-def _set_log_level(node: Any, level: str) -> None:
-    from rclpy.logging import LoggingSeverity
-
-    node.get_logger().set_level(LoggingSeverity[level.upper()])
 
 
 def _selection(options: argparse.Namespace) -> TopicSelection:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from teo_ros2cli.cli.dispatch import Entry, choose
+from teo_ros2cli.cli.dispatch import Entry
 
 VERBS = {
-    "bw": Entry(f"{__name__}.bw", "Display bandwidth used by topic"),
-    "delay": Entry(f"{__name__}.delay", "Display delay of topic from timestamp in header"),
+    "bw": Entry(f"{__name__}.measuring", "Display bandwidth used by topic", "bw"),
+    "delay": Entry(f"{__name__}.measuring", "Display delay of topic from timestamp in header", "delay"),
     "echo": Entry(f"{__name__}.echo", "Output messages from a topic"),
     "find": Entry(f"{__name__}.listing", "Output a list of available topics of a given type", "find"),
     "hz": Entry(f"{__name__}.hz", "Print the average receiving rate to screen"),
@@ -17,8 +15,3 @@ VERBS = {
     "pub": Entry(f"{__name__}.pub", "Publish a message to a topic"),
     "type": Entry(f"{__name__}.listing", "Print a topic's type", "type"),
 }
-
-
-def run_words(words: Sequence[str]) -> int:
-    """Run the verb that the words name."""
-    return choose("ros2 topic", "Various topic related sub-commands", "verb", VERBS, words)

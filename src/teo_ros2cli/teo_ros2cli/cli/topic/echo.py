@@ -34,23 +34,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--csv",
         action="store_true",
         help="Output all recursive fields separated by commas (e.g. for plotting). If --include-message-info "
-        "is "
-        "also passed, source_timestamp, received_timestamp, publication_sequence_number and "
+        "is also passed, source_timestamp, received_timestamp, publication_sequence_number and "
         "reception_sequence_number are prepended.",
     )
     parser.add_argument(
         "--field",
         help="Echo a selected field of a message. Use '.' to select sub-fields and '[i]' for one of a "
-        "sequence, "
-        "e.g. 'pose.position' or 'points[0].positions'",
+        "sequence, e.g. 'pose.position' or 'points[0].positions'",
     )
     parser.add_argument(
         "--full-length",
         "-f",
         action="store_true",
         help="Output all elements for arrays, bytes, and string with a length > '--truncate-length', by "
-        "default "
-        "they are truncated after '--truncate-length' elements with '...''",
+        "default they are truncated after '--truncate-length' elements with '...''",
     )
     parser.add_argument(
         "--truncate-length",
@@ -70,8 +67,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--filter",
         dest="filter_expression",
         help="Python expression to filter messages that are printed. Expression can use Python builtins as "
-        "well as "
-        "m (the message).",
+        "well as m (the message).",
     )
     parser.add_argument("--once", action="store_true", help="Print the first message received and then exit.")
     parser.add_argument("--timeout", metavar="N", type=positive_float, help="Exit after this time in seconds")

@@ -3,32 +3,19 @@
 from __future__ import annotations
 
 import argparse
-import functools
-from typing import Any
+import math
+from collections import deque
+from typing import Any, NamedTuple
 
-from teo_ros2cli.cli.options import add_graph_arguments, positive_int
 from teo_ros2cli.cli.topic.echo import message_filter
-from teo_ros2cli.cli.topic.rates import Rate, RateMeter
-
-DEFAULT_WINDOW = 10000
-# Interval of printing [s].
-_REPORT = 1.0
+from teo_ros2cli.cli.topic.measuring import add_window_arguments, measure, measured_topics
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
-    add_graph_arguments(parser)
+    add_window_arguments(parser, 10000)
     parser.add_argument(
         "topic_name", nargs="+", help="Names of the ROS topics to listen to (e.g. '/chatter')"
-    )
-    parser.add_argument(
-        "--window",
-        "-w",
-        dest="window_size",
-        type=positive_int,
-        default=DEFAULT_WINDOW,
-        metavar="WINDOW",
-        help=f"Window size, in # of messages, for calculating rate (default: {DEFAULT_WINDOW})",
     )
     parser.add_argument(
         "--filter",
@@ -48,22 +35,13 @@ def run(options: argparse.Namespace) -> int:
     """Print the rate once a second, until interrupted.
 
     Raises:
-        Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`, `invalid_filter`.
+        Ros2CliError: `invalid_filter`, and as of `measured_topics`.
     """
-    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-    from teo_ros2cli.graph.cli_node import cli_node, settle
-    from teo_ros2cli.graph.listening import ANYTHING, listen
-    from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
-    from teo_ros2cli.messages.classes import message_class
-
     passes = message_filter(options.filter_expression)
     raw = options.filter_expression is None  # a message that nobody looks into need not be taken apart
-    with cli_node(use_sim_time=options.use_sim_time) as node:
-        topics = [full_topic_name(node, topic) for topic in options.topic_name]
-        settle(node, options.spin_time)
-        classes = {topic: message_class(wait_for_type(node, topic, "measure")) for topic in topics}
-        meters = {topic: RateMeter(options.window_size) for topic in topics}
-        printed: dict[str, int | None] = dict.fromkeys(topics)
+    with measured_topics(options, options.topic_name) as (node, classes):
+        meters = {topic: RateMeter(options.window_size) for topic in classes}
+        printed: dict[str, int | None] = dict.fromkeys(classes)
 
         def receive(topic: str, message: Any, info: dict[str, Any]) -> None:
             if raw or passes(message):
@@ -76,16 +54,69 @@ def run(options: argparse.Namespace) -> int:
             rates = {topic: rate for topic, rate in fresh.items() if rate is not None}
             printed.update({topic: meters[topic].last for topic in rates})
             if rates:
-                print(rate_text(next(iter(rates.values()))) if len(topics) == 1 else rate_table(rates))
+                print(rate_text(next(iter(rates.values()))) if len(classes) == 1 else rate_table(rates))
 
-        subscriptions = [
-            AdaptiveSubscription(
-                node, topic, cls, functools.partial(receive, topic), fixed=ANYTHING, raw=raw, warn=print
-            )
-            for topic, cls in classes.items()
-        ]
-        listen(node, subscriptions, every=(_REPORT, report))
+        measure(node, classes, receive, report, raw=raw)
     return 0
+
+
+class Rate(NamedTuple):
+    """Statistics of the intervals in a window.
+
+    Args:
+        hertz: Inverse of the mean interval [1/s].
+        shortest: Shortest interval [s].
+        longest: Longest interval [s].
+        deviation: Standard deviation of the intervals [s].
+        intervals: Number of intervals looked back on.
+    """
+
+    hertz: float
+    shortest: float
+    longest: float
+    deviation: float
+    intervals: int
+
+
+class RateMeter:
+    """Measures the rate of arrivals over the latest ones.
+
+    Args:
+        window: Number of intervals to look back on.
+    """
+
+    def __init__(self, window: int) -> None:
+        self._intervals: deque[int] = deque(maxlen=window)
+        self._last: int | None = None
+
+    def arrive(self, time: int) -> None:
+        """Note an arrival [ns]; one before the last (a clock was set back) starts the measurement anew."""
+        if self._last is not None:
+            if time < self._last:
+                self._intervals.clear()
+            else:
+                self._intervals.append(time - self._last)
+        self._last = time
+
+    @property
+    def last(self) -> int | None:
+        """Time of the latest arrival [ns], None before the first."""
+        return self._last
+
+    def rate(self) -> Rate | None:
+        """Return the rate, or None before there is an interval."""
+        count = len(self._intervals)
+        if not count:
+            return None
+        mean = sum(self._intervals) / count
+        variance = sum((interval - mean) ** 2 for interval in self._intervals) / count
+        return Rate(
+            hertz=1e9 / mean if mean > 0 else 0.0,
+            shortest=min(self._intervals) * 1e-9,
+            longest=max(self._intervals) * 1e-9,
+            deviation=math.sqrt(variance) * 1e-9,
+            intervals=count,
+        )
 
 
 def rate_text(rate: Rate) -> str:

@@ -17,8 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--verbose",
         action="store_true",
         help="Prints detailed information like the node name, node namespace, topic type, topic type hash, "
-        "GUID, and "
-        "QoS Profile of the publishers and subscribers to this topic",
+        "GUID, and QoS Profile of the publishers and subscribers to this topic",
     )
 
 

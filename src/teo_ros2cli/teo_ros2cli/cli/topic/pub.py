@@ -16,8 +16,7 @@ from teo_ros2cli.cli.options import (
 )
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import message_class
-from teo_ros2cli.messages.fill import StampSetter, fill_message
-from teo_ros2cli.messages.yaml_text import parse
+from teo_ros2cli.messages.fill import StampSetter, fill_from_text
 
 # Longest time that reliable subscriptions get to receive the last message [s]. A subscription that has been
 # found may itself find this publisher later, with the next announcement, every 3 s with the defaults of Fast
@@ -39,9 +38,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default="{}",
         help='Values to fill the message with in YAML format (e.g. "data: Hello World"), otherwise the '
-        "message "
-        "will be published with default values. `header: auto` and `stamp: now` stand for the time of "
-        "publishing.",
+        "message will be published with default values. `header: auto` and `stamp: now` stand for the time "
+        "of publishing.",
     )
     group = parser.add_mutually_exclusive_group()
     group.add_argument(
@@ -101,13 +99,7 @@ def run(options: argparse.Namespace) -> int:
     times = 1 if options.once else options.times
     # All that can be wrong with the words is found before the graph is joined.
     message = message_class(options.message_type)()
-    values = parse(options.values)
-    if not isinstance(values, dict):
-        raise Ros2CliError("invalid_yaml", "The passed value needs to be a dictionary in YAML format")
-    try:
-        stamps = fill_message(message, values, automatic_stamps=True)
-    except Ros2CliError as error:
-        raise Ros2CliError(error.code, f"Failed to populate field: {error}") from error
+    stamps = fill_from_text(message, options.values, automatic_stamps=True)
 
     from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.qos import from_options

@@ -1,0 +1,170 @@
+"""`ros2 topic bw` and `delay`, and what they share with `hz`: a window and a report each second."""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import math
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from teo_ros2cli.cli.options import add_graph_arguments, positive_int
+from teo_ros2cli.errors import Ros2CliError
+
+# Interval of printing [s].
+_REPORT = 1.0
+
+
+def add_window_arguments(parser: argparse.ArgumentParser, default: int, what: str = "Window size") -> None:
+    """Add the options on how the graph is looked at and on how many messages are looked back on."""
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "--window",
+        "-w",
+        dest="window_size",
+        type=positive_int,
+        default=default,
+        metavar="WINDOW",
+        help=f"{what}, in # of messages, for calculating rate (default: {default})",
+    )
+
+
+@contextmanager
+def measured_topics(
+    options: argparse.Namespace, topics: Sequence[str]
+) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """Yield a node that knows the graph, and the message classes of the topics by their full names.
+
+    Raises:
+        Ros2CliError: `invalid_topic`, `invalid_type`, `ambiguous_type`.
+    """
+    from teo_ros2cli.graph.cli_node import cli_node, settle
+    from teo_ros2cli.graph.topics import full_topic_name, wait_for_type
+    from teo_ros2cli.messages.classes import message_class
+
+    with cli_node(use_sim_time=options.use_sim_time) as node:
+        names = [full_topic_name(node, topic) for topic in topics]
+        settle(node, options.spin_time)
+        yield node, {name: message_class(wait_for_type(node, name, "measure")) for name in names}
+
+
+def measure(
+    node: Any,
+    classes: dict[str, Any],
+    receive: Callable[[str, Any, dict[str, Any]], None],
+    report: Callable[[], None],
+    *,
+    raw: bool = False,
+) -> None:
+    """Receive messages until interrupted, and report once a second.
+
+    Args:
+        node: The node that `measured_topics` yields.
+        classes: Message classes by topic name.
+        receive: Takes the topic, the message (bytes if raw) and rclpy's information on it.
+        report: Prints what was measured.
+        raw: Pass messages on as they came from the wire.
+    """
+    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.listening import ANYTHING, listen
+
+    subscriptions = [
+        AdaptiveSubscription(
+            node, topic, cls, functools.partial(receive, topic), fixed=ANYTHING, raw=raw, warn=print
+        )
+        for topic, cls in classes.items()
+    ]
+    listen(node, subscriptions, every=(_REPORT, report))
+
+
+def add_bw_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `bw`."""
+    add_window_arguments(parser, 100, "Maximum window size")
+    parser.add_argument("topic_name", help="Topic name to monitor for bandwidth utilization")
+
+
+def run_bw(options: argparse.Namespace) -> int:
+    """Print the bandwidth once a second, until interrupted.
+
+    Raises:
+        Ros2CliError: As of `measured_topics`.
+    """
+    arrivals: deque[tuple[float, int]] = deque(maxlen=options.window_size)
+
+    def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
+        arrivals.append((time.monotonic(), len(message)))
+
+    def report() -> None:
+        text = bandwidth_text(list(arrivals), time.monotonic())
+        if text:
+            print(text)
+
+    with measured_topics(options, [options.topic_name]) as (node, classes):
+        print(f"Subscribed to [{next(iter(classes))}]")
+        measure(node, classes, receive, report, raw=True)
+    return 0
+
+
+def bandwidth_text(arrivals: list[tuple[float, int]], now: float) -> str:
+    """Return the bandwidth of some arrivals (moment [s], size [bytes]) until now; empty with one or none."""
+    if len(arrivals) < 2 or now <= arrivals[0][0]:
+        return ""
+    sizes = [size for _, size in arrivals]
+    per_second = sum(sizes) / (now - arrivals[0][0])
+    return (
+        f"{_bytes(per_second)}/s from {len(sizes)} messages\n\tMessage size mean: "
+        f"{_bytes(sum(sizes) / len(sizes))} min: {_bytes(min(sizes))} max: {_bytes(max(sizes))}"
+    )
+
+
+def _bytes(count: float) -> str:
+    if count < 1000:
+        return f"{count:.0f} B"
+    if count < 1_000_000:
+        return f"{count / 1000:.2f} KB"
+    return f"{count / 1_000_000:.2f} MB"
+
+
+def add_delay_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `delay`."""
+    add_window_arguments(parser, 10000)
+    parser.add_argument("topic", help="Topic name to calculate the delay for")
+
+
+def run_delay(options: argparse.Namespace) -> int:
+    """Print the delay once a second, until interrupted.
+
+    Raises:
+        Ros2CliError: `no_header`, and as of `measured_topics`.
+    """
+    delays: deque[float] = deque(maxlen=options.window_size)
+    with measured_topics(options, [options.topic]) as (node, classes):
+        for topic, cls in classes.items():
+            if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
+                raise Ros2CliError(
+                    "no_header", f"Messages of topic '{topic}' have no header, and so no stamp"
+                )
+
+        def receive(_topic: str, message: Any, _info: dict[str, Any]) -> None:
+            stamp = message.header.stamp
+            delays.append((node.get_clock().now().nanoseconds - stamp.sec * 10**9 - stamp.nanosec) * 1e-9)
+
+        def report() -> None:
+            if delays:
+                print(delay_text(list(delays)))
+
+        measure(node, classes, receive, report)
+    return 0
+
+
+def delay_text(delays: list[float]) -> str:
+    """Return the statistics of some delays [s]."""
+    mean = sum(delays) / len(delays)
+    deviation = math.sqrt(sum((delay - mean) ** 2 for delay in delays) / len(delays))
+    return (
+        f"average delay: {mean:.3f}\n\tmin: {min(delays):.3f}s max: {max(delays):.3f}s "
+        f"std dev: {deviation:.5f}s window: {len(delays)}"
+    )
