@@ -8,7 +8,7 @@ from teo_common.text_folding import strip_marks
 from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Match, Phrasebook
-from teo_sign_translator.lstm256.seq2seq import Prediction, SequenceModel
+from teo_sign_translator.lstm256.seq2seq import LstmModel, Prediction
 from teo_sign_translator.lstm256.tokens import MARKS
 from teo_sign_translator.output.output_words import OutputWord, carried, number, spelled
 from teo_sign_translator.output.translation import Kind, Origin
@@ -26,7 +26,7 @@ MIN_PROBABILITY = 0.5
 class KnownSentences:
     """Translates sentences of the training data, and others of the same words, with the model."""
 
-    def __init__(self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
+    def __init__(self, model: LstmModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
         """Take the parts together.
 
         Args:
