@@ -15,6 +15,7 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_translator.cli.command import run_command
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
@@ -135,12 +136,4 @@ def _table(title: str, first: str, scores: dict[str, Score]) -> Table:
 
 def main() -> None:
     """Run the command line."""
-    try:
-        typer.run(run)
-    except (TranslationError, OSError) as error:
-        Console(stderr=True).print(str(error), markup=False)
-        raise SystemExit(1) from None
-
-
-if __name__ == "__main__":
-    main()
+    run_command(run)
