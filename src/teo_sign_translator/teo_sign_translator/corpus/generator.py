@@ -11,7 +11,7 @@ from pathlib import Path
 from random import Random
 
 from teo_common.text_folding import folded
-from teo_sign_translator.corpus.choosers import RandomChooser
+from teo_sign_translator.corpus.choosers import Chooser
 from teo_sign_translator.corpus.derivation import Derivation, Sentence
 from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule
@@ -90,7 +90,7 @@ class Generator:
             if chosen:
                 random = Random(seed * len(SHARES) + index)
                 held = split in ("test_words", "test_both")
-                derivation = Derivation(grammar, self.words, RandomChooser(random, held))
+                derivation = Derivation(grammar, self.words, Chooser(random, held))
                 yield from self._split(
                     split, round(count * share), chosen, derivation, random, seen, held=held
                 )
@@ -98,7 +98,7 @@ class Generator:
             kept = {each.name for each in every}
             chosen = [each for each in templates(self.grammar) if each.name not in kept]
             random = Random(seed * len(SHARES) + len(SHARES))
-            derivation = Derivation(self.grammar, self.words, RandomChooser(random))
+            derivation = Derivation(self.grammar, self.words, Chooser(random))
             size = round(count * _CONSTRUCTIONS_SHARE)
             yield from self._split("test_constructions", size, chosen, derivation, random, seen, held=False)
 

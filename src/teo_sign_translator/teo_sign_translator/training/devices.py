@@ -1,4 +1,4 @@
-"""Where a network is trained: the device, and the threads of its CPU."""
+"""Where a network is trained: the device, the threads of its CPU, its random numbers."""
 
 from __future__ import annotations
 
@@ -46,3 +46,11 @@ def one_thread() -> Iterator[None]:
         yield
     finally:
         torch.set_num_threads(before)
+
+
+@contextmanager
+def seeded(seed: int) -> Iterator[None]:
+    """PyTorch's random numbers from a seed; the caller's go on afterwards."""
+    with torch.random.fork_rng():
+        torch.manual_seed(seed)
+        yield

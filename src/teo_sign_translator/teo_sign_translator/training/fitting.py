@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,15 +12,15 @@ import torch
 from numpy.typing import NDArray
 
 from teo_common.text_folding import fold
+from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SPARE
 from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
 from teo_sign_translator.training.batches import WordNumbers, batches
-from teo_sign_translator.training.devices import best_device, one_thread
+from teo_sign_translator.training.devices import best_device, one_thread, seeded
 from teo_sign_translator.training.examples import (
     VARIANTS,
-    AlignedSentence,
     ExampleReader,
     Examples,
     Reader,
@@ -90,9 +89,9 @@ class Fit:
 
 
 def fit(
-    train: Sequence[AlignedSentence],
-    dev: Sequence[AlignedSentence],
-    by_heart: Sequence[AlignedSentence],
+    train: Sequence[Pair],
+    dev: Sequence[Pair],
+    by_heart: Sequence[Pair],
     read: Reader,
     network_config: NetworkConfig,
     config: TrainingConfig,
@@ -135,7 +134,7 @@ def fit(
     if not len(learned):
         raise TranslationError("invalid_config", "expected pairs whose glosses can be said, got none")
 
-    with _seeded(config.seed), one_thread():
+    with seeded(config.seed), one_thread():
         random = np.random.default_rng(config.seed)
         network = Network(network_config, vocabulary, config.dropout).to(device)
         optimiser = torch.optim.AdamW(network.parameters(), config.learning_rate, weight_decay=0.01)
@@ -266,11 +265,3 @@ def _mean_loss(
             loss, _ = network.losses(TensorBatch.of(batch, device))
             total, count = total + loss.item(), count + float(batch.weight.sum())
     return total / count
-
-
-@contextmanager
-def _seeded(seed: int) -> Iterator[None]:
-    """PyTorch's random numbers from a seed; the caller's go on afterwards."""
-    with torch.random.fork_rng():
-        torch.manual_seed(seed)
-        yield

@@ -16,6 +16,7 @@ from torch.nn.utils.rnn import pack_padded_sequence, pad_sequence
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.seq2seq import LstmModel
 from teo_sign_translator.lstm256.tokens import END, START, Vocabulary
+from teo_sign_translator.training.devices import one_thread, seeded
 
 #: One input sequence and its output sequence.
 Example = tuple[tuple[str, ...], tuple[str, ...]]
@@ -55,8 +56,7 @@ class TrainingConfig:
             raise TranslationError(
                 "invalid_config",
                 "expected hidden, epochs and batch_size of at least 1, learning_rate in (0, 1) and decay in "
-                "[0, 1), "
-                f"got {self}",
+                f"[0, 1), got {self}",
             )
 
 
@@ -218,14 +218,10 @@ def _encode(example: Example, inputs: Vocabulary, outputs: Vocabulary) -> _Encod
 @contextmanager
 def _deterministic(seed: int) -> Iterator[None]:
     """Seeded, on one thread, in PyTorch's deterministic mode; gives back the caller's settings."""
-    threads = torch.get_num_threads()
     before = torch.are_deterministic_algorithms_enabled()
-    torch.set_num_threads(1)  # sums in one order, and no slower for matrices this small
     torch.use_deterministic_algorithms(True)
     try:
-        with torch.random.fork_rng(devices=[]):
-            torch.manual_seed(seed)
+        with seeded(seed), one_thread():  # sums in one order, and no slower for matrices this small
             yield
     finally:
         torch.use_deterministic_algorithms(before)
-        torch.set_num_threads(threads)

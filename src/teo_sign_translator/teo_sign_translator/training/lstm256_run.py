@@ -21,12 +21,9 @@ SHIPPED_CONFIG = TrainingConfig(learning_rate=0.001, epochs=100, batch_size=8)
 
 _DESCRIPTION = (
     "One-layer encoder-decoder LSTM, 256 hidden units, one-hot words, softmax output, trained with "
-    "categorical "
-    "cross-entropy and RMSprop as in arXiv:1907.04198. Unlike there nothing is held out: it is to know these "
-    "sentences "
-    "by heart, and knows hardly anything else. Accents are folded; each sentence is trained with its marks "
-    "typed, left "
-    "out or changed; names and numbers are slots."
+    "categorical cross-entropy and RMSprop as in arXiv:1907.04198. Unlike there nothing is held out: it is "
+    "to know these sentences by heart, and knows hardly anything else. Accents are folded; each sentence is "
+    "trained with its marks typed, left out or changed; names and numbers are slots."
 )
 
 

@@ -21,11 +21,7 @@ from teo_sign_translator.pointer.store import load_sentence_model, save_sentence
 from teo_sign_translator.training import fitting
 from teo_sign_translator.training.corpus_files import corpus_hash, read_splits, sample, without
 from teo_sign_translator.training.examples import Reader
-from teo_sign_translator.training.memorised_pairs import (
-    MemorisedPair,
-    memorised_pairs,
-    not_memorised,
-)
+from teo_sign_translator.training.memorised_pairs import memorised_pairs, not_memorised
 from teo_sign_translator.training.metrics import Score, score
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
@@ -46,7 +42,7 @@ class TrainingData:
 
     train: list[Pair]
     held_out: dict[str, list[Pair]]
-    by_heart: tuple[MemorisedPair, ...]
+    by_heart: tuple[Pair, ...]
     corpus: Path
     sha256: str
 
@@ -147,14 +143,18 @@ def train_model(
         "seconds": round(fit.seconds, 1),
         "pairs_per_second": round(fit.pairs_per_second),
     }
-    save_sentence_model(
-        name,
-        out,
-        config=network,
-        vocabulary=fit.vocabulary,
-        weights=fit.weights,
-        card={**card, "result": result},
-    )
+
+    def save() -> None:
+        save_sentence_model(
+            name,
+            out,
+            config=network,
+            vocabulary=fit.vocabulary,
+            weights=fit.weights,
+            card={**card, "result": result},
+        )
+
+    save()
     model = load_sentence_model(name, out)
     scores = {
         split: score_model(model, sample(pairs, SCORED, config.seed), read)
@@ -167,14 +167,7 @@ def train_model(
         "scores": {split: dataclasses.asdict(each) for split, each in scores.items()},
         "paper_sentences_wrong": len(unknown),
     }
-    save_sentence_model(
-        name,
-        out,
-        config=network,
-        vocabulary=fit.vocabulary,
-        weights=fit.weights,
-        card={**card, "result": result},
-    )
+    save()
     return TrainedModel(model, fit, scores, unknown)
 
 
