@@ -14,7 +14,7 @@ from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.text.source_words import SourceWord
 from teo_sign_translator.training.fitting import Fit, fit
 
@@ -89,8 +89,8 @@ def fit_small(name: str, pairs: Sequence[Pair], **training: Any) -> Fit:
     return fit(pairs, [], [], read, small_config(name), TrainingConfig(**chosen), device=device)
 
 
-def small_model(name: str, trained: Fit) -> ZooModel:
-    return ZooModel(name, ArrayModel(small_config(name), trained.vocabulary, trained.weights))
+def small_model(name: str, trained: Fit) -> SentenceModel:
+    return SentenceModel(name, ArrayModel(small_config(name), trained.vocabulary, trained.weights))
 
 
 def glosses_of(hypothesis: Hypothesis) -> tuple[str, ...]:

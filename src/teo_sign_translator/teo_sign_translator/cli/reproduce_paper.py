@@ -16,7 +16,7 @@ from rich.table import Table
 from teo_common.atomic_files import write_atomically
 from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_translator.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
-from teo_sign_translator.lstm256.tokens import Vocabulary, published_tokens
+from teo_sign_translator.lstm256.tokens import published_tokens
 from teo_sign_translator.training.lstm256_fitting import Example, Training, TrainingConfig, train
 
 if TYPE_CHECKING:
@@ -55,18 +55,11 @@ def reproduce(config: TrainingConfig, progress: Progress) -> Run:
     """Train with one learning rate on the published pairs."""
     pairs = paper_pairs()
     examples: list[Example] = [(published_tokens(pair.sentence), pair.glosses) for pair in pairs]
-    inputs = Vocabulary.of_inputs(source for source, _ in examples)
-    outputs = Vocabulary.of_outputs(target for _, target in examples)
     count = len(split(pairs)[0])
     task = progress.add_task(f"learning rate {config.learning_rate}", total=config.epochs)
     started = time.monotonic()
     training = train(
-        examples[:count],
-        examples[count:],
-        inputs,
-        outputs,
-        config,
-        on_epoch=lambda epoch: progress.update(task, completed=epoch),
+        examples[:count], examples[count:], config, lambda epoch: progress.update(task, completed=epoch)
     )
     seconds = time.monotonic() - started
     return Run(

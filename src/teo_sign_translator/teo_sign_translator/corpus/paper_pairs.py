@@ -11,7 +11,7 @@ from pathlib import Path
 
 from teo_common.text_folding import fold
 from teo_sign_translator.corpus.pairs_file import Pair
-from teo_sign_translator.data_files import data_file, read_rows
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.text.source_words import SourceWord, source_words
@@ -163,16 +163,11 @@ def _aligned(path: Path, number: int, sentence: str, glosses: str) -> AlignedPai
             names.append(gloss_name(match["gloss"]))
             sources.append(tuple(match["words"].lower().split()))
         else:
-            raise TranslationError(
-                "invalid_data",
-                f"{path}, line {number}: expected 'Gloss(words)' or a slot of {SLOTS}, got '{written}'",
-            )
+            raise invalid_line(path, number, f"'Gloss(words)' or a slot of {SLOTS}", f"'{written}'")
     present = sentence.lower()
     lost = [word for words in sources for word in words if word not in present]
     if lost:
-        raise TranslationError(
-            "invalid_data", f"{path}, line {number}: words not in the sentence: {', '.join(lost)}"
-        )
+        raise invalid_line(path, number, "words of the sentence", ", ".join(lost))
     return AlignedPair(sentence, tuple(names), tuple(sources))
 
 

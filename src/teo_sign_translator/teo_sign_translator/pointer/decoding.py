@@ -46,8 +46,8 @@ class _Choice(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class ZooModel:
-    """A `SentenceModel` of the zoo.
+class SentenceModel:
+    """Translates sentences of words that carry their readings, with any model of the zoo.
 
     Attributes:
         name: Under which it was loaded.
@@ -58,13 +58,21 @@ class ZooModel:
     arrays: ArrayModel
 
     def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
-        """See `SentenceModel`."""
+        """Translate one sentence; raises nothing for words it has never seen.
+
+        Args:
+            words: Of `source_words`; none gives one empty hypothesis.
+            beam: Hypotheses kept at each step, at least 1; 1 takes the likeliest gloss each time.
+
+        Returns:
+            One to `beam` hypotheses, best first.
+        """
         return self.translate_all([words], beam=beam)[0]
 
     def translate_all(
         self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
     ) -> tuple[tuple[Hypothesis, ...], ...]:
-        """See `SentenceModel`."""
+        """Translate many sentences, faster than one by one; the results are in their order."""
         result: list[tuple[Hypothesis, ...]] = [(Hypothesis((), 0.0),)] * len(sentences)
         by_length: dict[int, list[int]] = {}
         for index, words in enumerate(sentences):

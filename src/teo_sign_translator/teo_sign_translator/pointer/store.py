@@ -10,7 +10,7 @@ from typing import Any
 from teo_sign_translator.model_files import Weights, read_model, write_model
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import NetworkConfig
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.pointer.vocabulary import Vocabulary
 
 #: Of the cards of sentence models.
@@ -19,12 +19,12 @@ SCHEMA = 2
 _LISTS = "lexis"
 
 
-def load_sentence_model(name: str, directory: Path | None = None) -> ZooModel:
+def load_sentence_model(name: str, directory: Path | None = None) -> SentenceModel:
     """Load a sentence model; arguments and errors are those of `model_files.read_model`."""
 
-    def build(card: dict[str, Any], weights: Weights) -> ZooModel:
+    def build(card: dict[str, Any], weights: Weights) -> SentenceModel:
         vocabulary = Vocabulary.from_dict(card[_LISTS])
-        return ZooModel(name, ArrayModel(NetworkConfig(**card["network"]), vocabulary, weights))
+        return SentenceModel(name, ArrayModel(NetworkConfig(**card["network"]), vocabulary, weights))
 
     return read_model(name, SCHEMA, directory, build)
 

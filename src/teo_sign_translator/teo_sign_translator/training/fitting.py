@@ -26,7 +26,7 @@ from teo_sign_translator.training.examples import (
     Reader,
     WordTable,
 )
-from teo_sign_translator.training.network import Network, TensorBatch
+from teo_sign_translator.training.network import Network, on_device
 from teo_sign_translator.training.typing_noise import Typing, copies, typed_sayably, unsayable
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
@@ -161,7 +161,7 @@ def fit(
                 spare=spare,
             )
             for step, batch in enumerate(all_batches, start=1):
-                tensors = TensorBatch.of(batch, device)
+                tensors = on_device(batch, device)
                 gloss_loss, look_loss = network.losses(tensors)
                 glosses = float(batch.weight.sum())
                 optimiser.zero_grad()
@@ -262,6 +262,6 @@ def _mean_loss(
     total, count = 0.0, 0.0
     with torch.no_grad():
         for batch in batches(examples, table, numbers, 512, spare=spare):
-            loss, _ = network.losses(TensorBatch.of(batch, device))
+            loss, _ = network.losses(on_device(batch, device))
             total, count = total + loss.item(), count + float(batch.weight.sum())
     return total / count

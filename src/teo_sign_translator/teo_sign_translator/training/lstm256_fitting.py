@@ -81,8 +81,6 @@ class Training:
 def train(
     examples: Sequence[Example],
     held_out: Sequence[Example],
-    inputs: Vocabulary,
-    outputs: Vocabulary,
     config: TrainingConfig,
     on_epoch: Callable[[int], None] | None = None,
 ) -> Training:
@@ -91,16 +89,16 @@ def train(
     Args:
         examples: To learn from; at least one.
         held_out: To measure the validation loss on; may be empty.
-        inputs: Vocabulary of the input sequences of both.
-        outputs: Vocabulary of their output sequences.
         config: See `TrainingConfig`.
         on_epoch: Called after each epoch with its number from 1.
 
     Raises:
-        TranslationError: "invalid_config" without examples, "unknown_token" if a vocabulary lacks a token.
+        TranslationError: "invalid_config" without examples.
     """
     if not examples:
         raise TranslationError("invalid_config", "expected at least one training example, got none")
+    inputs = Vocabulary.of_inputs(source for source, _ in (*examples, *held_out))
+    outputs = Vocabulary.of_outputs(target for _, target in (*examples, *held_out))
     with _deterministic(config.seed):
         network = EncoderDecoder(len(inputs), len(outputs), config.hidden)
         # 1e-7 keeps the division finite, as in the Keras library of the paper's time.

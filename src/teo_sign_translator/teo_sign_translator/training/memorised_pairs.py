@@ -13,7 +13,7 @@ from teo_sign_translator.corpus.paper_pairs import (
     paper_pairs,
     training_pairs,
 )
-from teo_sign_translator.pointer.sentence_model import SentenceModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.training.examples import Reader
 
 #: What fills the slots. A few are enough: the corpus shows hundreds of names and numbers in other sentences.

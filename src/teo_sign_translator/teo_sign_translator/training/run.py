@@ -16,7 +16,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.pointer.store import load_sentence_model, save_sentence_model
 from teo_sign_translator.training import fitting
 from teo_sign_translator.training.corpus_files import corpus_hash, read_splits, sample, without
@@ -58,7 +58,7 @@ class TrainedModel:
         unknown: Sentences of the paper that do not come out as published.
     """
 
-    model: ZooModel
+    model: SentenceModel
     fit: fitting.Fit
     scores: dict[str, Score]
     unknown: tuple[str, ...]
@@ -171,7 +171,7 @@ def train_model(
     return TrainedModel(model, fit, scores, unknown)
 
 
-def score_model(model: ZooModel, pairs: Sequence[Pair], read: Reader) -> Score:
+def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
     """Translate pairs, the likeliest gloss each time, and compare."""
     got = model.translate_all([read(pair.spanish) for pair in pairs])
     return score(

@@ -10,7 +10,7 @@ from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.pointer.store import SCHEMA
 from teo_sign_translator.text.source_words import source_words
 from teo_sign_translator.training.examples import Reader
@@ -23,7 +23,7 @@ def read() -> Reader:
 
 
 @cache
-def model() -> ZooModel:
+def model() -> SentenceModel:
     return load_sentence_model(POINTER)
 
 
