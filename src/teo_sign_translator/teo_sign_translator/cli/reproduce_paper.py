@@ -114,7 +114,7 @@ def differences(runs: list[Run]) -> list[str]:
         "llamo…'), the paper's those with 'Colegio'. Inputs padded with zeros to one length, as programs of "
         "that time often did, were tried: they move the errors to 'Colegio' too, so unstated details of that "
         "kind are the likely reason.",
-        *_unseen_words(),
+        _unseen_words(),
         "Not stated in the description that this follows, and so chosen here: batch size "
         f"({runs[0].config.batch_size}), initial weights (Keras' defaults), the held-out part (the last "
         "pairs, so that the ten sentences shown are learned ones), the form of the input (lower case, "
@@ -152,18 +152,18 @@ def _deviations(result: Run) -> list[str]:
     return [f"At {rate} these differ from the paper's: {'; '.join(differing)}."] if differing else []
 
 
-def _unseen_words() -> list[str]:
+def _unseen_words() -> str:
     """Why the held-out sentences cannot come out right."""
     learned, held_out = split(paper_pairs())
     words = {word for pair in learned for word in published_tokens(pair.sentence)}
     glosses = {gloss for pair in learned for gloss in pair.glosses}
     unseen = sum(not set(published_tokens(pair.sentence)) <= words for pair in held_out)
     unsaid = sum(not set(pair.glosses) <= glosses for pair in held_out)
-    return [
+    return (
         f"The validation loss rises while the training loss falls: of the {len(held_out)} held-out sentences "
         f"{unseen} hold a word, and {unsaid} a gloss, that occurs in none of the {len(learned)} others. "
         "Nothing can be learned about those from so few pairs; the model memorises and does not generalise."
-    ]
+    )
 
 
 def _rows(runs: list[Run]) -> list[list[str]]:

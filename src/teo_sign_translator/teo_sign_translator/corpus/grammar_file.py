@@ -231,9 +231,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
 
 
 def _check_links(grammar: Grammar) -> None:
-    rules = [rule for family in grammar.families for rule in family.rules]
-    rules += [rule for alternatives in grammar.categories.values() for rule in alternatives]
-    for rule in rules:
+    for rule in grammar.rules():
         earlier: set[str] = set()
         for slot in rule.slots:
             if slot.category not in LEXICAL and slot.category not in grammar.categories:

@@ -85,10 +85,6 @@ class GlossList:
                 return entry, size
         return None
 
-    def glosses(self) -> frozenset[str]:
-        """All glosses of the list."""
-        return frozenset(entry.gloss for entry in self._exact.values() if entry.gloss)
-
     def __iter__(self) -> Iterator[str]:
         """Words and phrases in lower case."""
         return iter(self._exact)

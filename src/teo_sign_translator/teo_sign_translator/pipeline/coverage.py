@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 from teo_common.text_folding import fold
@@ -24,6 +23,7 @@ class FunctionWords:
     def __init__(self, lemmas: dict[str, frozenset[str]]) -> None:
         """Take lemmas by the beginning of the tag that they must have; `*` among them stands for all."""
         self._lemmas = dict(lemmas)
+        self._by_tag: dict[str, frozenset[str]] = {}
 
     @classmethod
     def load(cls, path: Path | None = None) -> FunctionWords:
@@ -57,10 +57,6 @@ class FunctionWords:
             listed = [lemmas for tag, lemmas in self._lemmas.items() if _begins(reading.tag, tag)]
             found = self._by_tag[reading.tag] = frozenset[str]().union(*listed)
         return _ANY in found or reading.lemma in found
-
-    @cached_property
-    def _by_tag(self) -> dict[str, frozenset[str]]:
-        return {}
 
 
 @dataclass(frozen=True, slots=True)

@@ -79,11 +79,9 @@ class ArrayModel:
         full: dict[str, Array] = {name: np.asarray(value, np.float32) for name, value in weights.items()}
         self.config = config
         self.vocabulary = vocabulary
-        self._form, self._capital, self._lemma = (
-            full["form.weight"],
-            full["capital.weight"],
-            full["lemma.weight"],
-        )
+        self._form = full["form.weight"]
+        self._capital = full["capital.weight"]
+        self._lemma = full["lemma.weight"]
         self._rank = full["rank"]
         self._part = full["part"]
         self._parts = {part: place for place, part in enumerate(vocabulary.parts)}

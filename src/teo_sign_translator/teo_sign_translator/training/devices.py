@@ -10,19 +10,14 @@ import torch
 from teo_sign_translator.errors import TranslationError
 
 
-def best_device() -> torch.device:
-    """An accelerator if there is one, else the CPU."""
-    return torch.device("cuda" if torch.cuda.is_available() else "cpu")
-
-
 def named_device(name: str | None) -> torch.device:
-    """The device of a name as PyTorch has it; the best one if None.
+    """The device of a name as PyTorch has it; if None, an accelerator if there is one, else the CPU.
 
     Raises:
         TranslationError: "invalid_config" if this machine has no such device.
     """
     if name is None:
-        return best_device()
+        return torch.device("cuda" if torch.cuda.is_available() else "cpu")
     try:
         device = torch.device(name)
         torch.empty(0, device=device)

@@ -18,14 +18,8 @@ from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SPARE
 from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
 from teo_sign_translator.training.batches import WordNumbers, batches
-from teo_sign_translator.training.devices import best_device, one_thread, seeded
-from teo_sign_translator.training.examples import (
-    VARIANTS,
-    ExampleReader,
-    Examples,
-    Reader,
-    WordTable,
-)
+from teo_sign_translator.training.devices import named_device, one_thread, seeded
+from teo_sign_translator.training.examples import VARIANTS, ExampleReader, Examples, Reader, WordTable
 from teo_sign_translator.training.network import Network, on_device
 from teo_sign_translator.training.typing_noise import Typing, copies, typed_sayably, unsayable
 
@@ -108,7 +102,7 @@ def fit(
         read: How sentences become words.
         network_config: What is trained.
         config: How.
-        device: Where; `best_device` by default.
+        device: Where; an accelerator if there is one by default.
         on_progress: Called now and then.
 
     Raises:
@@ -117,7 +111,7 @@ def fit(
     if not train and not by_heart:
         raise TranslationError("invalid_config", "expected at least one training pair, got none")
     started = time.monotonic()
-    device = device or best_device()
+    device = device or named_device(None)
     reader = ExampleReader(read)
     pairs = reader.examples([*train, *by_heart])
     development = reader.examples(dev)

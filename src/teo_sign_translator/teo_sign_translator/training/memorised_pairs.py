@@ -5,14 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from teo_common.text_folding import fold, without_accents
+from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.pairs_file import Pair
-from teo_sign_translator.corpus.paper_pairs import (
-    filled,
-    gloss_name,
-    paper_pairs,
-    training_pairs,
-)
+from teo_sign_translator.corpus.paper_pairs import filled, gloss_name, paper_pairs, training_pairs
 from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.training.examples import Reader
 
@@ -40,11 +35,6 @@ def memorised_pairs(read: Reader) -> tuple[Pair, ...]:
             for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
         )
     )
-
-
-def key(sentence: str) -> str:
-    """What all ways of typing a sentence have in common: its words, folded, without marks."""
-    return " ".join(fold(_NOT_LETTERS.sub(" ", sentence)).split())
 
 
 def ways_of_typing(sentence: str) -> tuple[str, ...]:

@@ -134,7 +134,13 @@ def train_model(
             "left_out": fit.left_out,
             "by_heart": len(data.by_heart),
         },
-        "made_by": _made_by(fit.device),
+        "made_by": {
+            "commit": _commit(),
+            "python": platform.python_version(),
+            "torch": torch.__version__,
+            "numpy": np.__version__,
+            "device": fit.device,
+        },
     }
     result = {
         "losses": _rounded(fit.losses),
@@ -178,16 +184,6 @@ def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Sc
         [pair.glosses for pair in pairs],
         [tuple(gloss.gloss for gloss in hypotheses[0].glosses) for hypotheses in got],
     )
-
-
-def _made_by(device: str) -> dict[str, str]:
-    return {
-        "commit": _commit(),
-        "python": platform.python_version(),
-        "torch": torch.__version__,
-        "numpy": np.__version__,
-        "device": device,
-    }
 
 
 def _commit() -> str:
