@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from teo_common.package_files import package_path
@@ -29,10 +29,8 @@ def read_rows(path: Path, columns: int) -> Iterator[tuple[int, list[str]]]:
     for number, line in read_lines(path):
         fields = line.split("\t")
         if len(fields) != columns or not all(field.strip() for field in fields):
-            raise TranslationError(
-                "invalid_data",
-                f"{path}, line {number}: expected {columns} columns separated by tabs, none empty, got "
-                f"{len(fields)}",
+            raise invalid_line(
+                path, number, f"{columns} columns separated by tabs, none empty", f"{len(fields)}"
             )
         yield number, [field.strip() for field in fields]
 
@@ -50,6 +48,30 @@ def read_lines(path: Path) -> Iterator[tuple[int, str]]:
     for number, line in enumerate(lines, start=1):
         if line.strip() and not line.startswith("#"):
             yield number, line
+
+
+def read_listed(path: Path, valid: Callable[[str], bool], expected: str) -> dict[str, frozenset[str]]:
+    """The words, separated by commas, of each key of a file with two columns.
+
+    Args:
+        path: The file.
+        valid: Whether a word may be a key; no key stands twice.
+        expected: What a key is, for messages.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    found: dict[str, frozenset[str]] = {}
+    for number, (key, listed) in read_rows(path, columns=2):
+        if key in found or not valid(key):
+            raise invalid_line(path, number, f"{expected}, once", f"'{key}'")
+        found[key] = frozenset(word.strip() for word in listed.split(","))
+    return found
+
+
+def invalid_line(path: Path, number: int, expected: str, got: str) -> TranslationError:
+    """The refusal of a line of a file."""
+    return TranslationError("invalid_data", f"{path}, line {number}: expected {expected}, got {got}")
 
 
 def words_of(text: str) -> tuple[str, ...]:

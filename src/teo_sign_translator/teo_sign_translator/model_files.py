@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import safetensors.numpy
@@ -18,6 +18,7 @@ from teo_sign_translator.data_files import PACKAGE
 from teo_sign_translator.errors import TranslationError
 
 Weights = Mapping[str, NDArray[np.float32]]
+Model = TypeVar("Model")
 
 
 def models_directory() -> Path:
@@ -42,12 +43,13 @@ def available_models(directory: Path | None = None, *, schema: int | None = None
     )
 
 
-def read_card(path: Path, schema: int) -> dict[str, Any]:
-    """The card in a file.
+def read_card(name: str, schema: int, directory: Path | None = None) -> dict[str, Any]:
+    """The card of a model in a folder (by default the package's).
 
     Raises:
         TranslationError: "invalid_model" if it cannot be read or has another schema.
     """
+    path = (directory or models_directory()) / f"{name}.json"
     try:
         card = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
@@ -57,35 +59,53 @@ def read_card(path: Path, schema: int) -> dict[str, Any]:
     return card
 
 
-def read_weights(path: Path) -> dict[str, NDArray[Any]]:
-    """The weights in a file, by name.
+def read_model(
+    name: str, schema: int, directory: Path | None, build: Callable[[dict[str, Any], Weights], Model]
+) -> Model:
+    """Load a model.
+
+    Args:
+        name: Of its two files.
+        schema: Of its card.
+        directory: Folder of the models; by default the package's.
+        build: Makes the model of card and weights.
 
     Raises:
-        TranslationError: "invalid_model" if it cannot be read.
+        TranslationError: "unknown_model", or "invalid_model" if its files cannot be used.
     """
+    directory = directory or models_directory()
+    path = directory / f"{name}.safetensors"
+    if path not in directory.glob("*.safetensors"):
+        known = ", ".join(available_models(directory, schema=schema)) or "none"
+        raise TranslationError("unknown_model", f"expected a model of {directory} ({known}), got '{name}'")
+    card = read_card(name, schema, directory)
     try:
-        weights: dict[str, NDArray[Any]] = safetensors.numpy.load_file(path)
+        return build(card, safetensors.numpy.load_file(path))
     except (OSError, SafetensorError) as error:
         raise TranslationError("invalid_model", f"{path}: expected a safetensors file: {error}") from error
-    return weights
+    except (KeyError, TypeError, AttributeError) as error:
+        raise TranslationError("invalid_model", f"{path}: no usable card beside it: {error}") from error
+    except TranslationError as error:
+        raise TranslationError("invalid_model", f"{path}: {error}") from error
 
 
 def write_model(
-    name: str, directory: Path, weights: Weights, card: Mapping[str, Any], indent: int | None
+    name: str, directory: Path, schema: int, weights: Weights, card: Mapping[str, Any], indent: int | None
 ) -> None:
     """Write weights, in half precision, and card.
 
     Args:
         name: Of the model and its two files.
         directory: Made if it is missing.
+        schema: Of the card.
         weights: By name.
-        card: Its schema is the first entry.
+        card: What else the card says.
         indent: Of the JSON; None for one line, where lists hold thousands of words.
     """
     directory.mkdir(parents=True, exist_ok=True)
     halves = {key: value.astype(np.float16) for key, value in weights.items()}
     write_atomically(directory / f"{name}.safetensors", safetensors.numpy.save(halves))
-    text = json.dumps(card, ensure_ascii=False, indent=indent)
+    text = json.dumps({"schema": schema, "name": name, **card}, ensure_ascii=False, indent=indent)
     write_atomically(directory / f"{name}.json", text.encode() + b"\n")
 
 

@@ -9,14 +9,14 @@ from typing import Any
 
 import torch
 
+from teo_sign_translator.corpus import Pair
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.text.source_words import SourceWord
 from teo_sign_translator.training.fitting import Fit, fit
-from teo_sign_translator.training.memorised_pairs import MemorisedPair
 
 NOUNS = ("pan", "vaso", "libro", "coche", "gato", "perro")
 VERBS = ("com", "beb", "le", "vend")
@@ -50,7 +50,7 @@ def _readings(word: str) -> tuple[Reading, ...]:
     return (Reading(word, "NAME" if word[0].isupper() else "X", (), False),)
 
 
-def _pair(rng: random.Random) -> MemorisedPair:
+def _pair(rng: random.Random) -> Pair:
     """Subject, object (repeated in the plural), verb, negation last."""
     words: list[str] = []
     verb, noun = rng.choice(VERBS), rng.choice(NOUNS)
@@ -65,10 +65,10 @@ def _pair(rng: random.Random) -> MemorisedPair:
     glosses = [(words[0].upper(), (0,))] if named else [(ENDINGS[ending][1], (at,))]
     glosses += [(noun.upper(), (at + 2,))] * (1 + plural)
     glosses += [(f"{verb}er".upper(), (at,)), *[("NO", (at - 1,))] * negated]
-    return MemorisedPair(" ".join(words), tuple(g for g, _ in glosses), tuple(s for _, s in glosses))
+    return Pair(" ".join(words), tuple(g for g, _ in glosses), tuple(s for _, s in glosses), "paper", "train")
 
 
-def sentence_pairs(count: int, seed: int = 1) -> list[MemorisedPair]:
+def sentence_pairs(count: int, seed: int = 1) -> list[Pair]:
     rng = random.Random(seed)
     return [_pair(rng) for _ in range(count)]
 
@@ -77,7 +77,7 @@ def small_config(name: str) -> NetworkConfig:
     return dataclasses.replace(ZOO[name], hidden=32, embedding=24)
 
 
-def fit_small(name: str, pairs: Sequence[MemorisedPair], **training: Any) -> Fit:
+def fit_small(name: str, pairs: Sequence[Pair], **training: Any) -> Fit:
     chosen = {
         "batch_size": 16,
         "learning_rate": 0.01,
@@ -89,8 +89,8 @@ def fit_small(name: str, pairs: Sequence[MemorisedPair], **training: Any) -> Fit
     return fit(pairs, [], [], read, small_config(name), TrainingConfig(**chosen), device=device)
 
 
-def small_model(name: str, trained: Fit) -> ZooModel:
-    return ZooModel(name, ArrayModel(small_config(name), trained.vocabulary, trained.weights))
+def small_model(name: str, trained: Fit) -> SentenceModel:
+    return SentenceModel(name, ArrayModel(small_config(name), trained.vocabulary, trained.weights))
 
 
 def glosses_of(hypothesis: Hypothesis) -> tuple[str, ...]:

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-import csv
 import dataclasses
-import io
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig, network_config
 from teo_sign_translator.text.source_words import source_words
 from teo_sign_translator.training.devices import named_device
 from teo_sign_translator.training.run import TrainedModel, load_training_data, train_model
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 def run(
@@ -51,10 +52,8 @@ def run(
     }
     rows = comparison(networks, trained)
     console.print(_table(trained, f"{len(data.train)} pairs, at most {epochs} epochs: exact matches"))
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="\n").writerows(rows)
-    write_atomically(out / "comparison.csv", buffer.getvalue().encode())
-    write_atomically(out / "comparison.md", _markdown(rows).encode())
+    write_atomically(out / "comparison.csv", csv_table(rows).encode())
+    write_atomically(out / "comparison.md", "\n".join([*markdown_table(rows), ""]).encode())
     write_atomically(out / "loss.png", loss_plot(trained))
     write_atomically(out / "exact.png", exact_plot(trained))
     console.print(f"written to {out}", highlight=False)
@@ -98,74 +97,48 @@ def _table(trained: Mapping[str, TrainedModel], title: str) -> Table:
 
 def loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     """Loss on the development pairs after each epoch, one line a model, as PNG."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg  # slow to import
-    from matplotlib.figure import Figure
-    from matplotlib.ticker import MaxNLocator
 
-    figure = Figure(figsize=(8, 5), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
-    for index, (name, each) in enumerate(trained.items()):
-        losses = each.fit.dev_losses or each.fit.losses
-        axes.plot(
-            range(1, len(losses) + 1),
-            losses,
-            label=name,
-            color=f"C{index % 10}",
-            linestyle=("-", "--", ":")[index // 4 % 3],
-            marker="o",
-            markersize=3,
-        )
-    axes.set(xlabel="epoch", ylabel="cross-entropy per gloss, development pairs [nat]", yscale="log")
-    axes.set_title("What each mechanism adds: loss over the epochs")
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.grid(alpha=0.3, which="both")
-    axes.legend(ncols=2, fontsize="small")
-    return _png(figure)
+    def draw(axes: Axes) -> None:
+        for index, (name, each) in enumerate(trained.items()):
+            losses = each.fit.dev_losses or each.fit.losses
+            axes.plot(
+                range(1, len(losses) + 1),
+                losses,
+                label=name,
+                color=f"C{index % 10}",
+                linestyle=("-", "--", ":")[index // 4 % 3],
+                marker="o",
+                markersize=3,
+            )
+        axes.set(xlabel="epoch", ylabel="cross-entropy per gloss, development pairs [nat]", yscale="log")
+        axes.set_title("What each mechanism adds: loss over the epochs")
+        axes.locator_params(axis="x", integer=True)
+        axes.grid(alpha=0.3, which="both")
+        axes.legend(ncols=2, fontsize="small")
+
+    return plot_png(draw, size=(8, 5))
 
 
 def exact_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     """Exact matches of each model on each held-out split, as PNG."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(8, 5), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
-    splits = list(next(iter(trained.values())).scores)
-    height = 0.8 / max(1, len(splits))
-    for index, split in enumerate(splits):
-        places = [place + index * height for place in range(len(trained))]
-        values = [100 * each.scores[split].exact for each in trained.values()]
-        axes.barh(places, values, height=height, label=split)
-    axes.set_yticks([place + 0.4 - height / 2 for place in range(len(trained))], list(trained))
-    axes.invert_yaxis()
-    axes.set(xlabel="sentences translated exactly [%]", xlim=(0, 100))
-    axes.set_title("Held-out sentences: of known templates and words, and of new ones")
-    axes.grid(alpha=0.3, axis="x")
-    axes.legend(loc="upper right", fontsize="small")
-    return _png(figure)
+    def draw(axes: Axes) -> None:
+        splits = list(next(iter(trained.values())).scores)
+        height = 0.8 / max(1, len(splits))
+        for index, split in enumerate(splits):
+            places = [place + index * height for place in range(len(trained))]
+            values = [100 * each.scores[split].exact for each in trained.values()]
+            axes.barh(places, values, height=height, label=split)
+        axes.set_yticks([place + 0.4 - height / 2 for place in range(len(trained))], list(trained))
+        axes.invert_yaxis()
+        axes.set(xlabel="sentences translated exactly [%]", xlim=(0, 100))
+        axes.set_title("Held-out sentences: of known templates and words, and of new ones")
+        axes.grid(alpha=0.3, axis="x")
+        axes.legend(loc="upper right", fontsize="small")
 
-
-def _png(figure: object) -> bytes:
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=120)  # type: ignore[attr-defined]
-    return buffer.getvalue()
-
-
-def _markdown(rows: list[list[str]]) -> str:
-    lines = ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join([lines[0], "|" + " --- |" * len(rows[0]), *lines[1:], ""])
+    return plot_png(draw, size=(8, 5))
 
 
 def main() -> None:
     """Run the command line."""
-    try:
-        typer.run(run)
-    except (TranslationError, OSError) as error:
-        Console(stderr=True).print(str(error), markup=False)
-        raise SystemExit(1) from None
-
-
-if __name__ == "__main__":
-    main()
+    run_command(run)

@@ -15,10 +15,11 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_translator.cli.command import run_command
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.pointer.store import load_sentence_model
 from teo_sign_translator.text.source_words import source_words
 from teo_sign_translator.training.corpus_files import read_splits, sample
@@ -50,7 +51,7 @@ class Outcome:
 
 
 def outcomes(
-    model: ZooModel, pairs: Sequence[Pair], read: Reader, beam: int, console: Console
+    model: SentenceModel, pairs: Sequence[Pair], read: Reader, beam: int, console: Console
 ) -> list[Outcome]:
     """Translate pairs, with a progress bar."""
     result: list[Outcome] = []
@@ -135,12 +136,4 @@ def _table(title: str, first: str, scores: dict[str, Score]) -> Table:
 
 def main() -> None:
     """Run the command line."""
-    try:
-        typer.run(run)
-    except (TranslationError, OSError) as error:
-        Console(stderr=True).print(str(error), markup=False)
-        raise SystemExit(1) from None
-
-
-if __name__ == "__main__":
-    main()
+    run_command(run)

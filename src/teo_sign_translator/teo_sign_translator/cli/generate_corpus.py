@@ -11,11 +11,11 @@ import typer
 from rich.console import Console
 from rich.progress import track
 
+from teo_sign_translator.cli.command import run_command
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.pairs_file import SPLITS, write_pairs
 from teo_sign_translator.corpus.paper_pairs import own_pairs
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 
 FILE_NAME = "pairs.tsv"
@@ -57,12 +57,4 @@ def run(
 
 def main() -> None:
     """Run the command line."""
-    try:
-        typer.run(run)
-    except TranslationError as error:
-        Console(stderr=True).print(f"{error.code}: {error}", markup=False)
-        raise SystemExit(1) from None
-
-
-if __name__ == "__main__":
-    main()
+    run_command(run)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -16,10 +14,13 @@ from rich.progress import Progress
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_translator.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
-from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.tokens import Vocabulary, published_tokens
+from teo_sign_translator.lstm256.tokens import published_tokens
 from teo_sign_translator.training.lstm256_fitting import Example, Training, TrainingConfig, train
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 #: The two step sizes that the paper compares; its predictions are made with the first.
 LEARNING_RATES = (0.0001, 0.001)
@@ -54,18 +55,11 @@ def reproduce(config: TrainingConfig, progress: Progress) -> Run:
     """Train with one learning rate on the published pairs."""
     pairs = paper_pairs()
     examples: list[Example] = [(published_tokens(pair.sentence), pair.glosses) for pair in pairs]
-    inputs = Vocabulary.of_inputs(source for source, _ in examples)
-    outputs = Vocabulary.of_outputs(target for _, target in examples)
     count = len(split(pairs)[0])
     task = progress.add_task(f"learning rate {config.learning_rate}", total=config.epochs)
     started = time.monotonic()
     training = train(
-        examples[:count],
-        examples[count:],
-        inputs,
-        outputs,
-        config,
-        on_epoch=lambda epoch: progress.update(task, completed=epoch),
+        examples[:count], examples[count:], config, lambda epoch: progress.update(task, completed=epoch)
     )
     seconds = time.monotonic() - started
     return Run(
@@ -95,7 +89,7 @@ def run(
         write_atomically(out / f"{stem}.png", _loss_png(each))
     rows = _rows(runs)
     remarks = differences(runs)
-    write_atomically(out / "predictions.csv", _csv(rows).encode())
+    write_atomically(out / "predictions.csv", csv_table(rows).encode())
     write_atomically(out / "predictions.md", _markdown(rows, remarks).encode())
     table = Table(*rows[0], title="Predictions for the paper's first ten sentences")
     for row in rows[1:]:
@@ -116,19 +110,16 @@ def differences(runs: list[Run]) -> list[str]:
         *(_outcome(each) for each in runs),
         *_deviations(runs[0]),
         "With the options' defaults and seven seeds, 6 to 8 of the ten come out right at 0.0001, as 7 do in "
-        "the paper; "
-        "which ones does not agree. Ours misses sentences whose first gloss is rare ('Me llamo…'), the "
-        "paper's those "
-        "with 'Colegio'. Inputs padded with zeros to one length, as programs of that time often did, were "
-        "tried: they "
-        "move the errors to 'Colegio' too, so unstated details of that kind are the likely reason.",
-        *_unseen_words(),
+        "the paper; which ones does not agree. Ours misses sentences whose first gloss is rare ('Me "
+        "llamo…'), the paper's those with 'Colegio'. Inputs padded with zeros to one length, as programs of "
+        "that time often did, were tried: they move the errors to 'Colegio' too, so unstated details of that "
+        "kind are the likely reason.",
+        _unseen_words(),
         "Not stated in the description that this follows, and so chosen here: batch size "
         f"({runs[0].config.batch_size}), initial weights (Keras' defaults), the held-out part (the last "
-        "pairs, so that "
-        "the ten sentences shown are learned ones), the form of the input (lower case, accents kept, opening "
-        "marks and "
-        "commas left out), teacher forcing, and one vocabulary from all pairs.",
+        "pairs, so that the ten sentences shown are learned ones), the form of the input (lower case, "
+        "accents kept, opening marks and commas left out), teacher forcing, and one vocabulary from all "
+        "pairs.",
     ]
 
 
@@ -142,14 +133,11 @@ def _outcome(result: Run) -> str:
     best = validation.index(min(validation))
     return (
         f"At learning rate {result.config.learning_rate} ours predicts {sum(right[: len(shown)])} of them as "
-        "taught, "
-        f"{sum(right[:known])} of the {known} sentences it learned from and {sum(right[known:])} of the "
-        f"{len(pairs) - known} held out; {same} of {len(shown)} predictions are the paper's. In "
+        f"taught, {sum(right[:known])} of the {known} sentences it learned from and {sum(right[known:])} of "
+        f"the {len(pairs) - known} held out; {same} of {len(shown)} predictions are the paper's. In "
         f"{result.config.epochs} epochs ({result.seconds:.0f} s) the training loss goes from {losses[0]:.2f} "
-        "to "
-        f"{losses[-1]:.3f}; the validation loss is lowest in epoch {best + 1} ({validation[best]:.2f}) and "
-        "ends at "
-        f"{validation[-1]:.2f}."
+        f"to {losses[-1]:.3f}; the validation loss is lowest in epoch {best + 1} ({validation[best]:.2f}) "
+        f"and ends at {validation[-1]:.2f}."
     )
 
 
@@ -164,20 +152,18 @@ def _deviations(result: Run) -> list[str]:
     return [f"At {rate} these differ from the paper's: {'; '.join(differing)}."] if differing else []
 
 
-def _unseen_words() -> list[str]:
+def _unseen_words() -> str:
     """Why the held-out sentences cannot come out right."""
     learned, held_out = split(paper_pairs())
     words = {word for pair in learned for word in published_tokens(pair.sentence)}
     glosses = {gloss for pair in learned for gloss in pair.glosses}
     unseen = sum(not set(published_tokens(pair.sentence)) <= words for pair in held_out)
     unsaid = sum(not set(pair.glosses) <= glosses for pair in held_out)
-    return [
+    return (
         f"The validation loss rises while the training loss falls: of the {len(held_out)} held-out sentences "
-        f"{unseen} "
-        f"hold a word, and {unsaid} a gloss, that occurs in none of the {len(learned)} others. Nothing can "
-        "be learned "
-        "about those from so few pairs; the model memorises and does not generalise."
-    ]
+        f"{unseen} hold a word, and {unsaid} a gloss, that occurs in none of the {len(learned)} others. "
+        "Nothing can be learned about those from so few pairs; the model memorises and does not generalise."
+    )
 
 
 def _rows(runs: list[Run]) -> list[list[str]]:
@@ -194,62 +180,40 @@ def _rows(runs: list[Run]) -> list[list[str]]:
     return rows
 
 
-def _csv(rows: list[list[str]]) -> str:
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="\n").writerows(rows)
-    return buffer.getvalue()
-
-
 def _loss_csv(training: Training) -> str:
     losses = zip(training.losses, training.validation_losses, strict=True)
     rows = [[str(epoch), f"{a:.6f}", f"{b:.6f}"] for epoch, (a, b) in enumerate(losses, start=1)]
-    return _csv([["epoch", "training_loss", "validation_loss"], *rows])
+    return csv_table([["epoch", "training_loss", "validation_loss"], *rows])
 
 
 def _markdown(rows: list[list[str]], remarks: list[str]) -> str:
     lines = ["# Predictions for the paper's first ten sentences", ""]
-    lines += ["| " + " | ".join(rows[0]) + " |", "|" + " --- |" * len(rows[0])]
-    lines += ["| " + " | ".join(row) + " |" for row in rows[1:]]
+    lines += markdown_table(rows)
     return "\n".join([*lines, "", "## What differs, and why", "", *(f"- {remark}" for remark in remarks), ""])
 
 
 def _loss_png(result: Run) -> bytes:
     """Both losses over the epochs, as a picture."""
-    from matplotlib.backends.backend_agg import (
-        FigureCanvasAgg,
-    )  # slow to import, and of no use to the tests of the rest
-    from matplotlib.figure import Figure
+    learned, held_out = split(paper_pairs())
+    training = result.training
 
-    figure = Figure(figsize=(7, 4.5), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.subplots()
-    epochs = range(1, len(result.training.losses) + 1)
-    axes.plot(epochs, result.training.losses, label=f"training ({len(split(paper_pairs())[0])} pairs)")
-    axes.plot(
-        epochs, result.training.validation_losses, label=f"validation ({len(split(paper_pairs())[1])} pairs)"
-    )
-    axes.set(
-        title=f"Encoder-decoder LSTM, 256 units, RMSprop, learning rate {result.config.learning_rate}",
-        xlabel="epoch",
-        ylabel="cross-entropy per token [nat]",
-        xlim=(1, max(2, len(epochs))),
-        ylim=(0, None),
-    )
-    axes.grid(alpha=0.3)
-    axes.legend()
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=120)
-    return buffer.getvalue()
+    def draw(axes: Axes) -> None:
+        epochs = range(1, len(training.losses) + 1)
+        axes.plot(epochs, training.losses, label=f"training ({len(learned)} pairs)")
+        axes.plot(epochs, training.validation_losses, label=f"validation ({len(held_out)} pairs)")
+        axes.set(
+            title=f"Encoder-decoder LSTM, 256 units, RMSprop, learning rate {result.config.learning_rate}",
+            xlabel="epoch",
+            ylabel="cross-entropy per token [nat]",
+            xlim=(1, max(2, len(epochs))),
+            ylim=(0, None),
+        )
+        axes.grid(alpha=0.3)
+        axes.legend()
+
+    return plot_png(draw, size=(7, 4.5))
 
 
 def main() -> None:
     """Run the command line."""
-    try:
-        typer.run(run)
-    except (TranslationError, OSError) as error:
-        Console(stderr=True).print(str(error), markup=False)
-        raise SystemExit(1) from None
-
-
-if __name__ == "__main__":
-    main()
+    run_command(run)

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.cli.command import run_command
 from teo_sign_translator.model_files import models_directory
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import POINTER, ZOO, TrainingConfig, network_config
@@ -90,12 +90,4 @@ def run(
 
 def main() -> None:
     """Run the command line."""
-    try:
-        typer.run(run)
-    except (TranslationError, OSError) as error:
-        Console(stderr=True).print(str(error), markup=False)
-        raise SystemExit(1) from None
-
-
-if __name__ == "__main__":
-    main()
+    run_command(run)

@@ -6,17 +6,7 @@ from collections.abc import Mapping
 
 from teo_sign_translator.corpus.tokens import Phrase, Sign, Token
 from teo_sign_translator.corpus.words import Word, WordLists
-from teo_sign_translator.data_files import words_of
-
-_UNITS = words_of(
-    "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciséis "
-    "diecisiete dieciocho diecinueve veinte veintiuno veintidós veintitrés veinticuatro veinticinco "
-    "veintiséis veintisiete veintiocho veintinueve"
-)
-_TENS = words_of("treinta cuarenta cincuenta sesenta setenta ochenta noventa")
-_HUNDREDS = words_of(
-    "ciento doscientos trescientos cuatrocientos quinientos seiscientos setecientos ochocientos novecientos"
-)
+from teo_sign_translator.text.numerals import HUNDREDS, TENS, UNITS
 
 #: One more than the largest number that is written in words here.
 LIMIT = 10_000
@@ -68,8 +58,8 @@ def number_words(value: int) -> str:
         return "cien"
     if value > 100:
         hundreds, rest = divmod(value, 100)
-        return f"{_HUNDREDS[hundreds - 1]} {number_words(rest)}" if rest else _HUNDREDS[hundreds - 1]
+        return f"{HUNDREDS[hundreds - 1]} {number_words(rest)}" if rest else HUNDREDS[hundreds - 1]
     if value < 30:
-        return _UNITS[value]
+        return UNITS[value]
     tens, units = divmod(value, 10)
-    return f"{_TENS[tens - 3]} y {_UNITS[units]}" if units else _TENS[tens - 3]
+    return f"{TENS[tens - 3]} y {UNITS[units]}" if units else TENS[tens - 3]

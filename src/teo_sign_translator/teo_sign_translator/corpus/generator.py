@@ -11,10 +11,10 @@ from pathlib import Path
 from random import Random
 
 from teo_common.text_folding import folded
-from teo_sign_translator.corpus.choosers import RandomChooser
+from teo_sign_translator.corpus.choosers import Chooser
 from teo_sign_translator.corpus.derivation import Derivation, Sentence
 from teo_sign_translator.corpus.fillers import NoFillerError
-from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule
+from teo_sign_translator.corpus.grammar import LEXICAL, Grammar
 from teo_sign_translator.corpus.grammar_file import load_grammar
 from teo_sign_translator.corpus.pairs_file import Pair
 from teo_sign_translator.corpus.templates import Template, templates
@@ -90,7 +90,7 @@ class Generator:
             if chosen:
                 random = Random(seed * len(SHARES) + index)
                 held = split in ("test_words", "test_both")
-                derivation = Derivation(grammar, self.words, RandomChooser(random, held))
+                derivation = Derivation(grammar, self.words, Chooser(random, held))
                 yield from self._split(
                     split, round(count * share), chosen, derivation, random, seen, held=held
                 )
@@ -98,7 +98,7 @@ class Generator:
             kept = {each.name for each in every}
             chosen = [each for each in templates(self.grammar) if each.name not in kept]
             random = Random(seed * len(SHARES) + len(SHARES))
-            derivation = Derivation(self.grammar, self.words, RandomChooser(random))
+            derivation = Derivation(self.grammar, self.words, Chooser(random))
             size = round(count * _CONSTRUCTIONS_SHARE)
             yield from self._split("test_constructions", size, chosen, derivation, random, seen, held=False)
 
@@ -172,10 +172,10 @@ class _Seen:
 
 def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
     """Content words that only tests see: by hash, except those that the grammar itself names."""
-    named = {item.word for rule in _rules(grammar) for item in rule.spanish}
+    named = {item.word for rule in grammar.rules() for item in rule.spanish}
     named |= {
         value
-        for rule in _rules(grammar)
+        for rule in grammar.rules()
         for slot in rule.slots
         if slot.category in LEXICAL
         for _, values in slot.arguments
@@ -196,9 +196,3 @@ def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
         for lemma in every
         if is_held_out(lemma) and lemma not in named and spellings[lemma.lower()] == 1
     )
-
-
-def _rules(grammar: Grammar) -> list[Rule]:
-    return [rule for family in grammar.families for rule in family.rules] + [
-        rule for alternatives in grammar.categories.values() for rule in alternatives
-    ]

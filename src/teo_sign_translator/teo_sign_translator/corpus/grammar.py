@@ -160,6 +160,11 @@ class Grammar:
     held_out: frozenset[str]
     constructions: Mapping[str, tuple[str, ...]]
 
+    def rules(self) -> list[Rule]:
+        """All sentence rules and alternatives."""
+        groups = (*(family.rules for family in self.families), *self.categories.values())
+        return [rule for rules in groups for rule in rules]
+
     def without_constructions(self) -> Grammar:
         """The grammar without the sentence rules and alternatives of all `constructions`."""
         gone = {name for names in self.constructions.values() for name in names}

@@ -123,8 +123,7 @@ def _family(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> F
 
 
 def _rule(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> Rule:
-    if not isinstance(body, dict) or not set(body) <= set(_RULE_KEYS) or not {"es", "lse"} <= set(body):
-        _fail(where, f"'es' and 'lse', and of {_RULE_KEYS} what is needed, got {_keys(body)}")
+    _check_keys(where, body, _RULE_KEYS)
     try:
         spanish = parse_spanish(_text(where, body["es"]))
         glosses = parse_glosses(_text(where, body["lse"]))
@@ -167,8 +166,7 @@ def _slot(where: str, name: str, text: Any) -> Slot:
 
 
 def _example(where: str, body: Any) -> Example:
-    if not isinstance(body, dict) or not set(body) <= {"es", "lse", "fix"} or not {"es", "lse"} <= set(body):
-        _fail(where, f"an example with 'es', 'lse' and perhaps 'fix', got {_keys(body)}")
+    _check_keys(f"{where}: example", body, ("es", "lse", "fix"))
     fixed = {key: str(value) for key, value in _mapping(where, "fix", body.get("fix", {}))}
     return Example(_text(where, body["es"]), tuple(_text(where, body["lse"]).split()), fixed)
 
@@ -199,8 +197,7 @@ def _check_sides(
 
 
 def _shape(where: str, name: str, body: Any) -> Shape:
-    if not isinstance(body, dict) or not set(body) <= set(_SHAPE_KEYS) or not {"es", "lse"} <= set(body):
-        _fail(where, f"'es' and 'lse', and of {_SHAPE_KEYS} what is needed, got {_keys(body)}")
+    _check_keys(where, body, _SHAPE_KEYS)
     mood, time = body.get("mood", "ind"), body.get("time", "present")
     if mood not in _MOODS or time not in _TIMES:
         _fail(where, f"a mood of {_MOODS} and a time of {_TIMES}, got '{mood}', '{time}'")
@@ -234,9 +231,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
 
 
 def _check_links(grammar: Grammar) -> None:
-    rules = [rule for family in grammar.families for rule in family.rules]
-    rules += [rule for alternatives in grammar.categories.values() for rule in alternatives]
-    for rule in rules:
+    for rule in grammar.rules():
         earlier: set[str] = set()
         for slot in rule.slots:
             if slot.category not in LEXICAL and slot.category not in grammar.categories:
@@ -293,8 +288,10 @@ def _number(where: str, value: Any) -> float:
     return float(value)
 
 
-def _keys(body: Any) -> list[str]:
-    return [str(key) for key in body] if isinstance(body, dict) else [type(body).__name__]
+def _check_keys(where: str, body: Any, known: tuple[str, ...]) -> None:
+    if not isinstance(body, dict) or not {"es", "lse"} <= set(body) <= set(known):
+        got = [str(key) for key in body] if isinstance(body, dict) else [type(body).__name__]
+        _fail(where, f"'es' and 'lse', and of {known} what is needed, got {got}")
 
 
 def _fail(where: str, expected: str) -> NoReturn:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_translator.data_files import invalid_line
 from teo_sign_translator.errors import TranslationError
 
 COLUMNS = ("spanish", "glosses", "alignment", "rule", "split")
@@ -68,7 +69,7 @@ def read_pairs(path: Path) -> Iterator[Pair]:
                 fields = line.rstrip("\n").split("\t")
                 if number == 1:
                     if tuple(fields) != COLUMNS:
-                        raise _invalid(path, number, f"the header {COLUMNS}", line)
+                        raise invalid_line(path, number, f"the header {COLUMNS}", f"'{line.strip()}'")
                     continue
                 yield _pair(path, number, fields)
     except (OSError, UnicodeDecodeError) as error:
@@ -77,23 +78,17 @@ def read_pairs(path: Path) -> Iterator[Pair]:
 
 def _pair(path: Path, number: int, fields: list[str]) -> Pair:
     if len(fields) != len(COLUMNS):
-        raise _invalid(path, number, f"{len(COLUMNS)} columns", f"{len(fields)}")
+        raise invalid_line(path, number, f"{len(COLUMNS)} columns", f"{len(fields)}")
     spanish, glosses, alignment, rule, split = fields
     if split not in SPLITS:
-        raise _invalid(path, number, f"one of {SPLITS}", split)
+        raise invalid_line(path, number, f"one of {SPLITS}", f"'{split.strip()}'")
     try:
         places = tuple(
             () if entry == "-" else tuple(map(int, entry.split(","))) for entry in alignment.split()
         )
     except ValueError:
-        raise _invalid(path, number, "word numbers or '-'", alignment) from None
+        raise invalid_line(path, number, "word numbers or '-'", f"'{alignment.strip()}'") from None
     pair = Pair(spanish, tuple(glosses.split()), places, rule, split)
     if len(pair.alignment) != len(pair.glosses):
-        raise _invalid(path, number, f"{len(pair.glosses)} alignments, one a gloss", f"{len(places)}")
+        raise invalid_line(path, number, f"{len(pair.glosses)} alignments, one a gloss", f"{len(places)}")
     return pair
-
-
-def _invalid(path: Path, number: int, expected: str, got: str) -> TranslationError:
-    return TranslationError(
-        "invalid_data", f"{path}, line {number}: expected {expected}, got '{got.strip()}'"
-    )

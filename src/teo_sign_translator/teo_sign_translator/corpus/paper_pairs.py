@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
+from teo_common.text_folding import fold
 from teo_sign_translator.corpus.pairs_file import Pair
-from teo_sign_translator.data_files import data_file, read_rows
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.text.source_words import SourceWord, source_words
@@ -117,10 +119,32 @@ def training_data_hash() -> str:
 
 def own_pairs(morphology: Morphology) -> Iterator[Pair]:
     """Yield the pairs that the translator must know exactly, slots filled with names and numbers."""
+    read = partial(source_words, morphology=morphology)
     for pair in training_pairs():
-        slot = next((slot for slot in (NAME, NUMBER) if slot in pair.glosses), "")
-        for value in {NAME: _NAMES, NUMBER: _NUMBERS}.get(slot, ("",)):
-            yield _filled(pair, slot, value, morphology)
+        fillings = list(zip(_NAMES, _NUMBERS, strict=True)) if {*SLOTS} & {*pair.glosses} else [("", "")]
+        for name, number in fillings:
+            yield filled(pair, name, number, read)
+
+
+def filled(pair: AlignedPair, name: str, number: str, read: Callable[[str], Sequence[SourceWord]]) -> Pair:
+    """A pair whose slots hold a name and a number; `read` makes words of its sentence.
+
+    Raises:
+        TranslationError: "invalid_data" if a gloss stands for a word that is not read from the sentence.
+    """
+    sentence = pair.sentence.replace(NAME, name).replace(NUMBER, number)
+    words = read(sentence)
+    glosses: list[str] = []
+    places: list[tuple[int, ...]] = []
+    for gloss, sources in zip(pair.glosses, pair.sources, strict=True):
+        if gloss in SLOTS:
+            place = _slot_place(words, name if gloss == NAME else number, sentence)
+            glosses.append(name.upper() if gloss == NAME else words[place].form)
+            places.append((place,))
+        else:
+            glosses.append(gloss)
+            places.append(tuple(sorted({_place(words, source, sentence) for source in sources})))
+    return Pair(sentence, tuple(glosses), tuple(places), "paper", "train")
 
 
 def _training_files() -> tuple[Path, Path]:
@@ -139,48 +163,30 @@ def _aligned(path: Path, number: int, sentence: str, glosses: str) -> AlignedPai
             names.append(gloss_name(match["gloss"]))
             sources.append(tuple(match["words"].lower().split()))
         else:
-            raise TranslationError(
-                "invalid_data",
-                f"{path}, line {number}: expected 'Gloss(words)' or a slot of {SLOTS}, got '{written}'",
-            )
+            raise invalid_line(path, number, f"'Gloss(words)' or a slot of {SLOTS}", f"'{written}'")
     present = sentence.lower()
     lost = [word for words in sources for word in words if word not in present]
     if lost:
-        raise TranslationError(
-            "invalid_data", f"{path}, line {number}: words not in the sentence: {', '.join(lost)}"
-        )
+        raise invalid_line(path, number, "words of the sentence", ", ".join(lost))
     return AlignedPair(sentence, tuple(names), tuple(sources))
 
 
-def _filled(pair: AlignedPair, slot: str, value: str, morphology: Morphology) -> Pair:
-    sentence = pair.sentence.replace(slot, value) if slot else pair.sentence
-    words = source_words(sentence, morphology)
-    forms = [word.text.lower() for word in words]
-    glosses: list[str] = []
-    places: list[tuple[int, ...]] = []
-    for gloss, sources in zip(pair.glosses, pair.sources, strict=True):
-        if gloss == slot:
-            place = forms.index(value.lower()) if value.lower() in forms else _numeral(words)
-            glosses.append(value.upper() if slot == NAME else words[place].form)
-            places.append((place,))
-        else:
-            glosses.append(gloss)
-            places.append(_places(forms, sources))
-    return Pair(sentence, tuple(glosses), tuple(places), "paper", "train")
-
-
-def _numeral(words: Sequence[SourceWord]) -> int:
-    return next(place for place, word in enumerate(words) if word.form.isdigit())
-
-
-def _places(forms: Sequence[str], sources: Sequence[str]) -> tuple[int, ...]:
-    """Where the words are; the last place of a word that occurs twice, next to what it says."""
-    return tuple(
-        sorted(
-            {
-                max(place for place, form in enumerate(forms) if form == source)
-                for source in sources
-                if source in forms
-            }
+def _place(words: Sequence[SourceWord], source: str, sentence: str) -> int:
+    """The last word with a form: "Ana, ¿quién es Ana?" asks about the second one."""
+    places = [place for place, word in enumerate(words) if word.text.lower() == source]
+    places = places or [place for place, word in enumerate(words) if fold(word.form) == fold(source)]
+    # Words that are read as one, such as "por favor", stand in one place.
+    places = places or [place for place, word in enumerate(words) if fold(source) in fold(word.form).split()]
+    if not places:
+        raise TranslationError(
+            "invalid_data",
+            f"expected '{source}' among the words of '{sentence}', got {[word.form for word in words]}",
         )
-    )
+    return places[-1]
+
+
+def _slot_place(words: Sequence[SourceWord], filler: str, sentence: str) -> int:
+    for place, word in enumerate(words):
+        if word.text == filler or word.form == filler.lower():
+            return place
+    raise TranslationError("invalid_data", f"expected '{filler}' to be one word of '{sentence}'")

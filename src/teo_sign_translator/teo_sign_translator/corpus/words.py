@@ -155,7 +155,8 @@ class WordLists:
                 continue  # mp3 is two words to a reader of sentences
             gender = word.features["gender"]
             only_plural = gender in ("mp", "fp")
-            mass = self._is_mass(word)
+            kind = word.features["classes"].split(",")[0]
+            mass = word.lemma in self.lists["mass"] or kind in self.lists["mass_classes"]
             either = word.lemma in self.lists["mass_or_not"]
             if only_plural and number == "p":
                 continue  # they are among the singulars, which their sense is
@@ -168,22 +169,18 @@ class WordLists:
                 if wanted and each != wanted:
                     continue
                 written = "p" if only_plural else number
+                # One form of both genders has a tag of its own.
+                form = "c" if gender == "mf" else each
                 features = {
                     "gender": each,
                     "number": written,
                     "person": "3",
-                    "class": word.features["classes"].split(",")[0],
-                    "tag": f"N:{_slot_gender(gender, each)}{written}",
+                    "class": kind,
+                    "tag": f"N:{form}{written}",
                 }
                 if only_plural:
                     features["plural_only"] = "yes"
                 yield Word(word.lemma, features), weight / len(_GENDERS[gender])
-
-    def _is_mass(self, word: Word) -> bool:
-        return (
-            word.lemma in self.lists["mass"]
-            or word.features["classes"].split(",")[0] in self.lists["mass_classes"]
-        )
 
     def _adjectives(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
         use = arguments.get("use", "")
@@ -253,11 +250,6 @@ class WordLists:
             total = sum(weights)
             for word, weight in zip(members, weights, strict=True):
                 yield word, scale * weight / total
-
-
-def _slot_gender(column: str, gender: str) -> str:
-    """Gender as the tags have it: `c` for one form of both."""
-    return "c" if column == "mf" else gender
 
 
 def _listed(path: Path, columns: tuple[str, ...]) -> list[Word]:

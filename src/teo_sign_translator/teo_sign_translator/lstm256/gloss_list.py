@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.text_folding import fold, strip_marks
-from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 
 _CLASSES = ("function", "interjection", "word")
 _NO_SIGN = "-"
@@ -62,17 +61,12 @@ class GlossList:
         entries: dict[str, GlossEntry] = {}
         for number, (gloss, category, words) in read_rows(path, columns=3):
             if category not in _CLASSES or (gloss == _NO_SIGN) != (category == "function") or " " in gloss:
-                raise TranslationError(
-                    "invalid_data",
-                    f"{path}, line {number}: expected a gloss without spaces and a class of "
-                    f"{', '.join(_CLASSES)} ('{_NO_SIGN}' for function words), got '{gloss}' and "
-                    f"'{category}'",
-                )
+                expected = f"a gloss without spaces ('{_NO_SIGN}' for function words) and a class of "
+                got = f"'{gloss}' and '{category}'"
+                raise invalid_line(path, number, expected + ", ".join(_CLASSES), got)
             for text in (word.strip().lower() for word in words.split(",")):
                 if not text or text in entries:
-                    raise TranslationError(
-                        "invalid_data", f"{path}, line {number}: '{text}' is empty or listed twice"
-                    )
+                    raise invalid_line(path, number, "words, each listed once", f"'{text}'")
                 entries[text] = GlossEntry("" if gloss == _NO_SIGN else gloss, category == "interjection")
         return cls(entries)
 
@@ -90,10 +84,6 @@ class GlossList:
             if entry is not None:
                 return entry, size
         return None
-
-    def glosses(self) -> frozenset[str]:
-        """All glosses of the list."""
-        return frozenset(entry.gloss for entry in self._exact.values() if entry.gloss)
 
     def __iter__(self) -> Iterator[str]:
         """Words and phrases in lower case."""

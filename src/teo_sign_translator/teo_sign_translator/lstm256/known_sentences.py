@@ -8,10 +8,9 @@ from teo_common.text_folding import strip_marks
 from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Match, Phrasebook
-from teo_sign_translator.lstm256.seq2seq import Prediction, SequenceModel
+from teo_sign_translator.lstm256.seq2seq import LstmModel, Prediction
 from teo_sign_translator.lstm256.tokens import MARKS
-from teo_sign_translator.output.output_words import OutputWord, carried, number, spelled
-from teo_sign_translator.output.translation import Kind, Origin
+from teo_sign_translator.output.output_words import OutputWord, carried, lexical, number, spelled, unclaimed
 from teo_sign_translator.text.reading import Clause, Word, WordKind
 
 #: Confidence in an answer to a sentence outside the training data, times the model's probability: a model
@@ -26,7 +25,7 @@ MIN_PROBABILITY = 0.5
 class KnownSentences:
     """Translates sentences of the training data, and others of the same words, with the model."""
 
-    def __init__(self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
+    def __init__(self, model: LstmModel, phrasebook: Phrasebook, glosses: GlossList) -> None:
         """Take the parts together.
 
         Args:
@@ -167,7 +166,7 @@ def _output_words(
         words: The words of the sentence, several in one place for a name.
         factor: Times the model's probabilities gives the confidence.
     """
-    extras = _unclaimed(sources, len(words))
+    extras = unclaimed(sources, range(len(words)))
     result: list[OutputWord] = []
     for token, probability, own, extra in zip(
         prediction.tokens, prediction.probabilities, sources, extras, strict=True
@@ -175,11 +174,7 @@ def _output_words(
         confidence = factor * probability
         if token not in SLOTS:
             said = _typed(words, sorted((*own, *extra)))
-            result.append(
-                OutputWord(
-                    signs=(token,), kind=Kind.LEXICAL, confidence=confidence, words=said, origin=Origin.MODEL
-                )
-            )
+            result.append(lexical(token, said, confidence))
             continue
         result += [carried(word.lower, word.parts) for place in extra for word in words[place]]
         for word in (word for place in own for word in words[place]):
@@ -187,20 +182,6 @@ def _output_words(
                 result += number(word.value, word.parts, confidence)
             else:
                 result += spelled(word.lower, word.parts, confidence)
-    return result
-
-
-def _unclaimed(sources: Sequence[tuple[int, ...]], count: int) -> list[list[int]]:
-    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word."""
-    owner: dict[int, int] = {}
-    for index, places in enumerate(sources):
-        for place in places:
-            owner.setdefault(place, index)
-    result: list[list[int]] = [[] for _ in sources]
-    for place in range(count):
-        if place not in owner:
-            neighbour = min((p for p in owner if p > place), default=max(owner, default=-1))
-            result[owner.get(neighbour, len(sources) - 1)].append(place)
     return result
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.tokens import END, START, Vocabulary
-
-Array = NDArray[np.float32]
+from teo_sign_translator.pointer.array_cells import Array, LstmLayer
+from teo_sign_translator.pointer.array_model import softmax
+from teo_sign_translator.pointer.weight_shapes import check_weights
 
 #: Longest output [tokens]; the longest of the training pairs has 5. Ends a model that never says END.
 MAX_OUTPUT = 32
@@ -31,17 +31,6 @@ class Prediction:
     tokens: tuple[str, ...]
     probabilities: tuple[float, ...]
     complete: bool
-
-
-class SequenceModel(Protocol):
-    """What the translator asks of a model."""
-
-    @property
-    def inputs(self) -> Vocabulary:
-        """Tokens that the model reads."""
-
-    def predict(self, tokens: Sequence[str]) -> Prediction:
-        """Translate a sequence of at least one token of `inputs`."""
 
 
 class LstmModel:
@@ -72,18 +61,19 @@ class LstmModel:
             shapes[f"{part}.weight_ih_l0"] = (4 * hidden, size)
             shapes[f"{part}.weight_hh_l0"] = (4 * hidden, hidden)
             shapes[f"{part}.bias"] = (4 * hidden,)
-        for name, shape in shapes.items():
-            if name not in weights or weights[name].shape != shape or not np.isfinite(weights[name]).all():
-                got = f"shape {weights[name].shape}" if name in weights else "none"
-                raise TranslationError(
-                    "invalid_model", f"expected finite weights '{name}' of shape {shape}, got {got}"
-                )
-        self._encoder = _Layer(weights, "encoder")
-        self._decoder = _Layer(weights, "decoder")
-        self._weight: Array = np.ascontiguousarray(weights["output.weight"], dtype=np.float32)
+        check_weights(shapes, weights)
+        full: dict[str, Array] = {name: np.asarray(value, np.float32) for name, value in weights.items()}
+        for part in ("encoder", "decoder"):
+            full[f"{part}.bias_ih_l0"] = full[f"{part}.bias"]
+            full[f"{part}.bias_hh_l0"] = np.zeros_like(full[f"{part}.bias"])
+        self._encoder, self._decoder = (LstmLayer(full, part, "l0") for part in ("encoder", "decoder"))
+        # First gates after each token, in its row: a one-hot input chooses one.
+        self._read = self._encoder.project(np.eye(len(inputs), dtype=np.float32))
+        self._said = self._decoder.project(np.eye(len(outputs), dtype=np.float32))
+        self._output = np.ascontiguousarray(full["output.weight"].T)
         self._end, self._start = outputs.indices([END, START])
-        self._bias: Array = weights["output.bias"].astype(np.float32)
-        self._bias[self._start] = -np.inf  # never said, only read
+        self._output_bias = full["output.bias"].copy()
+        self._output_bias[self._start] = -np.inf  # never said, only read
         self._hidden = hidden
 
     def predict(self, tokens: Sequence[str]) -> Prediction:
@@ -94,43 +84,18 @@ class LstmModel:
         """
         if not tokens:
             raise TranslationError("empty_text", "expected at least one token, got none")
-        state = (np.zeros(self._hidden, np.float32), np.zeros(self._hidden, np.float32))
+        state = np.zeros((1, 2 * self._hidden), np.float32)
         for index in self.inputs.indices(tokens):
-            state = self._encoder.step(index, state)
+            state = self._encoder.step(self._read[[index]], state)
         token = self._start
         result: list[str] = []
         probabilities: list[float] = []
         while len(result) < MAX_OUTPUT:
-            state = self._decoder.step(token, state)
-            logits = self._weight @ state[0] + self._bias
-            exponentials = np.exp(logits - logits.max())
-            token = int(exponentials.argmax())
+            state = self._decoder.step(self._said[[token]], state)
+            probability = softmax(state[0, : self._hidden] @ self._output + self._output_bias)
+            token = int(probability.argmax())
             if token == self._end:
                 return Prediction(tuple(result), tuple(probabilities), complete=True)
             result.append(self.outputs.tokens[token])
-            probabilities.append(float(exponentials[token] / exponentials.sum()))
+            probabilities.append(float(probability[token]))
         return Prediction(tuple(result), tuple(probabilities), complete=False)
-
-
-class _Layer:
-    """One LSTM layer with one-hot input, which is a choice of one column of its input weights."""
-
-    def __init__(self, weights: Mapping[str, NDArray[np.floating]], part: str) -> None:
-        columns = weights[f"{part}.weight_ih_l0"].astype(np.float32).T
-        self._input: Array = np.ascontiguousarray(columns + weights[f"{part}.bias"].astype(np.float32))
-        self._recurrent: Array = np.ascontiguousarray(weights[f"{part}.weight_hh_l0"], dtype=np.float32)
-
-    def step(self, index: int, state: tuple[Array, Array]) -> tuple[Array, Array]:
-        """One step: hidden and cell state (h,), each, after reading the token with this index."""
-        hidden, cell = state
-        gates = self._input[index] + self._recurrent @ hidden
-        size = len(hidden)
-        kept = _sigmoid(gates[: 2 * size])
-        cell = kept[size:] * cell + kept[:size] * np.tanh(gates[2 * size : 3 * size])
-        return _sigmoid(gates[3 * size :]) * np.tanh(cell), cell
-
-
-def _sigmoid(values: Array) -> Array:
-    # Through tanh, which does not overflow.
-    result: Array = np.float32(0.5) * (np.float32(1) + np.tanh(np.float32(0.5) * values))
-    return result

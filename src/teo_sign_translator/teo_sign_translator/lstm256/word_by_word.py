@@ -6,8 +6,15 @@ from collections.abc import Sequence
 from itertools import takewhile
 
 from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.output.output_words import SPELLED_CONFIDENCE, OutputWord, carried, number, spelled
-from teo_sign_translator.output.translation import Kind, Origin
+from teo_sign_translator.output.output_words import (
+    SPELLED_CONFIDENCE,
+    OutputWord,
+    carried,
+    lexical,
+    number,
+    spelled,
+)
+from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.text.reading import Word, WordKind
 
 #: A listed word that is a clause of its own ("Hola", "Gracias"): nothing is left to order, only the sense may
@@ -50,15 +57,8 @@ def word_by_word(words: Sequence[Word], glosses: GlossList) -> list[OutputWord]:
             result += [carried(w.lower, w.parts) for w in words[index : index + size]]
         else:
             alone = size == len(words)
-            result.append(
-                OutputWord(
-                    signs=(entry.gloss,),
-                    kind=Kind.LEXICAL,
-                    confidence=ALONE_CONFIDENCE if alone else LISTED_CONFIDENCE,
-                    words=typed,
-                    origin=Origin.WORD_LIST,
-                )
-            )
+            confidence = ALONE_CONFIDENCE if alone else LISTED_CONFIDENCE
+            result.append(lexical(entry.gloss, typed, confidence, Origin.WORD_LIST))
         index += size
     return result
 

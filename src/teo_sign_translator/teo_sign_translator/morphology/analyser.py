@@ -15,7 +15,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.accents import accents_fit, unaccented
 from teo_sign_translator.morphology.conjugation import Conjugations
-from teo_sign_translator.morphology.derivation import Derived, of_adverb, of_diminutive, of_superlative
+from teo_sign_translator.morphology.derivation import DIMINUTIVE, SUPERLATIVE, Derived, derived, of_adverb
 from teo_sign_translator.morphology.enclitics import attach_pronouns, detach_pronouns
 from teo_sign_translator.morphology.guessing import guess
 from teo_sign_translator.morphology.lexicon import Form
@@ -189,10 +189,11 @@ class Morphology:
                 yield _Candidate(_DERIVED, _ADJECTIVE, Reading(lemma, tag, exact=effort == _EXACT))
 
     def _derived(self, form: str, folded: str) -> Iterator[_Candidate]:
-        for derived in of_diminutive(folded) if unaccented(form) == form else ():  # mérito is no mere little
-            yield from self._from_base(derived, ("N", "A", "ADV", "DET"))
-        for derived in of_superlative(folded):
-            yield from self._from_base(derived, ("A", "DET"))
+        if unaccented(form) == form:  # mérito is no mere little
+            for little in derived(DIMINUTIVE, folded):
+                yield from self._from_base(little, ("N", "A", "ADV", "DET"))
+        for utmost in derived(SUPERLATIVE, folded):
+            yield from self._from_base(utmost, ("A", "DET"))
 
     def _from_base(self, derived: Derived, classes: tuple[str, ...]) -> Iterator[_Candidate]:
         for base in derived.bases:

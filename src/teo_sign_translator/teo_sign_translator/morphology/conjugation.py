@@ -68,10 +68,6 @@ class Conjugations:
                 self._verbs[stem + paradigm.infinitive] = (stem, paradigm)
                 self._stems[strip_marks(stem)].append((stem, paradigm))
 
-    def __contains__(self, infinitive: str) -> bool:
-        """Whether the verb is known."""
-        return infinitive in self._verbs
-
     def forms(self, infinitive: str, tag: str) -> tuple[str, ...]:
         """The ways to write a form, the usual one first; none if the verb is unknown or has no such form."""
         stem, paradigm = self._verbs.get(infinitive, ("", None))

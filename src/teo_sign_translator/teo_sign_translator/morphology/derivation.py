@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-_DIMINUTIVE = re.compile("(?P<stem>..+?)(?P<infix>ec|c)?it(?P<ending>os?|as?)")
-_SUPERLATIVE = re.compile("(?P<stem>..+)isim(?P<ending>os?|as?)")
+#: In -ito, and the superlative of an adjective in -ísimo, without marks.
+DIMINUTIVE = re.compile("(?P<stem>..+?)(?P<infix>ec|c)?it(?P<ending>os?|as?)")
+SUPERLATIVE = re.compile("(?P<stem>..+)isim(?P<ending>os?|as?)")
 #: How a stem is spelled before i, and how before another letter: poquito poco, amiguito amigo, lucecita luz.
 _SPELLINGS = (("qu", "c"), ("gu", "g"), ("c", "z"), ("bil", "bl"))
 
@@ -26,17 +27,11 @@ def of_adverb(folded: str) -> str | None:
     return base if base != folded and len(base) > 2 else None
 
 
-def of_diminutive(folded: str) -> Iterator[Derived]:
-    """Words whose diminutive in -ito this is: `"perro"` for `"perrito"`, `"pez"` for `"pececito"`."""
-    yield from _derived(_DIMINUTIVE, folded)
+def derived(pattern: re.Pattern[str], folded: str) -> Iterator[Derived]:
+    """Words whose `DIMINUTIVE` or `SUPERLATIVE` this is.
 
-
-def of_superlative(folded: str) -> Iterator[Derived]:
-    """Adjectives whose superlative this is: `"rico"` for `"riquísimo"`."""
-    yield from _derived(_SUPERLATIVE, folded)
-
-
-def _derived(pattern: re.Pattern[str], folded: str) -> Iterator[Derived]:
+    `"perro"` for `"perrito"`, `"pez"` for `"pececito"`; `"rico"` for `"riquísimo"`.
+    """
     match = pattern.fullmatch(folded)
     if match is None:
         return

@@ -88,9 +88,7 @@ def number(value: str, typed: tuple[str, ...], confidence: float) -> list[Output
     whole, _, decimals = value.partition(",")
     if not decimals:
         return [_digits(whole, typed, confidence)]
-    comma = OutputWord(
-        signs=(_DECIMAL_GLOSS,), kind=Kind.LEXICAL, confidence=confidence, words=typed, origin=Origin.NUMBER
-    )
+    comma = lexical(_DECIMAL_GLOSS, typed, confidence, Origin.NUMBER)
     return [_digits(whole, typed, confidence), comma, _digits(decimals, typed, confidence)]
 
 
@@ -100,16 +98,37 @@ def _digits(digits: str, typed: tuple[str, ...], confidence: float) -> OutputWor
     )
 
 
-def name(gloss: str, typed: tuple[str, ...], confidence: float) -> OutputWord:
-    """Somebody's name; its letters if it has no sign."""
+def lexical(
+    gloss: str,
+    typed: tuple[str, ...],
+    confidence: float,
+    origin: Origin = Origin.MODEL,
+    *,
+    is_name: bool = False,
+) -> OutputWord:
+    """A sign of its own; of a name that has none, its letters."""
     return OutputWord(
-        signs=(gloss,),
-        kind=Kind.LEXICAL,
-        confidence=confidence,
-        words=typed,
-        origin=Origin.MODEL,
-        is_name=True,
+        signs=(gloss,), kind=Kind.LEXICAL, confidence=confidence, words=typed, origin=origin, is_name=is_name
     )
+
+
+def unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list[list[int]]:
+    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word.
+
+    Args:
+        sources: For each gloss the places of the words that it stands for.
+        places: Of all words.
+    """
+    owner: dict[int, int] = {}
+    for index, own in enumerate(sources):
+        for place in own:
+            owner.setdefault(place, index)
+    result: list[list[int]] = [[] for _ in sources]
+    for place in places:
+        if place not in owner:
+            neighbour = min((p for p in owner if p > place), default=max(owner, default=-1))
+            result[owner.get(neighbour, len(sources) - 1)].append(place)
+    return result
 
 
 def attach_carried(output_words: Sequence[OutputWord]) -> list[OutputWord]:

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 
-from teo_sign_translator.data_files import data_file, read_lines
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.data_files import data_file, invalid_line, read_lines
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import OutputWord, spelled
 from teo_sign_translator.output.translation import Kind, Origin
@@ -31,10 +30,7 @@ def read_synonyms(path: Path | None = None) -> dict[str, tuple[str, ...]]:
     for line_number, line in read_lines(path):
         group = [gloss.strip() for gloss in line.split(",")]
         if len(group) < 2 or any(not _SIGN_NAME.fullmatch(gloss) or gloss in synonyms for gloss in group):
-            raise TranslationError(
-                "invalid_data",
-                f"{path}, line {line_number}: expected two or more glosses, each listed once, got '{line}'",
-            )
+            raise invalid_line(path, line_number, "two or more glosses, each listed once", f"'{line}'")
         for gloss in group:
             synonyms[gloss] = tuple(other for other in group if other != gloss)
     return synonyms
@@ -52,9 +48,7 @@ def read_signs(path: Path) -> frozenset[str]:
         if gloss.startswith("#"):
             continue
         if not _SIGN_NAME.fullmatch(gloss):
-            raise TranslationError(
-                "invalid_data", f"{path}, line {line_number}: expected one gloss, got '{line.strip()}'"
-            )
+            raise invalid_line(path, line_number, "one gloss", f"'{line.strip()}'")
         signs.add(gloss)
     return frozenset(signs)
 

@@ -5,17 +5,3 @@ the model's hypotheses repaired, so that no word is lost and no gloss invented, 
 words. The LSTM's (`LstmBackEnd`) asks its model for sentences that it knows, and looks up all others word by
 word.
 """
-
-from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
-from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
-from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
-from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
-
-__all__ = [
-    "DEFAULT_MODEL",
-    "BackEnd",
-    "LstmBackEnd",
-    "PointerBackEnd",
-    "TranslatedSentence",
-    "Translator",
-]

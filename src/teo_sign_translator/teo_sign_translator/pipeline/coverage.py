@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.data_files import data_file, read_listed
 from teo_sign_translator.morphology import TAGS, Reading
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -25,6 +23,7 @@ class FunctionWords:
     def __init__(self, lemmas: dict[str, frozenset[str]]) -> None:
         """Take lemmas by the beginning of the tag that they must have; `*` among them stands for all."""
         self._lemmas = dict(lemmas)
+        self._by_tag: dict[str, frozenset[str]] = {}
 
     @classmethod
     def load(cls, path: Path | None = None) -> FunctionWords:
@@ -37,15 +36,11 @@ class FunctionWords:
             TranslationError: "invalid_data", with file and line.
         """
         path = path or data_file("function_words.tsv")
-        lemmas: dict[str, frozenset[str]] = {}
-        for number, (tag, listed) in read_rows(path, columns=2):
-            if tag in lemmas or not any(_begins(known, tag) for known in TAGS):
-                raise TranslationError(
-                    "invalid_data",
-                    f"{path}, line {number}: expected the beginning of a tag, once, got '{tag}'",
-                )
-            lemmas[tag] = frozenset(lemma.strip() for lemma in listed.split(","))
-        return cls(lemmas)
+        return cls(
+            read_listed(
+                path, lambda tag: any(_begins(known, tag) for known in TAGS), "the beginning of a tag"
+            )
+        )
 
     def may_be_left_out(self, word: SourceWord) -> bool:
         """Whether one of a word's readings is a function word, or it is a mark.
@@ -62,10 +57,6 @@ class FunctionWords:
             listed = [lemmas for tag, lemmas in self._lemmas.items() if _begins(reading.tag, tag)]
             found = self._by_tag[reading.tag] = frozenset[str]().union(*listed)
         return _ANY in found or reading.lemma in found
-
-    @cached_property
-    def _by_tag(self) -> dict[str, frozenset[str]]:
-        return {}
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,14 +140,7 @@ def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
         TranslationError: "invalid_data", with file and line.
     """
     path = path or data_file("gloss_words.tsv")
-    result: dict[str, frozenset[str]] = {}
-    for number, (gloss, lemmas) in read_rows(path, columns=2):
-        if gloss in result or gloss != gloss.upper():
-            raise TranslationError(
-                "invalid_data", f"{path}, line {number}: expected a gloss in capitals, once, got '{gloss}'"
-            )
-        result[gloss] = frozenset(lemma.strip() for lemma in lemmas.split(","))
-    return result
+    return read_listed(path, lambda gloss: gloss == gloss.upper(), "a gloss in capitals")
 
 
 def _places(words: Sequence[SourceWord]) -> tuple[dict[str, list[int]], dict[str, list[int]]]:

@@ -9,8 +9,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
@@ -80,10 +79,7 @@ class GlossEvidence:
         found: dict[str, Evidence] = {}
         for number, (gloss, tags, lemmas) in read_rows(path, columns=3):
             if gloss in found or gloss != gloss.upper():
-                raise TranslationError(
-                    "invalid_data",
-                    f"{path}, line {number}: expected a gloss in capitals, once, got '{gloss}'",
-                )
+                raise invalid_line(path, number, "a gloss in capitals, once", f"'{gloss}'")
             found[gloss] = Evidence(tuple(_listed(tags)), frozenset(_listed(lemmas)))
         return cls(found)
 

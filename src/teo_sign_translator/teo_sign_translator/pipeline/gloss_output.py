@@ -6,8 +6,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.output.output_words import PAUSE, OutputWord, name, number
-from teo_sign_translator.output.translation import Kind, Origin
+from teo_sign_translator.output.output_words import PAUSE, OutputWord, lexical, number, unclaimed
+from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.hypothesis_repair import Repaired
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -65,16 +65,8 @@ def _output_words(
     if gloss.gloss[0].isdigit():
         return number(gloss.gloss, typed, gloss.probability)
     if _is_name([words[source] for source in gloss.sources], meant, named=named):
-        return [name(gloss.gloss, typed, gloss.probability)]
-    return [
-        OutputWord(
-            signs=(gloss.gloss,),
-            kind=Kind.LEXICAL,
-            confidence=gloss.probability,
-            words=typed,
-            origin=origin,
-        )
-    ]
+        return [lexical(gloss.gloss, typed, gloss.probability, is_name=True)]
+    return [lexical(gloss.gloss, typed, gloss.probability, origin)]
 
 
 def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bool) -> bool:
@@ -93,14 +85,8 @@ def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bo
 
 def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
     """For each gloss the words, as typed, that it stands for, with the words without a gloss before them."""
-    own = [set(places) for places in sources]
-    owner = {place: gloss for gloss, places in reversed(list(enumerate(sources))) for place in places}
-    following = owner[max(owner)] if owner else len(sources) - 1
-    for place in reversed(range(len(words))):
-        following = owner.get(place, following)
-        if place not in owner and not words[place].is_mark:
-            own[following].add(place)
-    return [_texts(words, sorted(places)) for places in own]
+    extras = unclaimed(sources, [place for place, word in enumerate(words) if not word.is_mark])
+    return [_texts(words, sorted({*own, *extra})) for own, extra in zip(sources, extras, strict=True)]
 
 
 def _texts(words: Sequence[SourceWord], places: Sequence[int]) -> tuple[str, ...]:

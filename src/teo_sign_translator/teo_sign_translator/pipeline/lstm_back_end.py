@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.known_sentences import KnownSentences
 from teo_sign_translator.lstm256.phrasebook import Match, Phrasebook
-from teo_sign_translator.lstm256.seq2seq import SequenceModel
+from teo_sign_translator.lstm256.seq2seq import LstmModel
 from teo_sign_translator.lstm256.word_by_word import word_by_word
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
@@ -44,9 +44,7 @@ class LstmBackEnd:
     all others spelled.
     """
 
-    def __init__(
-        self, model: SequenceModel, phrasebook: Phrasebook, glosses: GlossList, *, name: str
-    ) -> None:
+    def __init__(self, model: LstmModel, phrasebook: Phrasebook, glosses: GlossList, *, name: str) -> None:
         """Put the parts together.
 
         Args:

@@ -12,6 +12,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.store import load_model
+from teo_sign_translator.model_files import available_models
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import attach_carried, divide, number_tokens
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
@@ -23,7 +24,7 @@ from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
-from teo_sign_translator.pointer.store import sentence_models
+from teo_sign_translator.pointer.store import SCHEMA
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import Clause, WordKind, read
 from teo_sign_translator.text.sentence_type import is_negated, sentence_type
@@ -97,7 +98,7 @@ class Translator:
         """
         glosses = GlossList.load()
         taught = Phrasebook(training_pairs(), glosses)
-        if name in sentence_models(directory):
+        if name in available_models(directory, schema=SCHEMA):
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(

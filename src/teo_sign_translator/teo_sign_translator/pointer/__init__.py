@@ -1,19 +1,10 @@
 """The default model: an encoder-decoder with attention that says known glosses or copies a word's lemma.
 
-`ArrayModel` runs the weights of any model of the zoo on NumPy arrays, `ZooModel` searches for the likeliest
-translations with it, and `load_sentence_model` reads one from its files.
+`ArrayModel` runs the weights of any model of the zoo on NumPy arrays, `SentenceModel` searches for the
+likeliest translations with it, and `load_sentence_model` reads one from its files.
 """
 
-from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
-from teo_sign_translator.pointer.sentence_model import Hypothesis, OutputGloss, SentenceModel
+from teo_sign_translator.pointer.decoding import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.pointer.store import load_sentence_model
 
-__all__ = [
-    "POINTER",
-    "ZOO",
-    "Hypothesis",
-    "NetworkConfig",
-    "OutputGloss",
-    "SentenceModel",
-    "load_sentence_model",
-]
+__all__ = ["Hypothesis", "OutputGloss", "SentenceModel", "load_sentence_model"]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,63 +13,51 @@ from teo_sign_translator.pointer.config import Cell
 Array = NDArray[np.float32]
 
 
-class Layer(Protocol):
+class Layer(ABC):
     """One recurrent layer in one direction.
 
     A state is an array of shape (rows, state size) whose first `hidden` columns are the layer's output.
     """
 
+    def __init__(self, weights: Mapping[str, Array], prefix: str, suffix: str) -> None:
+        """Take over the weights that PyTorch calls `{prefix}.weight_ih_{suffix}` and so on."""
+        # Transposed and contiguous for `inputs @ weights`.
+        self._input: Array = np.ascontiguousarray(weights[f"{prefix}.weight_ih_{suffix}"].T)
+        self._recurrent: Array = np.ascontiguousarray(weights[f"{prefix}.weight_hh_{suffix}"].T)
+        self._input_bias: Array = weights[f"{prefix}.bias_ih_{suffix}"]
+        self._recurrent_bias: Array = weights[f"{prefix}.bias_hh_{suffix}"]
+        self._bias = self._input_bias + self._recurrent_bias
+        self._hidden = len(self._recurrent)
+
     def project(self, inputs: Array) -> Array:
         """The part of the gates that the input alone decides; shape (..., inputs) -> (..., gates)."""
+        return inputs @ self._input + self._bias
 
+    @abstractmethod
     def step(self, projected: Array, state: Array) -> Array:
         """The next state; shapes (rows, gates), (rows, state size)."""
 
 
-class _Weights:
-    """Weights of a layer, transposed and contiguous for `inputs @ weights`."""
-
-    def __init__(self, weights: Mapping[str, Array], prefix: str, suffix: str) -> None:
-        self.input: Array = np.ascontiguousarray(weights[f"{prefix}.weight_ih_{suffix}"].T)
-        self.recurrent: Array = np.ascontiguousarray(weights[f"{prefix}.weight_hh_{suffix}"].T)
-        self.input_bias: Array = weights[f"{prefix}.bias_ih_{suffix}"]
-        self.recurrent_bias: Array = weights[f"{prefix}.bias_hh_{suffix}"]
-        self.hidden = len(self.recurrent)
-
-
-class RnnLayer:
+class RnnLayer(Layer):
     """Elman's: h' = tanh(W x + U h + b)."""
-
-    def __init__(self, weights: Mapping[str, Array], prefix: str, suffix: str) -> None:
-        """Take over the weights that PyTorch calls `{prefix}.weight_ih_{suffix}` and so on."""
-        self._w = _Weights(weights, prefix, suffix)
-        self._bias = self._w.input_bias + self._w.recurrent_bias
-
-    def project(self, inputs: Array) -> Array:
-        """See `Layer`."""
-        return inputs @ self._w.input + self._bias
 
     def step(self, projected: Array, state: Array) -> Array:
         """See `Layer`; the state is h."""
-        result: Array = np.tanh(projected + state @ self._w.recurrent)
+        result: Array = np.tanh(projected + state @ self._recurrent)
         return result
 
 
-class GruLayer:
+class GruLayer(Layer):
     """Cho's, gates in the order reset, update, new; the reset gate acts on U h + b as in PyTorch."""
-
-    def __init__(self, weights: Mapping[str, Array], prefix: str, suffix: str) -> None:
-        """Take over the weights that PyTorch calls `{prefix}.weight_ih_{suffix}` and so on."""
-        self._w = _Weights(weights, prefix, suffix)
 
     def project(self, inputs: Array) -> Array:
         """See `Layer`."""
-        return inputs @ self._w.input + self._w.input_bias
+        return inputs @ self._input + self._input_bias
 
     def step(self, projected: Array, state: Array) -> Array:
         """See `Layer`; the state is h."""
-        size = self._w.hidden
-        recurrent = state @ self._w.recurrent + self._w.recurrent_bias
+        size = self._hidden
+        recurrent = state @ self._recurrent + self._recurrent_bias
         gates = sigmoid(projected[:, : 2 * size] + recurrent[:, : 2 * size])
         reset, update = gates[:, :size], gates[:, size:]
         new = np.tanh(projected[:, 2 * size :] + reset * recurrent[:, 2 * size :])
@@ -77,22 +65,13 @@ class GruLayer:
         return result
 
 
-class LstmLayer:
+class LstmLayer(Layer):
     """Hochreiter's and Schmidhuber's, gates in the order input, forget, cell, output."""
-
-    def __init__(self, weights: Mapping[str, Array], prefix: str, suffix: str) -> None:
-        """Take over the weights that PyTorch calls `{prefix}.weight_ih_{suffix}` and so on."""
-        self._w = _Weights(weights, prefix, suffix)
-        self._bias = self._w.input_bias + self._w.recurrent_bias
-
-    def project(self, inputs: Array) -> Array:
-        """See `Layer`."""
-        return inputs @ self._w.input + self._bias
 
     def step(self, projected: Array, state: Array) -> Array:
         """See `Layer`; the state is h, then c."""
-        size = self._w.hidden
-        gates = projected + state[:, :size] @ self._w.recurrent
+        size = self._hidden
+        gates = projected + state[:, :size] @ self._recurrent
         # One tanh over all four gates: sigmoid(x) = (tanh(x / 2) + 1) / 2.
         cell_gate = gates[:, 2 * size : 3 * size]
         cell_gate *= 2
@@ -107,7 +86,7 @@ class LstmLayer:
         return result
 
 
-_LAYERS: Mapping[Cell, type[RnnLayer] | type[GruLayer] | type[LstmLayer]] = {
+_LAYERS: Mapping[Cell, type[Layer]] = {
     "rnn": RnnLayer,
     "gru": GruLayer,
     "lstm": LstmLayer,

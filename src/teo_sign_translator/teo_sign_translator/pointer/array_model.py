@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from teo_sign_translator.pointer.array_cells import Array, make_layer, run_layer
 from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.vocabulary import BLANK, READINGS, ROOT, Vocabulary, WordFeatures, tag_parts
-from teo_sign_translator.pointer.weight_shapes import check_weights
+from teo_sign_translator.pointer.weight_shapes import check_weights, weight_shapes
 from teo_sign_translator.text.source_words import SourceWord
 
 Ints = NDArray[np.int64]
@@ -75,15 +75,13 @@ class ArrayModel:
         Raises:
             TranslationError: "invalid_model" if a weight is missing, has another shape or is not finite.
         """
-        check_weights(config, vocabulary, weights)
+        check_weights(weight_shapes(config, vocabulary), weights)
         full: dict[str, Array] = {name: np.asarray(value, np.float32) for name, value in weights.items()}
         self.config = config
         self.vocabulary = vocabulary
-        self._form, self._capital, self._lemma = (
-            full["form.weight"],
-            full["capital.weight"],
-            full["lemma.weight"],
-        )
+        self._form = full["form.weight"]
+        self._capital = full["capital.weight"]
+        self._lemma = full["lemma.weight"]
         self._rank = full["rank"]
         self._part = full["part"]
         self._parts = {part: place for place, part in enumerate(vocabulary.parts)}

@@ -14,7 +14,6 @@ from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped] #
 
 from teo_sign_translator.pointer.array_cells import Array
 from teo_sign_translator.pointer.array_model import ArrayModel, Ints, Memory
-from teo_sign_translator.pointer.sentence_model import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX
 from teo_sign_translator.text.source_words import SourceWord
 
@@ -25,6 +24,36 @@ _TOGETHER = 64
 #: Words that a gloss stands for have at least this part of the highest attention: the alignment teaches equal
 #: attention to all of them.
 _SHARED_LOOK = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class OutputGloss:
+    """One gloss that a model says.
+
+    Attributes:
+        gloss: Upper case with accents, `_` for spaces; a number in digits.
+        sources: Indices of the words that it stands for, ascending; empty where no word says it.
+        probability: Of this gloss, given those before it, 0 to 1.
+        copied: Whether it is a word's lemma carried over, not a gloss of the model's own vocabulary.
+    """
+
+    gloss: str
+    sources: tuple[int, ...]
+    probability: float
+    copied: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Hypothesis:
+    """One translation of a sentence.
+
+    Attributes:
+        glosses: In signing order.
+        log_probability: Of the whole, the end included [nat]; at most 0.
+    """
+
+    glosses: tuple[OutputGloss, ...]
+    log_probability: float
 
 
 class _Choice(NamedTuple):
@@ -46,8 +75,8 @@ class _Choice(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class ZooModel:
-    """A `SentenceModel` of the zoo.
+class SentenceModel:
+    """Translates sentences of words that carry their readings, with any model of the zoo.
 
     Attributes:
         name: Under which it was loaded.
@@ -58,13 +87,21 @@ class ZooModel:
     arrays: ArrayModel
 
     def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
-        """See `SentenceModel`."""
+        """Translate one sentence; raises nothing for words it has never seen.
+
+        Args:
+            words: Of `source_words`; none gives one empty hypothesis.
+            beam: Hypotheses kept at each step, at least 1; 1 takes the likeliest gloss each time.
+
+        Returns:
+            One to `beam` hypotheses, best first.
+        """
         return self.translate_all([words], beam=beam)[0]
 
     def translate_all(
         self, sentences: Sequence[Sequence[SourceWord]], *, beam: int = 1
     ) -> tuple[tuple[Hypothesis, ...], ...]:
-        """See `SentenceModel`."""
+        """Translate many sentences, faster than one by one; the results are in their order."""
         result: list[tuple[Hypothesis, ...]] = [(Hypothesis((), 0.0),)] * len(sentences)
         by_length: dict[int, list[int]] = {}
         for index, words in enumerate(sentences):

@@ -45,15 +45,13 @@ def weight_shapes(config: NetworkConfig, vocabulary: Vocabulary) -> dict[str, tu
     return shapes
 
 
-def check_weights(
-    config: NetworkConfig, vocabulary: Vocabulary, weights: Mapping[str, NDArray[np.floating]]
-) -> None:
-    """Refuse weights that do not fit.
+def check_weights(shapes: Mapping[str, tuple[int, ...]], weights: Mapping[str, NDArray[np.floating]]) -> None:
+    """Refuse weights that do not have the shapes.
 
     Raises:
         TranslationError: "invalid_model" if a weight is missing, has another shape or is not finite.
     """
-    for name, shape in weight_shapes(config, vocabulary).items():
+    for name, shape in shapes.items():
         if name not in weights or weights[name].shape != shape or not np.isfinite(weights[name]).all():
             got = f"shape {weights[name].shape}" if name in weights else "none"
             raise TranslationError(

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 
 _CLASSES = ("title", "unit", "word", "chat")
 
@@ -70,11 +69,9 @@ class Expressions:
             words = tuple(word.replace("_", " ") for word in said.split())
             for form in (form.strip() for form in forms.split(",")):
                 if category not in _CLASSES or not form or form != form.lower() or form in entries:
-                    raise TranslationError(
-                        "invalid_data",
-                        f"{path}, line {number}: expected short forms in lower case, each listed once, and a "
-                        f"class of {', '.join(_CLASSES)}, got '{form}' and '{category}'",
-                    )
+                    expected = "short forms in lower case, each listed once, and a class of "
+                    got = f"'{form}' and '{category}'"
+                    raise invalid_line(path, number, expected + ", ".join(_CLASSES), got)
                 entries[form] = Expression(category, words)
         return cls(entries)
 

@@ -6,34 +6,30 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from teo_common.text_folding import fold
 from teo_sign_translator.data_files import words_of
 
-_UNITS = words_of("cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince")
-_TEENS = words_of(
-    "dieciseis diecisiete dieciocho diecinueve veinte veintiuno veintidos veintitres veinticuatro"
+#: Numbers from 0 to 29, the tens from 30 on and the hundreds, in words.
+UNITS = words_of(
+    "cero uno dos tres cuatro cinco seis siete ocho nueve diez once doce trece catorce quince dieciséis "
+    "diecisiete dieciocho diecinueve veinte veintiuno veintidós veintitrés veinticuatro veinticinco "
+    "veintiséis veintisiete veintiocho veintinueve"
 )
-_TWENTIES = words_of("veinticinco veintiseis veintisiete veintiocho veintinueve")
-_TENS = words_of("treinta cuarenta cincuenta sesenta setenta ochenta noventa")
-_HUNDREDS = words_of(
-    "doscientos trescientos cuatrocientos quinientos seiscientos setecientos ochocientos novecientos"
+TENS = words_of("treinta cuarenta cincuenta sesenta setenta ochenta noventa")
+HUNDREDS = words_of(
+    "ciento doscientos trescientos cuatrocientos quinientos seiscientos setecientos ochocientos novecientos"
 )
 
-_SMALL = {word: value for value, word in enumerate(_UNITS + _TEENS + _TWENTIES)} | {
-    "veintiun": 21,
-    "veintiuna": 21,
-}
-_TEN = {word: 10 * value for value, word in enumerate(_TENS, start=3)}
-_HUNDRED = {word: 100 * value for value, word in enumerate(_HUNDREDS, start=2)}
-_HUNDRED |= {word.replace("ientos", "ientas"): value for word, value in _HUNDRED.items()} | {
-    "ciento": 100,
-    "cien": 100,
-}
+_SMALL = {fold(word): value for value, word in enumerate(UNITS)} | {"veintiun": 21, "veintiuna": 21}
+_TEN = {word: 10 * value for value, word in enumerate(TENS, start=3)}
+_HUNDRED = {word: 100 * value for value, word in enumerate(HUNDREDS, start=1)} | {"cien": 100}
+_HUNDRED |= {word.replace("ientos", "ientas"): value for word, value in _HUNDRED.items()}
 
 #: Words that numbers are made of, folded.
 NUMBER_WORDS = frozenset({*_SMALL, *_TEN, *_HUNDRED, "mil"})
 
 #: Those that are written with an accent.
-ACCENTED_NUMBER_WORDS = frozenset(words_of("dieciséis veintidós veintitrés veintiséis veintiún"))
+ACCENTED_NUMBER_WORDS = frozenset({*(word for word in UNITS if word != fold(word)), "veintiún"})
 
 _ORDINALS = {
     str(value): word

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import IntEnum
 
+from teo_common.text_folding import fold
 from teo_sign_translator.data_files import words_of
 from teo_sign_translator.text.cleaning import shortened
 from teo_sign_translator.text.reading import Clause, Word
@@ -22,9 +23,7 @@ class SentenceType(IntEnum):
 _INTERROGATIVES = frozenset(
     words_of("qué quién quiénes cuál cuáles cómo cuándo cuánto cuánta cuántos cuántas dónde adónde")
 )
-_FOLDED_INTERROGATIVES = frozenset(
-    words_of("que quien quienes cual cuales como cuando cuanto cuanta cuantos cuantas donde adonde")
-)
+_FOLDED_INTERROGATIVES = frozenset(map(fold, _INTERROGATIVES))
 # Typed without accents and marks these begin a question far more often than a statement; "que", "como" and
 # "cuando" only together with the word behind them.
 _UNMARKED_STARTS = frozenset(words_of("quien quienes cual cuales cuanto cuanta cuantos cuantas donde adonde"))

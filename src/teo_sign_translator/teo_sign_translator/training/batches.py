@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,12 @@ from teo_sign_translator.training.typing_noise import copies
 #: Places of "unknown" in the lists of forms and lemmas.
 _UNKNOWN_FORM, _UNKNOWN_LEMMA = 0, 1
 
+#: Arrays, or tensors on the device that trains.
+Values = TypeVar("Values")
+
 
 @dataclass(frozen=True, slots=True)
-class Batch:
+class Batch(Generic[Values]):
     """Pairs with the same number of words W (the root and blanks included), up to T glosses (END included).
 
     Attributes:
@@ -34,16 +38,16 @@ class Batch:
         weight: 1 for each gloss, 0 behind the end. Shape (B, T).
     """
 
-    forms: Ints
-    capitals: Ints
-    lemmas: Ints
-    tags: Ints
-    said: Ints
-    said_copy: Ints
-    target: Ints
-    ways: NDArray[np.bool_]
-    looks: NDArray[np.float32]
-    weight: NDArray[np.float32]
+    forms: Values
+    capitals: Values
+    lemmas: Values
+    tags: Values
+    said: Values
+    said_copy: Values
+    target: Values
+    ways: Values
+    looks: Values
+    weight: Values
 
 
 @dataclass(frozen=True)
@@ -111,7 +115,7 @@ def batches(
     random: np.random.Generator | None = None,
     rare_word: float = 0.0,
     spare: int = 0,
-) -> Iterator[Batch]:
+) -> Iterator[Batch[NDArray[Any]]]:
     """All pairs, those of the same number of words together.
 
     Args:
@@ -143,7 +147,7 @@ def _batch(
     random: np.random.Generator | None,
     rare_word: float,
     spare: int,
-) -> Batch:
+) -> Batch[NDArray[Any]]:
     count = len(examples)
     length = int(examples.word_start[1])
     rows = np.full((count, 1 + length + spare), BLANK_ROW)

@@ -7,9 +7,9 @@ import random
 from collections.abc import Iterable
 from pathlib import Path
 
+from teo_common.text_folding import folded
 from teo_sign_translator.corpus import SPLITS, Pair, read_pairs
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.training.memorised_pairs import key
 
 
 def corpus_files(corpus: Path) -> tuple[Path, ...]:
@@ -58,5 +58,5 @@ def sample(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
 
 def without(pairs: list[Pair], sentences: Iterable[str]) -> list[Pair]:
     """The pairs whose Spanish, however typed, is none of the sentences."""
-    keys = {key(sentence) for sentence in sentences}
-    return [pair for pair in pairs if key(pair.spanish) not in keys]
+    unwanted = set(map(folded, sentences))
+    return [pair for pair in pairs if folded(pair.spanish) not in unwanted]

@@ -1,4 +1,4 @@
-"""Where a network is trained: the device, and the threads of its CPU."""
+"""Where a network is trained: the device, the threads of its CPU, its random numbers."""
 
 from __future__ import annotations
 
@@ -10,19 +10,14 @@ import torch
 from teo_sign_translator.errors import TranslationError
 
 
-def best_device() -> torch.device:
-    """An accelerator if there is one, else the CPU."""
-    return torch.device("cuda" if torch.cuda.is_available() else "cpu")
-
-
 def named_device(name: str | None) -> torch.device:
-    """The device of a name as PyTorch has it; the best one if None.
+    """The device of a name as PyTorch has it; if None, an accelerator if there is one, else the CPU.
 
     Raises:
         TranslationError: "invalid_config" if this machine has no such device.
     """
     if name is None:
-        return best_device()
+        return torch.device("cuda" if torch.cuda.is_available() else "cpu")
     try:
         device = torch.device(name)
         torch.empty(0, device=device)
@@ -46,3 +41,11 @@ def one_thread() -> Iterator[None]:
         yield
     finally:
         torch.set_num_threads(before)
+
+
+@contextmanager
+def seeded(seed: int) -> Iterator[None]:
+    """PyTorch's random numbers from a seed; the caller's go on afterwards."""
+    with torch.random.fork_rng():
+        torch.manual_seed(seed)
+        yield

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.text_folding import without_accents
+from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
@@ -21,22 +21,6 @@ Reader = Callable[[str], "Sequence[SourceWord]"]
 
 #: Columns of `WordTable.variants`: bit 0 set if accents are dropped, bit 1 if capitals are.
 VARIANTS = 4
-
-
-class AlignedSentence(Protocol):
-    """What a training pair must have; `corpus.pairs_file.Pair` has it."""
-
-    @property
-    def spanish(self) -> str:
-        """As people write it."""
-
-    @property
-    def glosses(self) -> tuple[str, ...]:
-        """In signing order."""
-
-    @property
-    def alignment(self) -> tuple[tuple[int, ...], ...]:
-        """For each gloss the words of the sentence that it stands for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +114,7 @@ class ExampleReader:
     _words: list[SourceWord | None] = field(default_factory=lambda: [None, None])
     _glosses: dict[str, int] = field(default_factory=dict)
 
-    def examples(self, pairs: Iterable[AlignedSentence]) -> Examples:
+    def examples(self, pairs: Iterable[Pair]) -> Examples:
         """Pairs as arrays.
 
         Raises:

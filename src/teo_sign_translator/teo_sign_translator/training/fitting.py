@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,21 +12,15 @@ import torch
 from numpy.typing import NDArray
 
 from teo_common.text_folding import fold
+from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SPARE
 from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
 from teo_sign_translator.training.batches import WordNumbers, batches
-from teo_sign_translator.training.devices import best_device, one_thread
-from teo_sign_translator.training.examples import (
-    VARIANTS,
-    AlignedSentence,
-    ExampleReader,
-    Examples,
-    Reader,
-    WordTable,
-)
-from teo_sign_translator.training.network import Network, TensorBatch
+from teo_sign_translator.training.devices import named_device, one_thread, seeded
+from teo_sign_translator.training.examples import VARIANTS, ExampleReader, Examples, Reader, WordTable
+from teo_sign_translator.training.network import Network, on_device
 from teo_sign_translator.training.typing_noise import Typing, copies, typed_sayably, unsayable
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
@@ -90,9 +83,9 @@ class Fit:
 
 
 def fit(
-    train: Sequence[AlignedSentence],
-    dev: Sequence[AlignedSentence],
-    by_heart: Sequence[AlignedSentence],
+    train: Sequence[Pair],
+    dev: Sequence[Pair],
+    by_heart: Sequence[Pair],
     read: Reader,
     network_config: NetworkConfig,
     config: TrainingConfig,
@@ -109,7 +102,7 @@ def fit(
         read: How sentences become words.
         network_config: What is trained.
         config: How.
-        device: Where; `best_device` by default.
+        device: Where; an accelerator if there is one by default.
         on_progress: Called now and then.
 
     Raises:
@@ -118,7 +111,7 @@ def fit(
     if not train and not by_heart:
         raise TranslationError("invalid_config", "expected at least one training pair, got none")
     started = time.monotonic()
-    device = device or best_device()
+    device = device or named_device(None)
     reader = ExampleReader(read)
     pairs = reader.examples([*train, *by_heart])
     development = reader.examples(dev)
@@ -135,7 +128,7 @@ def fit(
     if not len(learned):
         raise TranslationError("invalid_config", "expected pairs whose glosses can be said, got none")
 
-    with _seeded(config.seed), one_thread():
+    with seeded(config.seed), one_thread():
         random = np.random.default_rng(config.seed)
         network = Network(network_config, vocabulary, config.dropout).to(device)
         optimiser = torch.optim.AdamW(network.parameters(), config.learning_rate, weight_decay=0.01)
@@ -162,7 +155,7 @@ def fit(
                 spare=spare,
             )
             for step, batch in enumerate(all_batches, start=1):
-                tensors = TensorBatch.of(batch, device)
+                tensors = on_device(batch, device)
                 gloss_loss, look_loss = network.losses(tensors)
                 glosses = float(batch.weight.sum())
                 optimiser.zero_grad()
@@ -263,14 +256,6 @@ def _mean_loss(
     total, count = 0.0, 0.0
     with torch.no_grad():
         for batch in batches(examples, table, numbers, 512, spare=spare):
-            loss, _ = network.losses(TensorBatch.of(batch, device))
+            loss, _ = network.losses(on_device(batch, device))
             total, count = total + loss.item(), count + float(batch.weight.sum())
     return total / count
-
-
-@contextmanager
-def _seeded(seed: int) -> Iterator[None]:
-    """PyTorch's random numbers from a seed; the caller's go on afterwards."""
-    with torch.random.fork_rng():
-        torch.manual_seed(seed)
-        yield

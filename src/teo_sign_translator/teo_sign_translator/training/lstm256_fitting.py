@@ -16,6 +16,7 @@ from torch.nn.utils.rnn import pack_padded_sequence, pad_sequence
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.seq2seq import LstmModel
 from teo_sign_translator.lstm256.tokens import END, START, Vocabulary
+from teo_sign_translator.training.devices import one_thread, seeded
 
 #: One input sequence and its output sequence.
 Example = tuple[tuple[str, ...], tuple[str, ...]]
@@ -55,8 +56,7 @@ class TrainingConfig:
             raise TranslationError(
                 "invalid_config",
                 "expected hidden, epochs and batch_size of at least 1, learning_rate in (0, 1) and decay in "
-                "[0, 1), "
-                f"got {self}",
+                f"[0, 1), got {self}",
             )
 
 
@@ -81,8 +81,6 @@ class Training:
 def train(
     examples: Sequence[Example],
     held_out: Sequence[Example],
-    inputs: Vocabulary,
-    outputs: Vocabulary,
     config: TrainingConfig,
     on_epoch: Callable[[int], None] | None = None,
 ) -> Training:
@@ -91,16 +89,16 @@ def train(
     Args:
         examples: To learn from; at least one.
         held_out: To measure the validation loss on; may be empty.
-        inputs: Vocabulary of the input sequences of both.
-        outputs: Vocabulary of their output sequences.
         config: See `TrainingConfig`.
         on_epoch: Called after each epoch with its number from 1.
 
     Raises:
-        TranslationError: "invalid_config" without examples, "unknown_token" if a vocabulary lacks a token.
+        TranslationError: "invalid_config" without examples.
     """
     if not examples:
         raise TranslationError("invalid_config", "expected at least one training example, got none")
+    inputs = Vocabulary.of_inputs(source for source, _ in (*examples, *held_out))
+    outputs = Vocabulary.of_outputs(target for _, target in (*examples, *held_out))
     with _deterministic(config.seed):
         network = EncoderDecoder(len(inputs), len(outputs), config.hidden)
         # 1e-7 keeps the division finite, as in the Keras library of the paper's time.
@@ -218,14 +216,10 @@ def _encode(example: Example, inputs: Vocabulary, outputs: Vocabulary) -> _Encod
 @contextmanager
 def _deterministic(seed: int) -> Iterator[None]:
     """Seeded, on one thread, in PyTorch's deterministic mode; gives back the caller's settings."""
-    threads = torch.get_num_threads()
     before = torch.are_deterministic_algorithms_enabled()
-    torch.set_num_threads(1)  # sums in one order, and no slower for matrices this small
     torch.use_deterministic_algorithms(True)
     try:
-        with torch.random.fork_rng(devices=[]):
-            torch.manual_seed(seed)
+        with seeded(seed), one_thread():  # sums in one order, and no slower for matrices this small
             yield
     finally:
         torch.use_deterministic_algorithms(before)
-        torch.set_num_threads(threads)

@@ -11,7 +11,7 @@ from rich.progress import Progress
 
 from teo_sign_translator.corpus.paper_pairs import training_data_hash, training_pairs
 from teo_sign_translator.lstm256.store import load_model, save_model
-from teo_sign_translator.lstm256.tokens import Vocabulary, folded_tokens, mark_variants
+from teo_sign_translator.lstm256.tokens import folded_tokens, mark_variants
 from teo_sign_translator.training.lstm256_fitting import Example, TrainingConfig, train
 
 #: The published model is trained with 20 % held out; what ships must know every sentence, so nothing is held
@@ -21,12 +21,9 @@ SHIPPED_CONFIG = TrainingConfig(learning_rate=0.001, epochs=100, batch_size=8)
 
 _DESCRIPTION = (
     "One-layer encoder-decoder LSTM, 256 hidden units, one-hot words, softmax output, trained with "
-    "categorical "
-    "cross-entropy and RMSprop as in arXiv:1907.04198. Unlike there nothing is held out: it is to know these "
-    "sentences "
-    "by heart, and knows hardly anything else. Accents are folded; each sentence is trained with its marks "
-    "typed, left "
-    "out or changed; names and numbers are slots."
+    "categorical cross-entropy and RMSprop as in arXiv:1907.04198. Unlike there nothing is held out: it is "
+    "to know these sentences by heart, and knows hardly anything else. Accents are folded; each sentence is "
+    "trained with its marks typed, left out or changed; names and numbers are slots."
 )
 
 
@@ -55,20 +52,16 @@ def train_published(
         Whether all examples are known afterwards.
     """
     examples = shipped_examples()
-    inputs = Vocabulary.of_inputs(source for source, _ in examples)
-    outputs = Vocabulary.of_outputs(target for _, target in examples)
     started = time.monotonic()
     with Progress(console=console) as progress:
         task = progress.add_task(f"training {name}", total=config.epochs)
-        training = train(
-            examples, [], inputs, outputs, config, lambda epoch: progress.update(task, completed=epoch)
-        )
+        training = train(examples, [], config, lambda epoch: progress.update(task, completed=epoch))
     seconds = time.monotonic() - started
     save_model(
         name,
         directory,
-        inputs=inputs,
-        outputs=outputs,
+        inputs=training.model.inputs,
+        outputs=training.model.outputs,
         weights=training.weights,
         card={
             "description": _DESCRIPTION,

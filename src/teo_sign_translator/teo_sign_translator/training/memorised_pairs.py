@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
-from teo_common.text_folding import fold, without_accents
-from teo_sign_translator.corpus.paper_pairs import (
-    NAME,
-    NUMBER,
-    AlignedPair,
-    gloss_name,
-    paper_pairs,
-    training_pairs,
-)
-from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.sentence_model import SentenceModel
-from teo_sign_translator.text.source_words import SourceWord
+from teo_common.text_folding import without_accents
+from teo_sign_translator.corpus.pairs_file import Pair
+from teo_sign_translator.corpus.paper_pairs import filled, gloss_name, paper_pairs, training_pairs
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.training.examples import Reader
 
 #: What fills the slots. A few are enough: the corpus shows hundreds of names and numbers in other sentences.
@@ -27,16 +18,7 @@ _NUMBERS = ("7", "siete", "12", "treinta y cinco", "40", "veintitrés")
 _NOT_LETTERS = re.compile(r"[¿?¡!.,:;…]+")
 
 
-@dataclass(frozen=True, slots=True)
-class MemorisedPair:
-    """A sentence that must be known, an `AlignedSentence`."""
-
-    spanish: str
-    glosses: tuple[str, ...]
-    alignment: tuple[tuple[int, ...], ...]
-
-
-def memorised_pairs(read: Reader) -> tuple[MemorisedPair, ...]:
+def memorised_pairs(read: Reader) -> tuple[Pair, ...]:
     """All of `training_pairs`, their slots filled in several ways, with and without a full stop.
 
     Args:
@@ -47,17 +29,12 @@ def memorised_pairs(read: Reader) -> tuple[MemorisedPair, ...]:
     """
     return tuple(
         dict.fromkeys(
-            _filled(pair, name, number, stop, read)
+            filled(replace(pair, sentence=pair.sentence + stop), name, number, read)
             for pair in training_pairs()
             for name, number in zip(_NAMES, _NUMBERS, strict=True)
             for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
         )
     )
-
-
-def key(sentence: str) -> str:
-    """What all ways of typing a sentence have in common: its words, folded, without marks."""
-    return " ".join(fold(_NOT_LETTERS.sub(" ", sentence)).split())
 
 
 def ways_of_typing(sentence: str) -> tuple[str, ...]:
@@ -80,39 +57,3 @@ def not_memorised(model: SentenceModel, read: Reader) -> tuple[str, ...]:
             if got != expected:
                 wrong.append(f"{sentence} -> {' '.join(got)}")
     return tuple(wrong)
-
-
-def _filled(pair: AlignedPair, name: str, number: str, stop: str, read: Reader) -> MemorisedPair:
-    sentence = pair.sentence.replace(NAME, name).replace(NUMBER, number) + stop
-    words = read(sentence)
-    glosses: list[str] = []
-    alignment: list[tuple[int, ...]] = []
-    for gloss, sources in zip(pair.glosses, pair.sources, strict=True):
-        if gloss in (NAME, NUMBER):
-            place = _slot_place(words, name if gloss == NAME else number, sentence)
-            glosses.append(name.upper() if gloss == NAME else words[place].form)
-            alignment.append((place,))
-        else:
-            glosses.append(gloss_name(gloss))
-            alignment.append(tuple(sorted(_place(words, source, sentence) for source in sources)))
-    return MemorisedPair(sentence, tuple(glosses), tuple(alignment))
-
-
-def _place(words: Sequence[SourceWord], source: str, sentence: str) -> int:
-    """The last word with a form: "Ana, ¿quién es Ana?" asks about the second one."""
-    places = [place for place, word in enumerate(words) if fold(word.form) == fold(source)]
-    # Words that are read as one, such as "por favor", stand in one place.
-    places = places or [place for place, word in enumerate(words) if fold(source) in fold(word.form).split()]
-    if not places:
-        raise TranslationError(
-            "invalid_data",
-            f"expected '{source}' among the words of '{sentence}', got {[word.form for word in words]}",
-        )
-    return places[-1]
-
-
-def _slot_place(words: Sequence[SourceWord], filler: str, sentence: str) -> int:
-    for place, word in enumerate(words):
-        if word.text == filler or word.form == filler.lower():
-            return place
-    raise TranslationError("invalid_data", f"expected '{filler}' to be one word of '{sentence}'")

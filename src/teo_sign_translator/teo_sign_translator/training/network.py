@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 import torch
@@ -19,27 +20,9 @@ _CELLS = {"rnn": nn.RNN, "gru": nn.GRU, "lstm": nn.LSTM}
 _NEVER = -1e9
 
 
-@dataclass(frozen=True, slots=True)
-class TensorBatch:
-    """A `Batch` on the device that trains."""
-
-    forms: Tensor
-    capitals: Tensor
-    lemmas: Tensor
-    tags: Tensor
-    said: Tensor
-    said_copy: Tensor
-    target: Tensor
-    ways: Tensor
-    looks: Tensor
-    weight: Tensor
-
-    @classmethod
-    def of(cls, batch: Batch, device: torch.device) -> TensorBatch:
-        """Copy a batch to the device."""
-        return cls(
-            **{each.name: torch.from_numpy(getattr(batch, each.name)).to(device) for each in fields(cls)}
-        )
+def on_device(batch: Batch[NDArray[Any]], device: torch.device) -> Batch[Tensor]:
+    """A batch on the device that trains."""
+    return Batch(*(torch.from_numpy(getattr(batch, each.name)).to(device) for each in fields(batch)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +96,7 @@ class Network(nn.Module):
             self.said_memory = nn.Linear(memory, size)
             self.said_reading = nn.Linear(size, size, bias=False)
 
-    def forward(self, batch: TensorBatch) -> Said:
+    def forward(self, batch: Batch[Tensor]) -> Said:
         """Log-probabilities of every gloss, given the right ones before it (teacher forcing)."""
         tags = self.tag(batch.tags) + (self.tag_parts @ self.part)[batch.tags]
         readings = self.lemma(batch.lemmas) + tags
@@ -146,7 +129,7 @@ class Network(nn.Module):
             logits = torch.cat([logits, pointer], dim=-1)
         return Said(torch.log_softmax(logits, dim=-1), attention)
 
-    def losses(self, batch: TensorBatch) -> tuple[Tensor, Tensor]:
+    def losses(self, batch: Batch[Tensor]) -> tuple[Tensor, Tensor]:
         """Both losses of a batch, summed over glosses [nat]: of the glosses, and of where attention lies.
 
         Where a gloss can be said in several ways, the sum of their probabilities counts.

@@ -16,16 +16,12 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.decoding import ZooModel
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.pointer.store import load_sentence_model, save_sentence_model
 from teo_sign_translator.training import fitting
 from teo_sign_translator.training.corpus_files import corpus_hash, read_splits, sample, without
 from teo_sign_translator.training.examples import Reader
-from teo_sign_translator.training.memorised_pairs import (
-    MemorisedPair,
-    memorised_pairs,
-    not_memorised,
-)
+from teo_sign_translator.training.memorised_pairs import memorised_pairs, not_memorised
 from teo_sign_translator.training.metrics import Score, score
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
@@ -46,7 +42,7 @@ class TrainingData:
 
     train: list[Pair]
     held_out: dict[str, list[Pair]]
-    by_heart: tuple[MemorisedPair, ...]
+    by_heart: tuple[Pair, ...]
     corpus: Path
     sha256: str
 
@@ -62,7 +58,7 @@ class TrainedModel:
         unknown: Sentences of the paper that do not come out as published.
     """
 
-    model: ZooModel
+    model: SentenceModel
     fit: fitting.Fit
     scores: dict[str, Score]
     unknown: tuple[str, ...]
@@ -138,7 +134,13 @@ def train_model(
             "left_out": fit.left_out,
             "by_heart": len(data.by_heart),
         },
-        "made_by": _made_by(fit.device),
+        "made_by": {
+            "commit": _commit(),
+            "python": platform.python_version(),
+            "torch": torch.__version__,
+            "numpy": np.__version__,
+            "device": fit.device,
+        },
     }
     result = {
         "losses": _rounded(fit.losses),
@@ -147,14 +149,18 @@ def train_model(
         "seconds": round(fit.seconds, 1),
         "pairs_per_second": round(fit.pairs_per_second),
     }
-    save_sentence_model(
-        name,
-        out,
-        config=network,
-        vocabulary=fit.vocabulary,
-        weights=fit.weights,
-        card={**card, "result": result},
-    )
+
+    def save() -> None:
+        save_sentence_model(
+            name,
+            out,
+            config=network,
+            vocabulary=fit.vocabulary,
+            weights=fit.weights,
+            card={**card, "result": result},
+        )
+
+    save()
     model = load_sentence_model(name, out)
     scores = {
         split: score_model(model, sample(pairs, SCORED, config.seed), read)
@@ -167,34 +173,17 @@ def train_model(
         "scores": {split: dataclasses.asdict(each) for split, each in scores.items()},
         "paper_sentences_wrong": len(unknown),
     }
-    save_sentence_model(
-        name,
-        out,
-        config=network,
-        vocabulary=fit.vocabulary,
-        weights=fit.weights,
-        card={**card, "result": result},
-    )
+    save()
     return TrainedModel(model, fit, scores, unknown)
 
 
-def score_model(model: ZooModel, pairs: Sequence[Pair], read: Reader) -> Score:
+def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
     """Translate pairs, the likeliest gloss each time, and compare."""
     got = model.translate_all([read(pair.spanish) for pair in pairs])
     return score(
         [pair.glosses for pair in pairs],
         [tuple(gloss.gloss for gloss in hypotheses[0].glosses) for hypotheses in got],
     )
-
-
-def _made_by(device: str) -> dict[str, str]:
-    return {
-        "commit": _commit(),
-        "python": platform.python_version(),
-        "torch": torch.__version__,
-        "numpy": np.__version__,
-        "device": device,
-    }
 
 
 def _commit() -> str:

@@ -32,12 +32,6 @@ class Typing:
     drop_marks: NDArray[np.bool_]
 
     @classmethod
-    def as_written(cls, count: int) -> Typing:
-        """Nothing left out."""
-        no = np.zeros(count, np.bool_)
-        return cls(np.zeros(count, np.int64), no, no)
-
-    @classmethod
     def draw(cls, count: int, clean: float, random: np.random.Generator) -> Typing:
         """A way of typing for each pair; `clean` of them as written."""
         noisy = random.random(count) >= clean

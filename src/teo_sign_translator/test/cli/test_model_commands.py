@@ -10,8 +10,9 @@ from PIL import Image
 from teo_sign_translator.cli import compare, evaluate, train
 from teo_sign_translator.corpus import Pair, write_pairs
 from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.model_files import read_card
 from teo_sign_translator.pointer import load_sentence_model
-from teo_sign_translator.pointer.store import load_sentence_card
+from teo_sign_translator.pointer.store import SCHEMA
 from teo_sign_translator.training.corpus_files import corpus_hash, read_splits, sample, without
 from teo_sign_translator.training.metrics import score
 
@@ -47,7 +48,7 @@ def test_train_writes_a_model_that_says_what_made_it(
     assert "ways of typing the paper's sentences come out wrong" in said
     assert "test_words:" in said
     assert load_sentence_model("pointer", tmp_path).name == "pointer"
-    card = load_sentence_card("pointer", tmp_path)
+    card = read_card("pointer", SCHEMA, tmp_path)
     assert card["command"] == "ros2 run teo_sign_translator train pointer --epochs 1 --seed 3 --pairs 150"
     assert card["data"]["sha256"] == corpus_hash(corpus)
     assert card["data"]["pairs"] == 150 + card["data"]["by_heart"]

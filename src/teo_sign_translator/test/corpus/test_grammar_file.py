@@ -5,8 +5,8 @@ from __future__ import annotations
 import shutil
 
 import pytest
+from example_chooser import ExampleChooser
 
-from teo_sign_translator.corpus.choosers import ExampleChooser
 from teo_sign_translator.corpus.derivation import Derivation
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.grammar_file import load_grammar

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from example_chooser import ExampleChooser
 
-from teo_sign_translator.corpus.choosers import ExampleChooser
 from teo_sign_translator.corpus.derivation import Derivation
 from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.generator import Generator

@@ -18,7 +18,8 @@ from teo_sign_translator.corpus.paper_pairs import (
     training_pairs,
 )
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.lstm256.store import load_card, load_model
+from teo_sign_translator.lstm256.store import SCHEMA, load_model
+from teo_sign_translator.model_files import read_card
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.training.lstm256_run import shipped_examples
@@ -151,7 +152,7 @@ def test_the_shipped_model_knows_every_sentence_that_it_was_taught() -> None:
 
 
 def test_the_card_names_the_data_that_the_package_holds() -> None:
-    card = load_card("lstm256")
+    card = read_card("lstm256", SCHEMA)
     assert card["data"]["sha256"] == training_data_hash(), (
         "data changed: run `ros2 run teo_sign_translator train`"
     )

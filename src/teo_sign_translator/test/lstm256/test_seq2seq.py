@@ -23,7 +23,7 @@ OUTPUTS = Vocabulary.of_outputs(target for _, target in EXAMPLES)
 
 def _train(seed: int = 1, batch_size: int = 3, epochs: int = 25) -> Training:
     config = TrainingConfig(hidden=32, learning_rate=0.01, epochs=epochs, batch_size=batch_size, seed=seed)
-    return train(EXAMPLES[:6], EXAMPLES[6:], INPUTS, OUTPUTS, config)
+    return train(EXAMPLES[:6], EXAMPLES[6:], config)
 
 
 def test_the_loss_falls_and_what_was_taught_is_known() -> None:
@@ -57,10 +57,9 @@ def test_training_leaves_the_callers_settings_alone() -> None:
 
 def test_the_loss_of_a_batch_is_that_of_its_examples_one_by_one() -> None:
     # One step from the same weights: a batch pads its shorter sequences, which must not count.
-    whole = train(EXAMPLES, EXAMPLES, INPUTS, OUTPUTS, TrainingConfig(hidden=8, epochs=1, batch_size=8))
+    whole = train(EXAMPLES, EXAMPLES, TrainingConfig(hidden=8, epochs=1, batch_size=8))
     parts = [
-        train(EXAMPLES, [example], INPUTS, OUTPUTS, TrainingConfig(hidden=8, epochs=1, batch_size=8))
-        for example in EXAMPLES
+        train(EXAMPLES, [example], TrainingConfig(hidden=8, epochs=1, batch_size=8)) for example in EXAMPLES
     ]
     lengths = [len(target) + 1 for _, target in EXAMPLES]
     one_by_one = np.average([part.validation_losses[0] for part in parts], weights=lengths)
@@ -123,7 +122,7 @@ def test_a_configuration_that_cannot_train_is_refused(change: dict[str, float]) 
 
 def test_training_without_examples_is_refused() -> None:
     with pytest.raises(TranslationError) as error:
-        train([], [], INPUTS, OUTPUTS, TrainingConfig())
+        train([], [], TrainingConfig())
     assert error.value.code == "invalid_config"
 
 

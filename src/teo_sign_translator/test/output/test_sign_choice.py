@@ -8,7 +8,7 @@ import pytest
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.output_words import OutputWord, name
+from teo_sign_translator.output.output_words import OutputWord, lexical
 from teo_sign_translator.output.sign_choice import SignChooser, read_signs, read_synonyms
 from teo_sign_translator.output.translation import Kind, Origin
 
@@ -45,7 +45,7 @@ def test_a_gloss_of_several_words_is_shown_word_by_word() -> None:
 
 
 def test_a_name_is_spelled_unless_it_has_a_sign_of_its_own() -> None:
-    ana = name("ANA", ("Ana",), 0.8)
+    ana = lexical("ANA", ("Ana",), 0.8, is_name=True)
     assert _chosen(ana, "HOLA") == [("A N A", Origin.SPELLED)]
     assert _chosen(ana, "ANA") == [("ANA", Origin.MODEL)]
     assert [output_word.signs for output_word in CHOOSER.choose([ana], None)] == [("A", "N", "A")]

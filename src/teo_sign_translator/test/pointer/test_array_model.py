@@ -14,15 +14,15 @@ from threadpoolctl import threadpool_info
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import POINTER, ZOO
-from teo_sign_translator.pointer.decoding import ZooModel, one_core
+from teo_sign_translator.pointer.decoding import SentenceModel, one_core
 from teo_sign_translator.training.batches import WordNumbers, batches
 from teo_sign_translator.training.examples import ExampleReader
 from teo_sign_translator.training.fitting import make_vocabulary
-from teo_sign_translator.training.network import Network, TensorBatch
+from teo_sign_translator.training.network import Network, on_device
 
 
 @pytest.fixture(scope="module")
-def pointer() -> ZooModel:
+def pointer() -> SentenceModel:
     """A pointer that has learned the small language."""
     return small_model(POINTER, fit_small(POINTER, sentence_pairs(600), epochs=6, rare_word=5.0))
 
@@ -60,7 +60,7 @@ def test_plain_arrays_say_what_pytorch_says(name: str) -> None:
         one = examples.take(np.array([place]))
         (batch,) = batches(one, table, numbers, 1, spare=4 if config.layout == "equal_length" else 0)
         with torch.no_grad():
-            said = network(TensorBatch.of(batch, torch.device("cpu")))
+            said = network(on_device(batch, torch.device("cpu")))
         expected = np.exp(said.log_probability[0].numpy())
         words = read(pairs[place].spanish)
         if config.layout == "equal_length":
@@ -84,7 +84,7 @@ def test_plain_arrays_say_what_pytorch_says(name: str) -> None:
                 np.testing.assert_allclose(step.attention[0], said.attention[0, time].numpy(), atol=1e-4)
 
 
-def test_words_never_seen_are_carried_over(pointer: ZooModel) -> None:
+def test_words_never_seen_are_carried_over(pointer: SentenceModel) -> None:
     (best, *_) = pointer.translate(read("Zoraida no lee los zuecos ."), beam=3)
     assert glosses_of(best)[0] == "ZORAIDA"
     assert set(glosses_of(best)) >= {"ZUECOS", "LEER", "NO"}
@@ -94,7 +94,7 @@ def test_words_never_seen_are_carried_over(pointer: ZooModel) -> None:
     assert 0 < copied.probability <= 1
 
 
-def test_glosses_name_the_words_that_they_stand_for(pointer: ZooModel) -> None:
+def test_glosses_name_the_words_that_they_stand_for(pointer: SentenceModel) -> None:
     pairs = sentence_pairs(40, seed=2)
     right = 0
     for pair in pairs:
@@ -103,12 +103,12 @@ def test_glosses_name_the_words_that_they_stand_for(pointer: ZooModel) -> None:
     assert right >= 38
 
 
-def test_a_generated_gloss_is_not_called_copied(pointer: ZooModel) -> None:
+def test_a_generated_gloss_is_not_called_copied(pointer: SentenceModel) -> None:
     (best,) = pointer.translate(read("como el pan ."))
     assert [(gloss.gloss, gloss.copied) for gloss in best.glosses][:2] == [("YO", False), ("PAN", True)]
 
 
-def test_a_beam_never_ends_below_the_likeliest_gloss_each_time(pointer: ZooModel) -> None:
+def test_a_beam_never_ends_below_the_likeliest_gloss_each_time(pointer: SentenceModel) -> None:
     sentences = [read(pair.spanish) for pair in sentence_pairs(60, seed=3)] + [
         read("zzz Qu el no no los xx ?? aa")
     ]
@@ -121,7 +121,7 @@ def test_a_beam_never_ends_below_the_likeliest_gloss_each_time(pointer: ZooModel
         assert len({glosses_of(each) for each in wide}) == len(wide)
 
 
-def test_the_probability_of_a_translation_is_that_of_its_glosses_and_its_end(pointer: ZooModel) -> None:
+def test_the_probability_of_a_translation_is_that_of_its_glosses_and_its_end(pointer: SentenceModel) -> None:
     (best,) = pointer.translate(read("Ana come el pan ."))
     glosses = math.prod(gloss.probability for gloss in best.glosses)
     assert glosses >= math.exp(best.log_probability) * 0.999
@@ -129,7 +129,7 @@ def test_the_probability_of_a_translation_is_that_of_its_glosses_and_its_end(poi
 
 
 @pytest.mark.parametrize("beam", [1, 3])
-def test_many_sentences_together_are_translated_as_one_by_one(pointer: ZooModel, beam: int) -> None:
+def test_many_sentences_together_are_translated_as_one_by_one(pointer: SentenceModel, beam: int) -> None:
     sentences = [read(pair.spanish) for pair in sentence_pairs(30, seed=4)] + [()]
     together = pointer.translate_all(sentences, beam=beam)
     for words, hypotheses in zip(sentences, together, strict=True):
@@ -138,7 +138,7 @@ def test_many_sentences_together_are_translated_as_one_by_one(pointer: ZooModel,
         assert alone[0].log_probability == pytest.approx(hypotheses[0].log_probability, abs=1e-3)
 
 
-def test_a_sentence_keeps_to_one_core_and_gives_the_others_back(pointer: ZooModel) -> None:
+def test_a_sentence_keeps_to_one_core_and_gives_the_others_back(pointer: SentenceModel) -> None:
     def threads() -> list[int]:
         return [pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"]
 
@@ -151,7 +151,7 @@ def test_a_sentence_keeps_to_one_core_and_gives_the_others_back(pointer: ZooMode
 
 @pytest.mark.parametrize("name", ["rnn_equal", "gru", POINTER])
 @pytest.mark.parametrize("sentence", ["", ".", "@ # ñandú 漢字", "el " * 500, "Zzz " * 30, "no " * 7 + "."])
-def test_odd_sentences_give_a_translation(name: str, sentence: str, pointer: ZooModel) -> None:
+def test_odd_sentences_give_a_translation(name: str, sentence: str, pointer: SentenceModel) -> None:
     model = pointer if name == POINTER else small_model(name, fit_small(name, sentence_pairs(20), epochs=1))
     for beam in (1, 3):
         hypotheses = model.translate(read(sentence), beam=beam)

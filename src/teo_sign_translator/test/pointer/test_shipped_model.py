@@ -5,13 +5,13 @@ from functools import cache, partial
 import pytest
 
 from teo_sign_translator.corpus import Pair
-from teo_sign_translator.model_files import models_directory
+from teo_sign_translator.model_files import available_models, models_directory, read_card
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
-from teo_sign_translator.pointer.decoding import ZooModel
-from teo_sign_translator.pointer.store import load_sentence_card, sentence_models
+from teo_sign_translator.pointer.decoding import SentenceModel
+from teo_sign_translator.pointer.store import SCHEMA
 from teo_sign_translator.text.source_words import source_words
 from teo_sign_translator.training.examples import Reader
 from teo_sign_translator.training.memorised_pairs import memorised_pairs, not_memorised
@@ -23,7 +23,7 @@ def read() -> Reader:
 
 
 @cache
-def model() -> ZooModel:
+def model() -> SentenceModel:
     return load_sentence_model(POINTER)
 
 
@@ -33,8 +33,8 @@ def _translated(sentence: str) -> str:
 
 def test_the_default_model_is_the_pointer_of_the_zoo() -> None:
     assert Translator.load().name == POINTER
-    assert POINTER in sentence_models()
-    assert NetworkConfig(**load_sentence_card(POINTER)["network"]) == ZOO[POINTER]
+    assert POINTER in available_models(schema=SCHEMA)
+    assert NetworkConfig(**read_card(POINTER, SCHEMA)["network"]) == ZOO[POINTER]
 
 
 def test_the_papers_pairs_come_out_exactly_however_they_are_typed() -> None:
@@ -71,7 +71,7 @@ def test_names_and_numbers_never_seen_are_carried_over() -> None:
 
 
 def test_the_scores_on_the_card_hold_for_sentences_made_anew(generated_pairs: list[Pair]) -> None:
-    scores = load_sentence_card(POINTER)["result"]["scores"]
+    scores = read_card(POINTER, SCHEMA)["result"]["scores"]
     made = [pair for pair in generated_pairs if pair.split in scores]
     claimed = sum(scores[pair.split]["exact"] for pair in made)
     right = sum(_translated(pair.spanish) == " ".join(pair.glosses) for pair in made)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from small_language import NOUNS, fit_small, read, sentence_pairs, small_config
 
+from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.config import POINTER, NetworkConfig, TrainingConfig
 from teo_sign_translator.training.fitting import fit
-from teo_sign_translator.training.memorised_pairs import MemorisedPair
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:
@@ -46,14 +46,14 @@ def test_a_gloss_that_is_always_a_copy_has_no_place_in_the_closed_list() -> None
 
 
 def test_pairs_that_cannot_be_said_are_counted_and_left_out() -> None:
-    strange = MemorisedPair("como el pan .", ("YO", "BOCADILLO", "COMER"), ((0,), (2,), (0,)))
+    strange = Pair("como el pan .", ("YO", "BOCADILLO", "COMER"), ((0,), (2,), (0,)), "paper", "train")
     trained = fit_small(POINTER, [*sentence_pairs(50), strange], epochs=1)
     assert (trained.pairs, trained.left_out) == (50, 1)
 
 
 def test_an_alignment_outside_the_sentence_is_refused() -> None:
     with pytest.raises(TranslationError) as error:
-        fit_small(POINTER, [MemorisedPair("como .", ("YO",), ((5,),))], epochs=1)
+        fit_small(POINTER, [Pair("como .", ("YO",), ((5,),), "paper", "train")], epochs=1)
     assert error.value.code == "invalid_data"
 
 
