@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 # make setup | run | demo TEXT="..." | test | lint | bench | docs
 SHELL := /bin/bash
 .DEFAULT_GOAL := help

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Fixtures for every test of the workspace: a DDS domain of its own for each test that asks for one."""
 
 from __future__ import annotations

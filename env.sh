@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 # Source me: `. ./env.sh`, in bash or zsh, after `make setup`. Puts the workspace, its Python and `ros2` on the path.
 # Names only what this checkout holds, so sourcing it twice changes nothing.
 

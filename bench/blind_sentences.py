@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How many of the blind sentences are translated as accepted: measured once for each model that is released.
 
 `python bench/blind_sentences.py` shows the sentences to the shipped model and the baselines and keeps the

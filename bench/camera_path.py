@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a depth camera, the detector and the retargeting do to a sign on its way to the robot.
 
 A sign's score is brought onto TEO at once (`capture_scores`) and, the long way, as a demonstration is:

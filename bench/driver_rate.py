@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the driver costs and how regular it is: one step, one trajectory's check, and the node over DDS."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The manual alphabet: is what TEO plays for a letter most like the recording it was made from?
 
 What the planner plays, speed limits and all, goes through forward kinematics and is compared with the

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The words of the table: how well founded, how much slower than written, how often in their own way."""
 
 from __future__ import annotations

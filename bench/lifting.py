@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How well a clip that one camera took is lifted into space, against people who are known exactly.
 
 The keypoints of the synthetic signer are laid into a picture, with the noise of a good detector, and lifted

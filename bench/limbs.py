@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Time to fit one limb's depths to its lengths: Ipopt as skeletonRetriever sets it, and our bounded solve."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Planning: how long a sentence takes, and whether any of 10,000 random plans breaks a limit.
 
 Limits are looked at twice in each plan: in the exact extremes of its pieces of constant jerk, and in what a

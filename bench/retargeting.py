@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How well TEO does what a person does: exact keypoints of four people, with angles copied to compare."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How far the retriever's joints are from the truth, beside the usual way and the original's in the same run.
 
 The truth is the joint's centre, from the skeleton of the rendered person. Body shapes and motions are others

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The whole retriever over DDS: images in, skeletons out, on the cores of this machine."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the retriever makes of depth as real cameras give it, and of several people.
 
 The takes of `retriever_accuracy.py`, with what the detector saw in them, are made worse:

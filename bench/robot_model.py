@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Time to draw a picture of TEO and to find how far it is from touching itself, on one core."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Time from a text on `text` to its first JointTrajectory, through the real translator and executor.
 
 The bench stands in for driver and clock: simulated time runs with real time, and as soon as a trajectory

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How well and how fast Spanish is translated: our model, the paper's, a trivial baseline and a peer.
 
 The sets, from the easiest to the hardest, are those of test/data/README.md: pairs that were taught, sentences

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The main job, from one command: a Spanish text in, TEO signing it out.
 
 Starts translator, executor, driver and a recorder as processes, publishes the text as anyone would, waits

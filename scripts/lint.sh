@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 # Style, types, package graph and licence lines of the whole workspace; `lint.sh types` checks types alone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Follows one text through the graph: which of its sentences have been signed, and how."""
 
 from __future__ import annotations

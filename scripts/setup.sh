@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 # Makes the workspace ready: a virtual environment in .venv and the packages built into install/.
 #   scripts/setup.sh run   what signs, and the demo
 #   scripts/setup.sh all   that, and what sees, trains, tests and documents

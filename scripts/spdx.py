@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Who holds the rights in each source file, and under which licence: adds the two lines, or checks them.
 
 `python scripts/spdx.py` adds them where they are missing; `--check` names the files that lack them.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a package imports is what its package.xml and setup.py declare."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The main job as the README gives it: one command, and what it leaves."""
 
 from __future__ import annotations

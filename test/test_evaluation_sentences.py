@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The sentences that the translator is measured on are in nothing that it was made from."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The whole graph as its users run it: real processes over DDS, from a text to joint states."""
 
 from __future__ import annotations

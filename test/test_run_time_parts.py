@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What signs needs nothing of what sees, draws, trains or stands in for ROS: shown by doing without it."""
 
 from __future__ import annotations

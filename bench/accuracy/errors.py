@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Errors of joints against the truth, split by what contributed to them."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Ways from keypoints and depth to joints, with the same in and out: ours and what it is held against."""
 
 from __future__ import annotations

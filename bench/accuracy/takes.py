@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Rendered takes with their truth and what the detector sees in them, kept on disk between runs."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Takes that the retriever's constants are calibrated on: other bodies and motions than it is tested on."""
 
 from __future__ import annotations

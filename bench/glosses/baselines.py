@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What others make of a Spanish sentence: the baselines that a translator has to beat."""
 
 from __future__ import annotations

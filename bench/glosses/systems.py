@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What translates Spanish in the benches, and the sentences that it is given."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The simple way to bring a person onto TEO, to compare with: each joint takes the angle of the person's.
 
 Shoulder, elbow and forearm take the person's angles, cut off at TEO's limits; the bend of the wrist that TEO

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How far TEO is from a person, measured by the robot's own kinematics and the person's true keypoints."""
 
 from __future__ import annotations

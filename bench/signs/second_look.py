@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A second look at a motion of TEO, by nothing that made it: limits and shapes read from the URDF anew.
 
 Every pair of the robot's collision shapes is looked at (Coal), but for those of links at most three joints

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Tracks of the synthetic signer with exact truth, and no image rendered: 8 ms a frame."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signs and tables made for tests, and a driver's view of a plan."""
 
 from __future__ import annotations

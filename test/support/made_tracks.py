@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person put together by formula: where the joints are at each time is known exactly."""
 
 from __future__ import annotations

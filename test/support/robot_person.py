@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """TEO as a person: keypoints at TEO's own joints, and people that are made of them."""
 
 from __future__ import annotations

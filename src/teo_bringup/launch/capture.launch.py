@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What learns signs: the retriever, and the node that turns what it sees into entries of the table."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What sees: people's skeletons from the images of a depth camera, whose own driver is started elsewhere."""
 
 from pathlib import Path

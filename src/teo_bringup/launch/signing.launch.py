@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What signs: translator, executor and driver. When one of them ends, all do."""
 
 from pathlib import Path

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The project's nodes as processes of their own: start them, notice when one dies, stop them."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`start`: translator, executor and driver under one command, until it is told to end or one of them ends."""
 
 from __future__ import annotations

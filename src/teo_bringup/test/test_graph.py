@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Processes under supervision: what they say, how they end, what becomes of the others."""
 
 from __future__ import annotations

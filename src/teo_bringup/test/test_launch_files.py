@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The launch files name what exists; `launch` itself, which no wheel has, is stood in for."""
 
 from __future__ import annotations

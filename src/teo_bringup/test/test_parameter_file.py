@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The parameter file says what the nodes' own tables say."""
 
 from __future__ import annotations

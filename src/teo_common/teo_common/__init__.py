@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the packages share: text folding, atomic files, package data, parameters, diagnostics, running a node.
 
 `teo_common.node_process` (running a node) and `teo_common.mcap_salvage` (reading cut-off MCAP files) are

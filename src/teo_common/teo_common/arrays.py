@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Names for the types of arrays that the packages pass to each other."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a node says about its health on `diagnostics`, with the meanings of ROS's `diagnostic_updater`.
 
 A node judges itself in a pure function that returns a `Diagnosis`; a `DiagnosticsPublisher` sends it under

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Reading an MCAP file from its front: whole, cut off or damaged.
 
 A recorder that is killed leaves a file without its last records: no summary, maybe half a chunk. All that is

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Where the data files of a package are: in its source tree, or installed."""
 
 from __future__ import annotations

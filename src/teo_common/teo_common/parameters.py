@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A node's parameters as rows of a table: default, meaning and range in one place."""
 
 from __future__ import annotations

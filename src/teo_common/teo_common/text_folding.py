@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Spanish text without what people leave out when they type: accents, capitals, marks."""
 
 from __future__ import annotations

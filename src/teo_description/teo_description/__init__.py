@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """TEO's robot description: URDF, joint groups, limits, self-collision and a renderer without a display."""
 
 from teo_description.errors import DescriptionError

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """TEO's right hand as points and rods, in the axes of its palm: one handshape (`DextraHand`) or many at once.
 
 A finger's points depend on its one flexion, the thumb's on abductor and flexion: `DextraTable` works both out

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The pose in which TEO parks, and in which every sentence begins and ends."""
 
 from __future__ import annotations

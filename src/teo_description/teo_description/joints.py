@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Names and groups of TEO's joints, in the order in which the whole project lists them."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Motions in a CSV file: a header line, then time [s] first and a column of positions [rad] per joint."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """TEO as a rigid-body model: where its links are at a pose, and how they move with the joints."""
 
 from __future__ import annotations

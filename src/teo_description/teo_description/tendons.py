@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The edge to the real Dextra hand: from joint angles to what its motors are told.
 
 Inside the project the axis of a finger or thumb is the flexion of its proximal phalanx [rad]. The device

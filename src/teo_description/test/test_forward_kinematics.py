@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The URDF against the Denavit-Hartenberg chains that TEO's own Cartesian controller uses.
 
 The rows below are those of teo-configuration-files, share/contexts/kinematics (trunk, arms, head, legs):

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The node as its peers see it, with a small robot of the test's own that follows what it is sent."""
 
 from __future__ import annotations

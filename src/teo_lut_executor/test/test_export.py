@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Exports, read back by readers of their own: rows of doubles as C++ reads them, and YAML."""
 
 from __future__ import annotations

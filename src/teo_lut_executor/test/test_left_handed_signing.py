@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signing left-handed: mirror images, within the limits of the other arm."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From signs to motion: composition, timing, collision avoidance and the head, within the robot's limits."""
 
 from teo_motion.lone_sign import sign_motion

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """One sign as the planner plays it: from rest over the sign, slowed down where TEO must be, back to rest."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Plans sentences: tokens in, motion out.
 
 One walk: `Lexicon` finds the signs, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Sentences in which TEO's arms are in each other's way."""
 
 from __future__ import annotations

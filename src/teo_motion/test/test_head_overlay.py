@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the head does in sentences of the package's table and of random ones."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """No plan breaks a limit, whatever the signs: looked at in the motion itself and through a driver's eyes."""
 
 from __future__ import annotations

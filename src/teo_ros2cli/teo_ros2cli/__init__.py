@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A `ros2` command for machines whose ROS 2 comes from PyPI; it steps aside for the genuine one.
 
 For other packages: `bags.writer.BagWriter` and `bags.bag.open_bag` write and read bags, `definitions` gives

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Definitions of interfaces from the installed files, and their hashes. Needs no ROS running.
 
 A definition is given in two forms: as it is shown to people, nested types expanded, and as one text with all

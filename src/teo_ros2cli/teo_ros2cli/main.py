@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The `ros2` command: finds the sub-command that is asked for and loads only that."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Installed packages, their executables and interfaces, from the ament index. Needs no ROS running."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The command as a process, and nodes of the tests' own, in a DDS domain for each test."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The commands in a running graph: processes over DDS, in a domain of their own."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From a person to a sign of the robot: recordings in, entries of the look-up table out.
 
     >>> from teo_sign_capture import Robot, read_skeletons, retarget_motion

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The cheapest path through time over candidates (Viterbi, IEEE Trans. Inf. Theory 1967)."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Spanish text to Spanish Sign Language (LSE): which signs are made, in which order, for which words.
 
     >>> print(Translator.load().translate("Mañana no voy al colegio."))

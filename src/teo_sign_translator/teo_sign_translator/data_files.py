@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The package's data files: where they are, and reading those with columns."""
 
 from __future__ import annotations

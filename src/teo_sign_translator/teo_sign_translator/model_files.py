@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Models as files: weights in safetensors, and a card in JSON that says what they are and what made them."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A language small enough to be learned in a second, and models that learn it."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sentence model that needs no training: each word by its likeliest reading, in Spanish order."""
 
 from __future__ import annotations

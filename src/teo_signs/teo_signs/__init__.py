@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sign and the table of signs: file, schema, evidence, tokens, lexicon, mirroring, likeness, export."""
 
 from teo_signs.errors import LutError, PlanError

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The exceptions of signs: of the table, and of sentences that cannot be signed."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From tokens to signs: look a token up, and spell what the table lacks."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How different two signs look: handshape, orientation of the palm, movement, place.
 
 Each is measured on both hands at moments spread over the sign, in units of its just noticeable difference at

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The look-up table: a directory with one JSON file for each sign, read when a sign is first asked for."""
 
 from __future__ import annotations

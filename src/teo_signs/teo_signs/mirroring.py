@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The table as a left-handed signer makes it: every sign as its mirror image.
 
 What the right hand does the left one does, and the other way round; head and trunk turn to the other side.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The file of a sign: read with every check, written whole or not at all."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The text form of a sign, field by field: one JSON object, `SCHEMA_VERSION` 1.
 
 `sign_json_schema()` is published as `lut/sign.schema.json`, so that editors and other programs can check an

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Sign tokens: what a sentence is made of before it becomes motion. Mirrors `teo_sign_msgs/SignToken`."""
 
 from __future__ import annotations

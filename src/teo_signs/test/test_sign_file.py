@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """An entry's file: what is written is read back, and whatever is wrong is refused with its reason."""
 
 from __future__ import annotations

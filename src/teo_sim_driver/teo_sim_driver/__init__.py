@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Simulated joint driver of TEO: executes joint trajectories as the robot would, or says why not."""
 
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Interpolation between trajectory points as Bezier curves of degree five, and sure bounds of such curves.
 
 A segment of duration T [s] from (p0, v0, a0) to (p1, v1, a1) is the one polynomial of degree five that

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The node: joint trajectories in, joint states out. Owns no motion: see `joint_follower.JointFollower`."""
 
 from __future__ import annotations

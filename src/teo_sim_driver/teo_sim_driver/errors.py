@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the driver raises: one base class, and the reasons for which it refuses a trajectory."""
 
 from __future__ import annotations

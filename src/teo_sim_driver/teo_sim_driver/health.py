@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the driver says about itself: its diagnosis, and a line for refusals."""
 
 from __future__ import annotations

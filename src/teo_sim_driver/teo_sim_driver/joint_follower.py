@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the joints do: follow a trajectory, hold, or stop."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the driver reads of a trajectory message, and such messages without ROS.
 
 Anything in the shape of trajectory_msgs/JointTrajectory is read (`TrajectoryLike`); `plain_trajectory` makes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Time along a path: it never goes back or leaps (`PathClock`), and a stop slows it down (`PathStop`).
 
 A joint at q(s) moves at q'(s) ds/dt. Letting ds/dt fall from 1 to 0 stops all joints together and on the

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From a message to arrays: all that can be judged without knowing where the robot is."""
 
 from __future__ import annotations

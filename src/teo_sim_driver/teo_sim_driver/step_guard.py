@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The last line of defence: whatever was computed, no step is faster than the robot or outside its limits."""
 
 from __future__ import annotations

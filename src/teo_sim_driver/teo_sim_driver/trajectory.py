@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A trajectory ready to be executed: points in the driver's joint order, and what lies between them."""
 
 from __future__ import annotations

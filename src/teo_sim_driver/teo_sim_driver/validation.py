@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Whether the robot can execute a trajectory from where it is, exactly as it is given."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Thousands of random trajectories, good and spoilt: no limit is ever broken, and nothing ever crashes."""
 
 import copy

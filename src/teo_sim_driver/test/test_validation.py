@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Each reason for which a trajectory is refused, by a good message with one thing wrong."""
 
 from dataclasses import replace

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From colour and depth images to people in space: keypoints of bodies, hands and faces.
 
 `retrieve_recording` goes through a whole recording; an `ImageRetriever`, made of a detector and a

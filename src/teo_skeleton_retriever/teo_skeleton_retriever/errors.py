@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the retriever raises: one base class, a stable reason and a sentence."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Images in, people in space out: the detector and what comes after it, with the time that each takes."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """One person over time: from keypoints in images and depth to joints in space."""
 
 from __future__ import annotations

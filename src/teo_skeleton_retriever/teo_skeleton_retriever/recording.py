@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Skeletons of a whole recording, without ROS running: what `retrieve` and other packages call."""
 
 from __future__ import annotations

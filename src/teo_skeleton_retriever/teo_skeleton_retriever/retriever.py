@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The retriever: 2D keypoints and depth of one image after the other in, tracked 3D people out."""
 
 from __future__ import annotations

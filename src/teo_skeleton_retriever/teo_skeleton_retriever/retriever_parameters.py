@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What can be set of the retriever: one table with meaning, unit, range and the reason of each default."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Bags of the take, written by a library that the code under test does not write with."""
 
 from __future__ import annotations

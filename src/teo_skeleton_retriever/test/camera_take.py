@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person before a camera, as arrays and as messages: what a driver publishes and a bag holds."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person made of capsules, with exact depth by ray casting: the truth that estimates are held against."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Confidence maps and limb fields of known people.
 
 Drawn as Cao et al. (TPAMI 2021, equations 6 to 9) define what the networks are trained to give: Gaussians at

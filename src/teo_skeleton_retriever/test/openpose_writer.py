@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Writes people as OpenPose's `--write_json` does, version 1.3."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """People who sign before a depth camera: rendered colour and depth, with the true place of each keypoint.
 
 `render_take` gives the frames of a take. The names below are loaded when they are first used, so that

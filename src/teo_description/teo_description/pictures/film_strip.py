@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Several moments of a motion side by side on one picture."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Triangles for the boxes, cylinders and spheres of the robot description."""
 
 from __future__ import annotations

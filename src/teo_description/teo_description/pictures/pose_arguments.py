@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A pose as people write it on a command line: ``name=value`` or a JSON file."""
 
 from __future__ import annotations

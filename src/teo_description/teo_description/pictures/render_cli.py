@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Command: draw a pose of TEO, or a planned motion as a film and a film strip."""
 
 from __future__ import annotations

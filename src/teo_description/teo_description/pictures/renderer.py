@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Pictures of TEO without a display: triangles drawn on the CPU by OpenCV's software rasteriser."""
 
 from __future__ import annotations

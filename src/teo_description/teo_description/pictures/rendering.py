@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Pictures and films of TEO, without a display: what other packages import."""
 
 from __future__ import annotations

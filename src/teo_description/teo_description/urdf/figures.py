@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The figures from which the URDF is built: CSV tables in ``data/``, each naming its sources in its head.
 
 Tables describe the body as published; hands, fixed frames and shapes are listed for the right side and

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Boxes, cylinders and spheres as URDF knows them, made from the rows of the shape table."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 run teo_lut_executor lut`: look into a table of signs."""
 
 from __future__ import annotations

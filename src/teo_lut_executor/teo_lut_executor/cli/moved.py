@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Commands that have moved to `teo_sign_capture`: they work from here for one release more, with a note."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`plan`: the motion of a sentence in the printed form, without ROS running."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Plans as pictures: a film, and a strip with the middle of every sign."""
 
 from __future__ import annotations

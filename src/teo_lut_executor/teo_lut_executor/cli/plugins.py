@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Commands of `lut` that other packages bring: what needs a camera's software is not on every robot."""
 
 from __future__ import annotations

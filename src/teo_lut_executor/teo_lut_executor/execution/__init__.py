@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Without ROS: which sentence is signed when, whether the robot follows, and who is told."""
 
 from teo_lut_executor.execution.events import (

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the execution queue is told, what it answers, and how patient it is."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Sentences in their order, one at a time, from rest to rest. Knows neither ROS nor how they are planned.
 
 Every call takes the time and returns what is to be done, in order; `PlanWanted` and `ReturnWanted` are

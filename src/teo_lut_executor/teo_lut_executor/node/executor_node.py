@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`executor_node`: sign tokens in, joint trajectories out."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Goals of the action `execute_sentence`, by the ticket of their sentence."""
 
 from __future__ import annotations

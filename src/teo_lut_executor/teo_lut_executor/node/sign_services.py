@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Answers about the look-up table: `list_signs` and `get_sign`."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Keeps a sentence clear of the robot's own body: idle arms go to rest first, transitions are led around."""
 
 from __future__ import annotations

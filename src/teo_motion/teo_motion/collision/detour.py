@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Detours: postures to pass through so that the arms go around the robot's own body."""
 
 from __future__ import annotations

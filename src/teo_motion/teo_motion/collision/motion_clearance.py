@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How near parts of the robot come to each other along a motion."""
 
 from __future__ import annotations

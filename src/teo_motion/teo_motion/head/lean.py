@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The head forward or back throughout a question, with what signs do with it on top.
 
 A sign that bows the head itself, as BEBER does, bows it from where the question has it, or from less far

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Paths of a neck joint that make a gesture; each gesture offers several, the best first.
 
 Some may be too fast for the joint: `Splicer.spliced` returns None for them. The times of the hands are given,

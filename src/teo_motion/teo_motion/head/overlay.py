@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Lays the head's gestures over a plan: only the two neck joints change, and no time does.
 
 A sign that turns a neck joint itself keeps that joint: its turn belongs to the sign, as the palm's direction

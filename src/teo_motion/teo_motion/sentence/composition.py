@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From signs to waypoints: the postures that a sentence passes through, from rest to rest.
 
 Every knot of every sign is a waypoint, and so are the ends of holds and pauses. A waypoint fixes the joints

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which head gestures a sentence has, and over which of its signs.
 
 The grammar is that of LSE as commonly described (Á. Herrero Blanco, "Gramática didáctica de la lengua de

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a limb does while no sign uses it.
 
 * Head, trunk and hands go to rest at once, in the time that takes, and stay there until the way to their

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The result of planning: the motion of a sentence and when each token is signed."""
 
 from __future__ import annotations

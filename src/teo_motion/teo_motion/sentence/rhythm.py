@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How signs follow one another: times of holds, pauses and transitions, each with its reason."""
 
 from __future__ import annotations

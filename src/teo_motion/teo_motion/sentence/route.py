@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sentence as waypoints with the idle limbs settled, ready to be timed."""
 
 from __future__ import annotations

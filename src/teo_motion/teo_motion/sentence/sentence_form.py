@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What kind of sentence it is, which the robot shows with its head; and which of its words tell."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From a route to a plan: when each waypoint is passed, how every joint moves, checked against its limits."""
 
 from __future__ import annotations

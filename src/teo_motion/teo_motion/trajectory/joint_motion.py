@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Motion of joints as pieces of constant jerk: exact at any time, with exact extremes."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Bounds of acceleration and jerk that make a segment no harder than its time asks for."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Segments from one state of some joints to another, by Ruckig, behind checks that it lacks.
 
 The community build of Ruckig reads beyond lists that are too short, ignores position limits, and sends

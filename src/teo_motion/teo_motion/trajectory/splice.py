@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Replaces one joint's motion between two times, within the joint's limits."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How the robot is brought to a standstill in the middle of a sentence."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Velocities and accelerations with which joints pass their knots."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """When the robot can be at each waypoint, and how its joints move from one to the next.
 
 Each joint goes from one waypoint at which it is fixed to the next by a segment of Ruckig, and need not stop

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Writing a bag from a thread of its own, so that whoever receives messages never waits for the disk."""
 
 from __future__ import annotations

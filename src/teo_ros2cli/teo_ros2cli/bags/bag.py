@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Opening a bag: a directory, with or without its metadata, or a single file."""
 
 from __future__ import annotations

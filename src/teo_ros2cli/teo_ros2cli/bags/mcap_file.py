@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What one MCAP file of a bag holds, told by its summary or by reading it to its end."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a bag holds: the content of `metadata.yaml`, version 9, as rosbag2 of ROS 2 Jazzy writes it."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A quality-of-service profile as bags store it, files that name such, and the choice of one that suits many.
 
 Source of names and numbers: rmw/types.h and rmw/qos_string_conversions.h of ROS 2 Jazzy.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Writing a bag: MCAP files in a directory, and `metadata.yaml` at the end."""
 
 from __future__ import annotations

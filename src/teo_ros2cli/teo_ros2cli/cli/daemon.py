@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 daemon`: for scripts that call it; this command looks at the graph itself, and needs no daemon."""
 
 from __future__ import annotations

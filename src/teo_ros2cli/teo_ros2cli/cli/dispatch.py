@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Choosing a command and a verb by name, with the help texts that list them."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the verbs share that look at the graph: joining it, and printing what has a name and types."""
 
 from __future__ import annotations

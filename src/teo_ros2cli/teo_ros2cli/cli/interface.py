@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 interface`: the definitions of messages, services and actions that are installed."""
 
 from __future__ import annotations

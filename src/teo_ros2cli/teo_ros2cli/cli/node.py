@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 node`: which nodes there are, and what they offer."""
 
 from __future__ import annotations

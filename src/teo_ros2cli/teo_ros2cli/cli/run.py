@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 run`: starts an executable of a package in this process's place."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A subscription that fits itself to the publishers of its topic, those that come later included."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A node for the time of one command, and waiting until it knows the graph."""
 
 from __future__ import annotations

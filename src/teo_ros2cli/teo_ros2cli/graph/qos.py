@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """QoS profiles of rclpy, and their counterparts on the command line and in bags."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Filling a message from a tree of values, strictly.
 
 The generated setters do not check what they are given unless asked to, and the C code below them trusts it;

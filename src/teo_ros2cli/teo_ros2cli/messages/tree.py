@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A message as a tree of plain values, and as a line of comma-separated ones."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """YAML as people type it on the command line, and as messages are printed.
 
 A scalar keeps the text that was typed beside the value that YAML gives it, so that a string field takes

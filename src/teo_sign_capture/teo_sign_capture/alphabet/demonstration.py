@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signs that TEO itself has made in public, from the poses of that demonstration.
 
 roboticslab-uc3m/teo-demos-misc, 20191023-ttd-congress.py: position moves of arms in degrees and of hands in

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Keeps the signing hand from hiding TEO's face: who reads signs looks at it."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Numbers of two and three digits: 11 to 20, the tens and 100.
 
 11 to 14 have a form of their own, seen on the clips of VozVisible (MIT): 11 is a 1 whose wrist shakes, 12 to

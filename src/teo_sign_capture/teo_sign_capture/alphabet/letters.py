@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A recorded letter of the manual alphabet as a sign of TEO's right arm and hand."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The digits of Spanish Sign Language from measured handshapes.
 
 1 shows the palm to the viewer, 2 to 5 count upwards, 6 to 10 take two hands: the left open, the right counts

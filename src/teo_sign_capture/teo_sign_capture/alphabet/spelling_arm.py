@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Where the hand is and how the palm is turned, on TEO's right arm: letters and numbers.
 
 Where a palm is out of reach its orientation goes before the place.

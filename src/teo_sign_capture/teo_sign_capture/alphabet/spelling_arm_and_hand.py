@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Arm and hand sought together, for a palm that TEO's arm cannot turn as a person's.
 
 TEO's wrist bends the hand sideways only (its axis is the palm's normal), where a person's bends it down as

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person's handshape on TEO's right hand.
 
 TEO's finger has one motor for three joints that bend alike, and no motor to spread; its thumb has two, one of

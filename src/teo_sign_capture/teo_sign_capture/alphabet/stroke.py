@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a clip of a letter says over time: where the sign begins and ends, what moves, what is held."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Commands that fill the look-up table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`lut import`: a sign from a clip in which a person's points were found."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`perform_scores`: sign scores as demonstrations, recorded by a depth camera of the synthetic signer."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`lut record`: a sign from the person before the camera, now."""
 
 from __future__ import annotations

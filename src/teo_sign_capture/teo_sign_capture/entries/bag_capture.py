@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From bags to an entry of the table: what the command, the batch, the live capture and the node all do."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Folders of recordings: which signs they hold, and capturing them all, here or on a cluster.
 
 The work goes to a `concurrent.futures.Executor`: this machine's processes, or those of a Dask cluster, whose

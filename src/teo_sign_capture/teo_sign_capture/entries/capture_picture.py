@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Demonstration and robot side by side: what a teacher looks at before trusting an entry."""
 
 from __future__ import annotations

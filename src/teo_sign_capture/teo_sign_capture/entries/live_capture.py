@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A recording of live skeletons as a bag, and from there as any other."""
 
 from __future__ import annotations

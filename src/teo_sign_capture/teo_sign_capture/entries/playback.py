@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sign as the planner plays it, looked at by other means than the planner's own."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From takes to a sign of the table, with what is to be said of it."""
 
 from __future__ import annotations

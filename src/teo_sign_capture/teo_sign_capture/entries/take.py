@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """One demonstration of a sign: found in a recording, and brought onto TEO."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Several takes of one sign become one motion: those that agree are averaged, or the best is chosen.
 
 Takes are compared by what the robot shows: where each palm is, how hand and fingers are directed, and how the

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depth of elbows and wrists in a clip, from the lengths of the arms.
 
 A limb of known length that looks short in the picture points at the viewer or away, and one camera cannot

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How large a person in a picture is: the lengths of the arms, and metres for a unit of the clip."""
 
 from __future__ import annotations

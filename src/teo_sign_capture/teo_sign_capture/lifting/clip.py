@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From a person's points in a picture to a track of keypoints in space.
 
 The view is taken as from far away, the person as facing it: what is left and up is seen, what is forward

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depth of a hand's points in a clip, from the lengths of its bones.
 
 Across the view a point is good to a pixel or two. Its depth is what a detector guesses, or nothing at all.

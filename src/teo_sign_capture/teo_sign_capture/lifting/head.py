@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depth of nose, eyes and ears in a clip, from a head of usual shape.
 
 Five points in the picture and the same five of a rigid head: the head's turn, size and place that bring both

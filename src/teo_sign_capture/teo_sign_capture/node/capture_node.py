@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`capture_node`: the service `capture_sign`, which records one sign live and saves it in the table."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Arms that bring a hand where a score wants it, as well as TEO can.
 
 What is traded against what follows what carries meaning in a sign: the place first, on the body above all;

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signs that are made of others: a compound, or one sign under a second name."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The inventory of handshapes: names of a person's, and what TEO's six motors make of them.
 
 TEO bends the three joints of a finger alike and cannot spread the fingers: `open` and `flat` differ by the

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A score as a script that the synthetic signer performs: what a person would do who follows the score.
 
 The way there and back is the person's: hands start hanging and hang in the end, so that the sign can be found

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Places of articulation and handshapes on a person, in the words of the synthetic signer.
 
 Places on the body keep their names, so far as TEO and the person both have names (`signing_space.places`);

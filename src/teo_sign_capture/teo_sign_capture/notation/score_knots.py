@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Postures as knots of a sign: the arms that were found, hands as shaped, what wiggles, the head."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A score as postures in space: for each moment, where each hand is, how it is turned, its shape."""
 
 from __future__ import annotations

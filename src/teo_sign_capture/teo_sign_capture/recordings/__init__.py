@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a sign is captured from.
 
 Bags of images or skeletons, `.pose` clips, clips of letters, live skeletons.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the camera saw while a sign was made, near enough to see the hands."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The recordings of the LSE manual alphabet that come with the package `spoken-to-signed`.
 
 Thirty clips of one signer (collection "ssp"), MediaPipe Holistic landmarks at 25 frames a second. They look

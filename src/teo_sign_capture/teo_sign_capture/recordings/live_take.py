@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Recording a sign as it is made: a countdown, the sign, and the moment at which it is over."""
 
 from __future__ import annotations

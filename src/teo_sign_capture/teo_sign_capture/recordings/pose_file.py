@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person's points in the picture over time, from a `.pose` file.
 
 The format is pose-format's (Moryossef, Müller, Fahrni: "pose-format: Library for Viewing, Augmenting, and

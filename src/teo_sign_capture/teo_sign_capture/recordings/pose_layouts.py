@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Layouts of `.pose` files: where in them the points of a person's body and hands stand.
 
 Points are found by the names in a file's header, so that files with a part of the points are read as well.

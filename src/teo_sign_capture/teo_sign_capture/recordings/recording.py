@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a sign is captured from: a bag of skeletons, or a bag of images of which skeletons are made first."""
 
 from __future__ import annotations

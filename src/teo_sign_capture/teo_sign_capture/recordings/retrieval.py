@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The retriever, run on a recording in a process of its own.
 
 MediaPipe is native code: what it breaks, keeps in memory or says ends with that process, which can be stopped

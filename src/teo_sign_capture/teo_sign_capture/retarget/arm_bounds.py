@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Bounds that an arm keeps, and arms seen in a mirror: both arms are solved for as right arms."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """TEO's right arm at many poses at once.
 
 Pinocchio gives one pose a call, most of which is Python; a motion of some hundred frames sought from several

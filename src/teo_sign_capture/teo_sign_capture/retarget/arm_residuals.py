@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How far arms are from what is wanted of their hands, and how that changes with the joints.
 
 A sum of squares for each frame. What is traded against what follows what carries meaning in a sign: the place

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Single postures of an arm, each sought from every start at once.
 
 What is wanted of a hand has several nearest arms: TEO's six joints reach a pose of the hand in few ways, and

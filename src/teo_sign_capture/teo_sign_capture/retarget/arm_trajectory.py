@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The motion of the arms as one whole.
 
 First each arm is sought by itself, in every third frame, from all starts at once (`arm_search`), and of what

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Where on TEO a place at or before a person's body is.
 
 TEO's shoulders are nearly twice as far apart as a person's, its head is small and its arms are longer. In the

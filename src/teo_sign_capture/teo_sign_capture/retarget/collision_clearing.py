@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Hands that would go into TEO's body, or into each other, are moved off, in the frames and between them."""
 
 from __future__ import annotations

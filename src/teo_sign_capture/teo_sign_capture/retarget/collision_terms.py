@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Where a motion of TEO's arms would touch TEO, and the price of it."""
 
 from __future__ import annotations

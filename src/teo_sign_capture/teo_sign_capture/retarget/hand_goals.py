@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What is wanted of TEO's hands in each frame: where, turned how, and how they are to each other.
 
 The point of the hand that counts is where it meets the body: far from it the middle of the palm, near it what

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person's fingers and thumb over time on TEO's hand.
 
 TEO's finger has one motor for three joints that bend alike. The flexion sought is the one with which the last

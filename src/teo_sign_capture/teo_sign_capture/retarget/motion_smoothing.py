@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The gentlest motion near a captured one.
 
 What is left of the keypoints' noise is small in degrees but fast: fingers that tremble by 5 deg from frame

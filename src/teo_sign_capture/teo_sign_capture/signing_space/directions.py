@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Directions in words, as a signer would say them: `front`, `up in`, `2 down back`."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Points of a hand that can be where a sign is made: a person's, and what they are on TEO's hand."""
 
 from __future__ import annotations

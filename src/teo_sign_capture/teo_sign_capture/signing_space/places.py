@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Places of articulation on TEO: where on the body a sign is made.
 
 Read off the shapes of the robot description with head and trunk at home, for the right hand, in

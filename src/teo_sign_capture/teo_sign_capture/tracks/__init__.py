@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person's keypoints over time [m].
 
 Axes of the body, smoothing, cutting into signs, measures of body, hands and head.

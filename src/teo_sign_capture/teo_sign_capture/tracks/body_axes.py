@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From keypoints in any axes to a track in the axes of the person's own trunk.
 
 The way from the hips to the shoulders gives up; the line of the shoulders, square to it, gives left; the

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person's hand as a chain of bones, fitted to landmarks that were seen by one camera.
 
 The landmarks across the view are good to a pixel or two; their depth is an estimate. Bones of known length

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How a person holds the head: turned and moved against the trunk, frame by frame."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a person's body is like: its lengths, and where on it the places of articulation are."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Where in a recording the signs are: hands leave rest and return; what lies between is a sign.
 
 A sign is prepared by a way up and followed by a way down (Kita, van Gijn and van der Hulst 1998); an entry

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A person's keypoints over time, in the person's own axes: what every capture begins with."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Quieter keypoints, with fast strokes left as they are, and short gaps filled.
 
 Each coordinate of each keypoint goes through a Kalman filter and, backwards, the smoother of Rauch, Tung and

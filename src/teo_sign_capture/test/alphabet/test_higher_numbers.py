@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Numbers above ten: what their hands do, and what they are said to rest on."""
 
 from __future__ import annotations

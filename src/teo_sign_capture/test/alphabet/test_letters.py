@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The letters of the table against what is known of the alphabet, the recordings and TEO itself."""
 
 from __future__ import annotations

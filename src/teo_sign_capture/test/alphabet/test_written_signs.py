@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Numbers and the signs of TEO's own demonstration."""
 
 from __future__ import annotations

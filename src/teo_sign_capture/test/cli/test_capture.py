@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a teacher sees of `lut capture` and `lut record`."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`perform_scores`: a script and a recording a sign, nothing twice, a reason for what fails."""
 
 from __future__ import annotations

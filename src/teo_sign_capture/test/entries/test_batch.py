@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Folders of recordings: what they hold, and that a run which was stopped does only what is missing."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """One demonstration on TEO: where the sign is, and what no sign can be made of."""
 
 from __future__ import annotations

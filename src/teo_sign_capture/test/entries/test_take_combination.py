@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Takes that agree are averaged, one that does not is left out, and the reason is said."""
 
 from __future__ import annotations

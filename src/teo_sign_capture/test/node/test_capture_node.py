@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The service as the console sees it, with a camera of the test's own."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Scores performed by the synthetic signer: hands where the score says, turned as it says, when it says."""
 
 from __future__ import annotations

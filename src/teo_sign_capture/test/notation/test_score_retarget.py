@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Sign scores: what their words mean on the robot, and what is said of a bad one."""
 
 from __future__ import annotations

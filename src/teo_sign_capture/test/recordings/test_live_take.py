@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sign recorded as it is made: when it begins, when it is over, and why it may fail."""
 
 from __future__ import annotations

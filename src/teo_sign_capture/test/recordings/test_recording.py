@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a sign can be captured from, and what is wrong with what it cannot."""
 
 from __future__ import annotations

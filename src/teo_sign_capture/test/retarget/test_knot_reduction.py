@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Knots are few, and what passes through them stays near the motion."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Trembling goes, and no frame is moved by more than the tube allows."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the commands share: running them, and tables and plots as files."""
 
 from __future__ import annotations

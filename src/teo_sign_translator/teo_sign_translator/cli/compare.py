@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`compare`: trains every model of the zoo on the same pairs, and shows how they differ."""
 
 from __future__ import annotations

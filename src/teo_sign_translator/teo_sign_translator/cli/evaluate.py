@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`evaluate`: how good a model of the zoo is on the pairs of a corpus."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`generate_corpus`: writes the pairs that the translator is trained and tested on."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`reproduce_paper`: trains the published model on the published pairs, and shows how it compares."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`train`: makes a model of the zoo from a corpus, or the published model from the paper's pairs."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`translate`: glosses of a text, or of each line of a file, without ROS running."""
 
 from __future__ import annotations

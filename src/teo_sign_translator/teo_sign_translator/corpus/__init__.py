@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Sentence pairs: by the hundred thousand from a grammar of Spanish and its LSE order, and the paper's.
 
 `grammar_file` reads `data/grammar` into a `Grammar`, `generator.Generator` makes `Pair`s of it, and files

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Notation for the translations that are accepted for a sentence.
 
 `YO (PASADO) PAN/BOLLO COMPRAR || PAN YO COMPRAR`: glosses in order; `/` between glosses of which any one may

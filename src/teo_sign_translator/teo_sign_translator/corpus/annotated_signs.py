@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Real LSE sentences as their annotators write them (RADIS), and which of their signs are words."""
 
 from __future__ import annotations

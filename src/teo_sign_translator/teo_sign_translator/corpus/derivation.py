@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Makes sentences: fills the slots of a rule, and of the rules that fill them."""
 
 from __future__ import annotations

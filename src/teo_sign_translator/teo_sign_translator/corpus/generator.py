@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Makes corpora: pairs by the hundred thousand, the same ones for the same seed."""
 
 from __future__ import annotations

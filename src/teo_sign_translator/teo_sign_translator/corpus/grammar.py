@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a grammar is made of; `data/grammar/*.yaml` are read into these by `grammar_file`."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The corpus file: one pair of Spanish and LSE a line, with its alignment."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The paper's and the project's own pairs: as published, with their words aligned, and as corpus pairs."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The two linked right-hand sides of a rule, as written in the grammar files and as parsed.
 
 Spanish: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From a rule whose slots are filled to its Spanish words and its glosses."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From words to a written sentence: contractions, vowels that meet, marks, the first capital."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Templates: the sentences of a grammar, one for each alternative of their spread slots."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Words and glosses while a sentence is made; which gloss stands for which word is kept from the start."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The words that fill slots: by class, the common ones more often, some held out for tests."""
 
 from __future__ import annotations

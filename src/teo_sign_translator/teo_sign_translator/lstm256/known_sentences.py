@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Asks the published model, and takes its answer only if the sentence accounts for it."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The sentences that the model was trained on: recognising them, and the words their glosses stand for."""
 
 from __future__ import annotations

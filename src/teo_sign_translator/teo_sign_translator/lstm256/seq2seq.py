@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The encoder-decoder LSTM, evaluated with plain arrays: no training framework is needed to translate."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Tokens of the published model: how a sentence becomes tokens, and their places in a one-hot vector."""
 
 from __future__ import annotations

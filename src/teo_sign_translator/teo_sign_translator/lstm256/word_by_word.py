@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signing a sentence that the model does not know: each word for itself, in Spanish order."""
 
 from __future__ import annotations

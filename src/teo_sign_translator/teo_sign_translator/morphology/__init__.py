@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Spanish morphology: what a word may be, and how a lemma is inflected.
 
 `Morphology` gives a word's readings (dictionary form, tag, clitics), also where its accents were not typed,

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Syllables, stress and accents of Spanish words, by the Ortografía de la lengua española (RAE 2010)."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Forms of verbs: from form to infinitive and back."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Conjugations out of the mlconjug3 package (MIT); data/morphology/conjugations.tsv is the result.
 
     pip download --no-deps mlconjug3==3.7.22

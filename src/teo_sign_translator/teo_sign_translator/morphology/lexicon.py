@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The lists of data/lexicon, as rows and as the forms of their words."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Plural and feminine of nouns and adjectives, by rule.
 
 The words that do not follow the rules are in the lexicon files.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The closed list of tags: what a word is, and in which form.
 
 A tag is a class and its features, joined by `:`. Compare the class with `tag_class`, or a feature with

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the translator has done so far: counts, diagnostics, and texts as log lines show them."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which glosses have signs, as the executor's `list_signs` answers."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A bounded queue of texts and the thread that works through it, in order."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Output words, before they are numbered tokens: signs, spelled words, numbers, pauses, carried words."""
 
 from __future__ import annotations

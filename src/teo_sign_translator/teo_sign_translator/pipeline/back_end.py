@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The interface of back ends: from the clauses of a text to the output words of its sentences."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which words of a sentence its glosses say, and which are lost."""
 
 from __future__ import annotations

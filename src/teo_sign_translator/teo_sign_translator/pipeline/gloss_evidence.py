@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which glosses of a translation have no evidence in the sentence: a model has invented them."""
 
 from __future__ import annotations

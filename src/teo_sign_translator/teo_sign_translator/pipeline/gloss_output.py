@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Glosses of a sentence model as output words: signs, names, numbers and pauses, with the words they say."""
 
 from __future__ import annotations

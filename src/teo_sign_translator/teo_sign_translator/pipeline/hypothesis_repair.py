@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Mends what a model says: a translation loses no word of its sentence and invents none."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Back end of the published model: known sentences from the model, everything else word by word."""
 
 from __future__ import annotations

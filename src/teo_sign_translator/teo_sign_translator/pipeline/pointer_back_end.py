@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Back end of the pointer: translates any sentence; no word of it is lost and no gloss invented."""
 
 from __future__ import annotations

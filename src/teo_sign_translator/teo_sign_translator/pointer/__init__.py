@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The default model: an encoder-decoder with attention that says known glosses or copies a word's lemma.
 
 `ArrayModel` runs the weights of any model of the zoo on NumPy arrays, `SentenceModel` searches for the

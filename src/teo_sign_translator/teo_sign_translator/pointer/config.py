@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How a network is built and how it is trained, and the zoo: the models that can be trained."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From steps of a model to whole translations: the likeliest gloss each time, or a beam of several."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The vocabulary of a model: closed lists of the forms, lemmas, tags and glosses that it knows."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From text as it arrives to text in one form of Unicode, without invisible characters."""
 
 from __future__ import annotations

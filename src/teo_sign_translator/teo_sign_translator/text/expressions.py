@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Short forms and symbols, and the words that they stand for."""
 
 from __future__ import annotations

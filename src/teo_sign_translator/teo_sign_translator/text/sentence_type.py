@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What kind of sentence it is, and whether it is negated; the robot shows both with its head."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sentence as the words that a sentence model reads: the same way in training and in use."""
 
 from __future__ import annotations

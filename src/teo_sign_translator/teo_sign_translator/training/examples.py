@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Training pairs as arrays: each different word is read once, a pair is places in tables."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Training the encoder-decoder LSTM with PyTorch."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Trains the published model, `lstm256`, on all pairs of the package."""
 
 from __future__ import annotations

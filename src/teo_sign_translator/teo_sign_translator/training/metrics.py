@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How good translations are: exact matches, BLEU, edits, and signs in common with real ones."""
 
 from __future__ import annotations

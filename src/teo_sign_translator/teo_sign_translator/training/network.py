@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The trainable form of the models; `array_model.py` runs their weights without PyTorch."""
 
 from __future__ import annotations

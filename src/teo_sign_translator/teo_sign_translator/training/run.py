@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A training from a corpus folder to a model's files, with everything that made it in its card."""
 
 from __future__ import annotations

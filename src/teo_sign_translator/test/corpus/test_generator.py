@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The corpus as a whole, against the lexicon, simplemma and the published order of LSE."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The grammar's files: every example is made, every word exists, every fault is named."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Written Spanish: contractions, vowels that meet, clitics, numbers; against the RAE's spelling."""
 
 from __future__ import annotations

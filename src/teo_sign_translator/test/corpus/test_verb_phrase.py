@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Tense in LSE: marked once, and not where a time word says it."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The shipped model knows the published sentences by heart, however they are typed."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What words may be: against readings written by hand, and for any text."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Forms of verbs: against a table written by hand, and against simplemma's dictionary."""
 
 from __future__ import annotations

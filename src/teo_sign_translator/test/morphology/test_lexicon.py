@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The word lists: that a linguist's slip is found before it reaches a signer."""
 
 from __future__ import annotations

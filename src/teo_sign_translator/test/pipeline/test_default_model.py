@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the default model must do whatever it has learned: paper, names, numbers, any typing."""
 
 from __future__ import annotations

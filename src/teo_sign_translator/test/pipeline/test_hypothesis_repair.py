@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """No word of a sentence is lost in its translation."""
 
 from __future__ import annotations

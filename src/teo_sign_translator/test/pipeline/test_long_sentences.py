@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Dividing a sentence that is too much for the model."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Whatever is typed: an answer that loses no word, or a reason."""
 
 from __future__ import annotations

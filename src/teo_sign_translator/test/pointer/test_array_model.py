@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What every model of the zoo does, learned from a small language."""
 
 from __future__ import annotations

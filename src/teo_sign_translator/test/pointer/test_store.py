@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Models in files: the same after loading, and refused by name where they are damaged."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Training a network: the same for the same seed, ended in time, and refused where it makes no sense."""
 
 from __future__ import annotations

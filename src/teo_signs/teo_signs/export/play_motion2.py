@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signs as parameters of play_motion2 (pal-robotics/play_motion2, README and motion_loader.cpp).
 
 `motions.<key>.joints`, `.positions` (a row for each time, rows one after the other), `.times_from_start` and

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signs as tables for TEO's own PlaybackThread (roboticslab-uc3m/tools, libraries/Playback and YarpPlugins).
 
 One file for each control board that moves. No header; a row for each moment, numbers by spaces: the time [s],

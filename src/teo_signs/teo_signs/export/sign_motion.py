@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A sign as the motion that TEO would make of it, for programs that play motions and know nothing of signs.
 
 A program that plays stored motions goes straight to the first position, with no look at what is in between;

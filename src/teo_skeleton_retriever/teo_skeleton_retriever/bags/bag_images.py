@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The images of a bag, each with its depth and camera."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Bags of ROS 1 and ROS 2: which topics they hold, and their messages, without ROS running."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Reading bags that were cut off: all whole messages before the cut, one record after the other.
 
 A recorder that is killed leaves an MCAP file without its summary, a ROS 1 bag without its index, an SQLite

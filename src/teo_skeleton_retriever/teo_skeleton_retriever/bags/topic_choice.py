@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which topics of a bag are colour, depth and camera_info: as told, by usual names, or the only ones."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A camera: from points to pixels and from pixels with a depth to points."""
 
 from __future__ import annotations

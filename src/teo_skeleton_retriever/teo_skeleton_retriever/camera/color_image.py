@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Colour images as RGB, from what cameras publish."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Images as image_transport's plugins `compressed` and `compressedDepth` send them.
 
 Source: compressed_image_transport and compressed_depth_image_transport, of image_transport_plugins 4.0.

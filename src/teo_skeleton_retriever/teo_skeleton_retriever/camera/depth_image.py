@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Depth images as floats in metres, NaN where nothing was measured.
 
 Source: REP-118: 32FC1 is in metres with NaN or infinity for nothing, 16UC1 in millimetres with 0 for nothing.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Lens distortion of the `plumb_bob` and `rational_polynomial` models, both ways.
 
 Source: the model of OpenCV's calibration, which sensor_msgs/CameraInfo refers to. Coefficients are in its

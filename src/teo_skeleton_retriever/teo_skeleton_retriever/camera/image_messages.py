@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From the messages of a camera to arrays, and the usual names of its topics.
 
 Takes messages of rclpy and those that are read from bags alike.

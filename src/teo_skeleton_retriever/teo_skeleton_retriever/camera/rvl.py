@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Depth images in RVL: run lengths of unknown and known pixels, and differences of neighbours.
 
 Source: A. D. Wilson, "Fast Lossless Depth Image Compression", ISS 2017. Numbers are split in groups of three

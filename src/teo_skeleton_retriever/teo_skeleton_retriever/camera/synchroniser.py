@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which depth image belongs to which colour image: by their stamps, within a bound, whatever came first."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`retrieve`: skeletons from a bag, or from one image, without ROS running."""
 
 from __future__ import annotations

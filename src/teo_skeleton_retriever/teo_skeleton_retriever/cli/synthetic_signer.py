@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`synthesize` and `sensor_study`, which the package `teo_synthetic_signer` provides if installed."""
 
 from __future__ import annotations

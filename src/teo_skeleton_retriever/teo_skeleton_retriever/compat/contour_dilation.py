@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The original's depth filter: widens near contours, so that a keypoint beside the body still lands on it."""
 
 from __future__ import annotations

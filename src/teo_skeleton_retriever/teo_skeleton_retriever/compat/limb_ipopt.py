@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The limb optimisation of the original: Ipopt, with its options."""
 
 from __future__ import annotations

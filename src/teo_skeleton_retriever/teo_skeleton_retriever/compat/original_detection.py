@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From 2D keypoints and a depth image to the original's skeleton of one image."""
 
 from __future__ import annotations

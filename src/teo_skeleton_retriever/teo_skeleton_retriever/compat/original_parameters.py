@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The original's parameters: with the defaults of its code, or by the names of its configuration file."""
 
 from __future__ import annotations

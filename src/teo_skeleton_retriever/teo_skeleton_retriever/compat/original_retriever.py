@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The original as a whole: 2D people and depth in, tracked 3D skeletons out."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the original knows of one person at one time: 17 keypoints and the planes of the body."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """One person over time as in the original: keypoints held and filtered, limbs calibrated and optimised."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The 17 keypoints of the original skeletonRetriever ("SkeletonStd"), their tree and where they come from.
 
 Source: robotology/assistive-rehab, library `skeleton` and module `skeletonRetriever` (BSD-3-Clause).

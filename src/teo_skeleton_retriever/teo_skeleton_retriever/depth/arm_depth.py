@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Depths of an arm's joints, from measured depths and the lengths of the limbs.
 
 What is seen at a keypoint is either the arm itself, or something nearer that hides it. Which of the two, for

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depths of a body's 25 joints in one image: skin, what hides it, and the lengths of arms and legs."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depth at keypoints, robust against holes, contours and things in front."""
 
 from __future__ import annotations

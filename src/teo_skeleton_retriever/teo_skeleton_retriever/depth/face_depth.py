@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depths of a face's 70 keypoints: measured where that is plausible for a head, smooth elsewhere."""
 
 from __future__ import annotations

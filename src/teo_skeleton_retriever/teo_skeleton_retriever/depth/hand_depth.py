@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depths of a hand's 21 keypoints, from what is measured of them and the hand's own shape.
 
 Every keypoint lies on its viewing ray; its depth minimises the sum of

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The shape of a hand as the detector estimates it, fitted to measured depths.
 
 MediaPipe's world landmarks tell how fingers bend against the palm, but neither how the hand is turned nor how

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The depths along a limb as an optimisation problem: known lengths, fixed rays, bounded depths.
 
 Source: `LimbOptimizer` of the original skeletonRetriever. With y_i(z) = z ray_i the depths minimise

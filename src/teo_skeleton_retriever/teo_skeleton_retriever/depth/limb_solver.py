@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Solver of `LimbChain` as one unrolled expression: tens of times as fast as Ipopt, with the same solution.
 
 A primal-dual interior point method on the problem of `LimbChain`, divided by the mean squared length. The

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From the skin, which a depth camera sees, to the centre of the joint behind it.
 
 A joint is taken for where round limbs end: the ray to the centre meets the skin earlier by the limb's radius,

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The interface of a detector, and the check of the images given to it."""
 
 from __future__ import annotations

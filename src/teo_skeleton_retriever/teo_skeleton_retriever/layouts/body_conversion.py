@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Bodies of every layout that a detector gives, as BODY_25."""
 
 from __future__ import annotations

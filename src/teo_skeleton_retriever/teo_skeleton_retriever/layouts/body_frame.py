@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The coordinate frame of a body, in which movements do not depend on where the person stands and faces.
 
 Axes as in REP-155: x out of the chest, y to the person's left, z towards the head.

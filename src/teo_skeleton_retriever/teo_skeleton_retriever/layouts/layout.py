@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which keypoints there are, in which order they come and how they are drawn: bodies, hands and faces.
 
 Source: `poseParameters.cpp` and `handParameters.hpp` of OpenPose 1.7 and its documentation. Left and right

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """All keypoints of a person in one array, and prior knowledge of each: radius, speed, noise, bone lengths."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How the node fares, judged by its streams and the problems of images."""
 
 from __future__ import annotations

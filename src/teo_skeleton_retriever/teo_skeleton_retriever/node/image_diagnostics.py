@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What goes wrong, and how the streams fare, on `diagnostics` and in the log."""
 
 from __future__ import annotations

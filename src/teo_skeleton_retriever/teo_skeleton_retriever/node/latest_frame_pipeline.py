@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A pipeline of two stages in threads, which works on the latest image and drops those it replaces."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`retriever_node`: colour, depth and camera_info in, people in space out."""
 
 from __future__ import annotations

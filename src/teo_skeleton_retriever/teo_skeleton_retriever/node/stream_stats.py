@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How a stream of images fares: rates, delays, and what was dropped and why."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A picture of what the retriever sees: skeletons over the colour image, depth beside them, who is who."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Overlay pictures as an H.264 film that runs at the pace of the recording."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Skeletons written to an MCAP file, as rosbag2 would record their topic."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How large a person is: limb lengths and one scale, estimated for as long as the person is seen."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Keypoints over time: smooth at rest, without delay in fast movement, held while they are not seen.
 
 A Kalman filter of each keypoint's viewing direction (x/z, y/z) and depth z, each with a velocity: what the

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Tracks of people: ids that stay with them from image to image, through crossings and gaps."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The one person whose signing is followed: chosen once, then kept."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The original's processing on drawn scenes, where what must come out is known."""
 
 from __future__ import annotations

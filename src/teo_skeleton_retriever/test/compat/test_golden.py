@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Against a recording of the original: 51 s of a person on a RealSense at 320 x 240, published at 10 Hz.
 
 The recording holds what the original published, not what went into it. Three things that went in can be

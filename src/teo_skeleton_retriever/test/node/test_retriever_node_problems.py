@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What the node cannot use or has no time for is told, and good images are followed again."""
 
 from __future__ import annotations

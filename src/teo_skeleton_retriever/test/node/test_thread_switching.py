@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The settings are the process's, and so are tried in one of their own."""
 
 from __future__ import annotations

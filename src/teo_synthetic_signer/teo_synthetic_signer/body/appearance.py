@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What of the body is seen, and in which colours: skin, hair, eyes, brows, lips and clothes."""
 
 from __future__ import annotations

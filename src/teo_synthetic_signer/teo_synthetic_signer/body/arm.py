@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """An arm that brings its hand to a place: inverse kinematics of shoulder, elbow and wrist."""
 
 from __future__ import annotations

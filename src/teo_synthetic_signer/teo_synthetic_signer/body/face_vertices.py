@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which vertices of the mesh are the 70 keypoints of the face, and the ears and heels.
 
 Vertices of MakeHuman's base mesh. Chosen by the definition of the iBUG annotation on the average face, seen

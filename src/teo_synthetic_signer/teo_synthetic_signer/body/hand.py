@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """One hand of a body: its own axes, and from a hand shape to the places of its bones."""
 
 from __future__ import annotations

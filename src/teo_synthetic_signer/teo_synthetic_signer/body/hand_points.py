@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Points of a hand: those that go to a place, and those that the other hand goes to."""
 
 from __future__ import annotations

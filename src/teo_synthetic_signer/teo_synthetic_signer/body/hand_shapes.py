@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The shapes a hand takes in signing, as angles of its joints.
 
 Angles follow from looking at hands, not from a source: they make a shape that a signer would recognise, and

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A leg whose foot stands at a place: inverse kinematics of hip, knee and ankle."""
 
 from __future__ import annotations

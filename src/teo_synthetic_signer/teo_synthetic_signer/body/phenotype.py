@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From what a person is like to the shape of the body: the weights of MakeHuman's macro targets.
 
 Source: Anny's `phenotype_blendshape_weights` (version 0.6.2): each target stands for one combination of

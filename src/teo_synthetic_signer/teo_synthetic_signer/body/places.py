@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Places of a body that hands go to, found on each person's own skin."""
 
 from __future__ import annotations

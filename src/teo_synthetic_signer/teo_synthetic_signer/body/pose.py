@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From what a person does at one moment to the place of each bone."""
 
 from __future__ import annotations

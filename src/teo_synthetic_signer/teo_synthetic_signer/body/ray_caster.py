@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What each ray hits first: Embree's ray casting over the triangles of one image."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A body at rest: its mesh, the joints it bends at, and how its skin follows its bones."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From the depth that is there to the depth that a sensor gives: noise, steps, shadows, edges and holes."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Images of a person in a room that stands still before a camera that stands still."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Depth cameras: what each sees, and by which law its depth is wrong."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which keypoints a camera can see: what lies before each of them may only be its own skin and cloth."""
 
 from __future__ import annotations

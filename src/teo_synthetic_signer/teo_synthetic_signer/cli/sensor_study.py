@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Which depth camera for signing: what each measures of wrists and fingertips, and whether it sees enough.
 
 Rendered people before a model of each device, through the detector and the retriever with their defaults.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`synthesize`: a rendered person who signs, as a ROS 2 bag with the truth in it."""
 
 from __future__ import annotations

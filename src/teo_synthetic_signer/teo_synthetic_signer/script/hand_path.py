@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A way of the hands through several key poses without a stop."""
 
 from __future__ import annotations

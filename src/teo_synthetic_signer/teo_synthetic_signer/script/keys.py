@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Key poses in words: hands at places of the body, facing somewhere, in a shape."""
 
 from __future__ import annotations

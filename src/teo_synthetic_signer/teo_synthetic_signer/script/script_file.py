@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The file of a script: YAML, every error with its line and field."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """What a person can be asked to do: scripts of key poses, like signing."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Signs, or what looks like signs, as key poses. Names are of what they resemble; no language is meant."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A take: one person, in one room, plays one script before one sensor."""
 
 from __future__ import annotations

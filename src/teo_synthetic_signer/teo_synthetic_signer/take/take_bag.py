@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A take as a ROS 2 bag: what the camera sends and where the keypoints truly are."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Frames of a take as the messages that a camera's driver sends, and their truth as skeletons."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Bodies and poses: people of the size of people, bones that keep their length, hands as they were told."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Places of a body: on the skin, in the order of a body, on the side of the hand."""
 
 from __future__ import annotations

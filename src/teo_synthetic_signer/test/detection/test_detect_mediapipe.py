@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """MediaPipe against a rendered person whose joints are known."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Scripts from files: what is written is played; what is wrong is named with its line and field."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Rendered frames: truth that agrees with the picture, visibility, determinism."""
 
 from __future__ import annotations

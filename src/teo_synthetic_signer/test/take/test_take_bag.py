@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Takes as bags: others read them, images and truth come back, what cannot be written says why."""
 
 from __future__ import annotations

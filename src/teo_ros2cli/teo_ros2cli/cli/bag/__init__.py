@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The verbs of `ros2 bag`: a module each, loaded when called. The bags themselves: `teo_ros2cli.bags`."""
 
 from __future__ import annotations

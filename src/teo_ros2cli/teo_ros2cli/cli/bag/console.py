@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How the `ros2 bag` verbs speak of what is wrong, and how a signal ends them."""
 
 from __future__ import annotations

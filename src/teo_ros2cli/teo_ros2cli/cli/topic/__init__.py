@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The verbs of `ros2 topic`: a module each, loaded when called."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 topic list`, `type` and `find`: which topics there are."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 topic bw` and `delay`, and what they share with `hz`: a window and a report each second."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """`ros2 topic pub`: publishes a message, once, so many times, or until interrupted."""
 
 from __future__ import annotations

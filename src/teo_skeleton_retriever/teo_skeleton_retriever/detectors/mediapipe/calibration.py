@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """How MediaPipe's keypoints differ from the centres of the joints: constant offsets, and standard deviations.
 
 Calibrated on rendered people (`bench/accuracy/tuning.py`); other bodies and motions are tested.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Hands that MediaPipe took for the person's other hand, and one hand that it took for both.
 
 Where arms cross, MediaPipe's crop of one hand may settle on the other one and follow it for a second, as sure

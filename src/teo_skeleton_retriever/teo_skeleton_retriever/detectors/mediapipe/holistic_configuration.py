@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Configuration of MediaPipe's Holistic graph: the packaged one with unused nodes and outputs removed."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """MediaPipe's Holistic graph, driven directly.
 
 `mediapipe.solutions.holistic.Holistic` drives the same graph but leaves lying what is needed here: the hands'

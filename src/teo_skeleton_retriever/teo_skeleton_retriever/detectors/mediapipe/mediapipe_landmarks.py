@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """MediaPipe Holistic's landmarks as OpenPose keypoints: BODY_25, two hands of 21, face of 70.
 
 Sources: MediaPipe's pose and face mesh numbering; ROS4HRI's table of the face

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Graphs and networks of MediaPipe without the parts that do not feed the outputs in use.
 
 MediaPipe's network of the pose also draws the person's outline, at the full resolution of its input. Nothing

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Hands at rest, on which the hand networks need not run in every image.
 
 The network of a hand hardly ever finds one that hangs beside the thigh, and takes a quarter of the detector's

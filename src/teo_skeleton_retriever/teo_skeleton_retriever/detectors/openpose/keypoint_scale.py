@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From the units in which OpenPose was asked to write keypoints (`--keypoint_scale`) to pixels of the image.
 
 Source of the figures: OpenPose 1.7, `keypointScaler.cpp`: fractions are of size - 1, one factor for both axes

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The folder into which OpenPose writes a file of keypoints for each image, while it still writes."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """OpenPose beside us: its files, read as it writes them, or beside a recording."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Keypoints that are known already: from a list, or from a whole folder that OpenPose wrote."""
 
 from __future__ import annotations

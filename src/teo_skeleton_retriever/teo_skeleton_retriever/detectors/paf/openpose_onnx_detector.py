@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """OpenPose's method with a network that the user brings: part affinity fields, several people."""
 
 from __future__ import annotations

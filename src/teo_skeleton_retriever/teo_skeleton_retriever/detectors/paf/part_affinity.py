@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """From the maps of a network to people: maxima are parts, fields between two parts join them to limbs.
 
 Source of the method and its thresholds: OpenPose 1.7, `poseParameters.cpp`.

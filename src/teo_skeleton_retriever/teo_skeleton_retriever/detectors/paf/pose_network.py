@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A part-affinity-field network in an ONNX file, run by OpenCV, and what its channels mean.
 
 OpenCV is there already, and is as fast as ONNX Runtime on such a network (a VGG trunk at 176 x 240 on one

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A graph keeps what its streams follow from, and nothing else."""
 
 from __future__ import annotations

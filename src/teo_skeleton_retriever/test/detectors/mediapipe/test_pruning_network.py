@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A network without one of its outputs gives the others as before."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """A hand that hangs unseen is looked at now and then, any other one in every image."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """The whole way from an image through an ONNX file to people, with networks small enough to know by heart."""
 
 from __future__ import annotations

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """People from confidence maps and limb fields that are drawn from known people."""
 
 from __future__ import annotations
