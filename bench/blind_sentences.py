@@ -15,11 +15,11 @@ from collections.abc import Iterable
 from statistics import median
 from typing import Any
 
+from glosses.measures import fewest_edits
 from glosses.systems import SENTENCES, judged, systems
 from report import Figure, share
 
 from teo_sign_translator.model_files import models_directory
-from teo_sign_translator.training.metrics import fewest_edits
 
 _RECORD = SENTENCES / "blind.json"
 

@@ -22,18 +22,19 @@ from pathlib import Path
 from statistics import median
 
 import blind_sentences
+from glosses.annotated_signs import read_annotated
+from glosses.measures import overlap
 from glosses.systems import SENTENCES, System, judged, lines, plain, systems
 from report import Figure, percentiles, share
 
 from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus import Pair
-from teo_sign_translator.corpus.annotated_signs import read_annotated
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.training.metrics import overlap, score
+from teo_sign_translator.training.metrics import score
 
 HELD_OUT = 1000
 """Most sentences of each held-out part."""

@@ -33,6 +33,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "embreex": (None, "embreex"),
     "flatbuffers": (None, "flatbuffers"),
     "google": ("python3-protobuf", "protobuf"),
+    "lazy_loader": (None, "lazy-loader"),
     "lz4": ("python3-lz4", "lz4"),
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "mcap": (None, "mcap"),

@@ -13,9 +13,9 @@ from typing import Any
 
 import pytest
 import yaml
+from glosses.accepted_translations import accepted, accepts
 
 from teo_common.text_folding import folded
-from teo_sign_translator.corpus.accepted_translations import accepted, accepts
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from glosses.accepted_translations import accepted, plain_gloss
 from glosses.baselines import lemmas_in_spanish_order, spoken_to_signed
-from teo_sign_translator.corpus.accepted_translations import accepted, plain_gloss
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator
 

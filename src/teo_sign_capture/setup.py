@@ -10,7 +10,7 @@ setup(
     name=PACKAGE,
     version="0.2.0",
     packages=find_packages(exclude=["test", "test.*"]),
-    package_data={PACKAGE: ["py.typed"]},
+    package_data={PACKAGE: ["*.pyi", "py.typed"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
@@ -19,6 +19,7 @@ setup(
     install_requires=[
         "setuptools",
         "distributed",
+        "lazy-loader",
         "numpy",
         "opencv-python-headless",
         "pin",

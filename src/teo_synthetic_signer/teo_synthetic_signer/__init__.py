@@ -6,30 +6,6 @@
 importing the package costs nothing.
 """
 
-from __future__ import annotations
+import lazy_loader
 
-from importlib import import_module
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from teo_synthetic_signer.take.take import Take, TakeOptions, render_take
-    from teo_synthetic_signer.take.take_bag import write_take
-    from teo_synthetic_signer.take.truth import SyntheticFrame, Truth
-
-__all__ = ["SyntheticFrame", "Take", "TakeOptions", "Truth", "render_take", "write_take"]
-
-_MODULE_OF = {
-    "SyntheticFrame": "take.truth",
-    "Take": "take.take",
-    "TakeOptions": "take.take",
-    "Truth": "take.truth",
-    "render_take": "take.take",
-    "write_take": "take.take_bag",
-}
-
-
-def __getattr__(name: str) -> object:
-    """Load a public name from its module."""
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_MODULE_OF[name]}"), name)
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

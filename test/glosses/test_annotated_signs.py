@@ -7,10 +7,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from glosses.annotated_signs import read_annotated, word_signs
 
-from teo_sign_translator.corpus.annotated_signs import read_annotated, word_signs
-
-NARRATIVES = Path(__file__).parents[4] / "test" / "data" / "radis" / "narratives.tsv"
+NARRATIVES = Path(__file__).parents[1] / "data" / "radis" / "narratives.tsv"
 
 
 @pytest.mark.parametrize(
