@@ -24,7 +24,7 @@ for number in (signal.SIGINT, signal.SIGTERM):
 print("ready", flush=True)
 while not got:
     time.sleep(0.01)
-time.sleep(0.3)
+time.sleep(0.3)  # a window for a second signal, which must not come: nothing tells of what does not happen
 print("got", *got, flush=True)
 sys.exit(7)
 """
