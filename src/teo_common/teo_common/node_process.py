@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import rclpy
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
@@ -22,8 +22,11 @@ def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> 
     rclpy.init(args=arguments)
     node: Node | None = None
     try:
+        # Before the node: an executor that is told to end while it is being made leaves a half-made
+        # object, whose destructor writes a traceback.
+        executor = SingleThreadedExecutor()
         node = make_node()
-        rclpy.spin(node)
+        rclpy.spin(node, executor)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     except rclpy_implementation.RCLError:

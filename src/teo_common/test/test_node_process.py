@@ -25,6 +25,22 @@ class Talker(Node):
 run_node(Talker, None)
 print("returned", flush=True)
 """
+TOLD_WHILE_MADE = """
+import os, signal, time
+import rclpy
+from rclpy.node import Node
+from teo_common.node_process import run_node
+
+class Slow(Node):
+    def __init__(self):
+        super().__init__("slow")
+        os.kill(os.getpid(), signal.SIGTERM)
+        while rclpy.ok():
+            time.sleep(0.01)
+
+run_node(Slow, None)
+print("returned", flush=True)
+"""
 REFUSED = """
 import rclpy
 from teo_common.node_process import run_node
@@ -60,3 +76,11 @@ def test_what_making_the_node_raises_passes_through_with_ros_ended(domain_id: in
     command = [sys.executable, "-c", REFUSED]
     done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=20.0, check=True)
     assert done.stdout == "no table False\n"
+
+
+def test_a_node_that_is_told_to_end_before_it_spins_ends_without_a_word(domain_id: int) -> None:
+    environment = os.environ | {"ROS_DOMAIN_ID": str(domain_id)}
+    command = [sys.executable, "-c", TOLD_WHILE_MADE]
+    done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=20.0, check=True)
+    assert done.stdout == "returned\n"
+    assert done.stderr == ""
