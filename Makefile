@@ -23,8 +23,9 @@ demo: setup-run ## sign TEXT="...": leaves the bag, a video and a film strip in 
 run: setup-run ## start translator, executor and driver, until Ctrl-C
 	@$(ENV) exec ros2 run teo_bringup start
 
-test: setup ## all tests
-	@$(ENV) python -m pytest
+test: setup ## all tests: on two cores what keeps no time with others, then the rest alone
+	@$(ENV) python -m pytest -m "not dds" --numprocesses 2 --dist loadfile
+	@$(ENV) python -m pytest -m dds
 
 lint: setup ## style, types
 	@$(ENV) scripts/lint.sh
