@@ -14,12 +14,12 @@ from __future__ import annotations
 import argparse
 import hashlib
 import math
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from kept import kept_folder
 from report import Figure
 from rich.console import Console
 from rich.progress import track as progress
@@ -218,7 +218,7 @@ def _angles(first: Array, second: Array) -> Array:
 
 def default_cache() -> Path:
     """Give the folder that performances are kept in unless another is named."""
-    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "teo" / "camera_path"
+    return kept_folder("camera_path", "teo_synthetic_signer", "teo_skeleton_retriever")
 
 
 def measure() -> list[Figure]:

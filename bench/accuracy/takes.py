@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import pickle
 import tempfile
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from kept import kept_folder
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import DepthArray
@@ -72,7 +72,7 @@ class TakeFrame:
 
 
 def take(settings: TakeSettings, cache: Path) -> list[TakeFrame]:
-    """Give a take, from disk if it is there. Empty the folder when the signer or the detector has changed."""
+    """Give a take, from disk if it is there."""
     path = cache / f"{settings.name()}.pickle"
     if not path.exists():
         frames = list(_rendered(settings))
@@ -86,7 +86,8 @@ def take(settings: TakeSettings, cache: Path) -> list[TakeFrame]:
 
 def default_cache() -> Path:
     """Give the folder that takes are kept in unless another is named."""
-    return Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "teo" / "retriever_accuracy"
+    makers = ("teo_synthetic_signer", "teo_skeleton_retriever.detectors", __name__)
+    return kept_folder("retriever_accuracy", *makers)
 
 
 def _rendered(settings: TakeSettings) -> Iterator[TakeFrame]:
