@@ -2,37 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What learns signs: the retriever, and the node that turns what it sees into entries of the table."""
 
-from pathlib import Path
-
-from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, Shutdown
-from launch.substitutions import LaunchConfiguration
-from launch_ros.actions import Node
 
-_PARAMETERS = Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml"
-
-
-def _node(package: str, executable: str) -> Node:
-    return Node(
-        package=package,
-        executable=executable,
-        namespace=LaunchConfiguration("namespace"),
-        parameters=[LaunchConfiguration("params_file")],
-        output="screen",
-        on_exit=Shutdown(reason=f"{executable} ended"),
-    )
+from teo_bringup.launch_description import launch_description
 
 
 def generate_launch_description() -> LaunchDescription:
     """Describe what is started."""
-    return LaunchDescription(
-        [
-            DeclareLaunchArgument(
-                "params_file", default_value=str(_PARAMETERS), description="Parameters of the nodes."
-            ),
-            DeclareLaunchArgument("namespace", default_value="", description="Before every topic and node."),
-            _node("teo_skeleton_retriever", "retriever_node"),
-            _node("teo_sign_capture", "capture_node"),
-        ]
+    return launch_description(
+        ("teo_skeleton_retriever", "retriever_node"), ("teo_sign_capture", "capture_node")
     )

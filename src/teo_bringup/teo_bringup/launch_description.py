@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What the launch files of this package have in common."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ament_index_python.packages import get_package_share_directory
+
+if TYPE_CHECKING:
+    from launch import LaunchDescription
+
+
+def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
+    """Describe nodes that start together, all in one namespace, and end together.
+
+    The arguments `params_file` and `namespace` are declared for `ros2 launch`.
+
+    Args:
+        nodes: Package and executable of each.
+    """
+    # Here, as this package is installed where there is no `launch` too: `start` does without it.
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument, Shutdown
+    from launch.substitutions import LaunchConfiguration
+    from launch_ros.actions import Node
+
+    parameters = Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml"
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                "params_file", default_value=str(parameters), description="Parameters of the nodes."
+            ),
+            DeclareLaunchArgument("namespace", default_value="", description="Before every topic and node."),
+            *(
+                Node(
+                    package=package,
+                    executable=executable,
+                    namespace=LaunchConfiguration("namespace"),
+                    parameters=[LaunchConfiguration("params_file")],
+                    output="screen",
+                    on_exit=Shutdown(reason=f"{executable} ended"),
+                )
+                for package, executable in nodes
+            ),
+        ]
+    )
