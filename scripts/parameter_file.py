@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 """Writes teo_bringup's parameter file from the tables of the nodes: `python scripts/parameter_file.py`."""
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 # Files that can carry a comment, by the ends of their names; hand-written data among them.
-SUFFIXES = {".cmake", ".py", ".sh", ".yaml", ".yml", ".toml", ".msg", ".srv", ".action"}
+SUFFIXES = {".cmake", ".py", ".pyi", ".sh", ".yaml", ".yml", ".toml", ".msg", ".srv", ".action"}
 NAMES = {"CMakeLists.txt", "Makefile", "run"}
 HEADER = "# SPDX-FileCopyrightText: 2026 TEO signing project\n# SPDX-License-Identifier: Apache-2.0\n"
 # Made by scripts or taken over from others, with a licence beside it.
@@ -36,10 +36,13 @@ def sources() -> list[Path]:
     ]
 
 
+def has_header(text: str) -> bool:
+    """Whether the two lines are a file's first, below its shebang if it has one."""
+    return (text.partition("\n")[2] if text.startswith("#!") else text).startswith(HEADER)
+
+
 def with_header(text: str) -> str:
-    """Give a file's text with the two lines, below its shebang if it has one."""
-    if HEADER in text:
-        return text
+    """Put the two lines into a file's text, below its shebang if it has one."""
     if text.startswith("#!"):
         shebang, _, rest = text.partition("\n")
         return f"{shebang}\n{HEADER}{rest}"
@@ -53,7 +56,7 @@ def main() -> None:
         "--check", action="store_true", help="change nothing; exit with 1 if a file lacks them"
     )
     check = parser.parse_args().check
-    lacking = [path for path in sources() if HEADER not in path.read_text(encoding="utf-8")]
+    lacking = [path for path in sources() if not has_header(path.read_text(encoding="utf-8"))]
     for path in lacking:
         if check:
             print(f"{path.relative_to(ROOT)}: expected the SPDX lines; run python scripts/spdx.py")

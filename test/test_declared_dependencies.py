@@ -138,7 +138,7 @@ def test_everything_declared_is_imported(package: str) -> None:
     used = [DECLARED_AS[top] for top in imports_of(package) if top in DECLARED_AS]
     keys, names = {key for key, _ in used}, {name for _, name in used}
     assert rosdep_keys(package) - keys - NOT_IMPORTED.get(package, set()) == set()
-    assert pypi_names(package) - names - NOT_IMPORTED.get(package, set()) - {"setuptools"} == set()
+    assert pypi_names(package) - names - NOT_IMPORTED.get(package, set()) == set()
 
 
 @pytest.mark.parametrize("package", PACKAGES)

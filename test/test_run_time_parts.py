@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import subprocess
 import sys
 import time
@@ -100,6 +99,13 @@ def test_every_module_that_signs_is_imported_without_what_a_robot_lacks() -> Non
     assert not offenders, "\n".join(f"{module}: {error}" for module, error in offenders.items())
 
 
+@pytest.mark.parametrize("package", RUN_TIME)
+def test_importing_a_package_loads_no_ros(package: str) -> None:
+    command = [sys.executable, "-c", f"import sys, {package}; print(*sys.modules)"]
+    loaded = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout.split()
+    assert {"rclpy", "rcl_interfaces"}.isdisjoint(loaded)
+
+
 def test_what_the_rooms_beside_signing_are_called_still_stands() -> None:
     for package, others in RUN_TIME.items():
         for other in others:
@@ -136,7 +142,7 @@ def test_the_nodes_sign_a_text_without_what_a_robot_lacks(
 ) -> None:
     node, executor, heard = listener
     texts = node.create_publisher(String, "text", 10)
-    with Graph(log_folder=tmp_path, environment=os.environ) as graph:
+    with Graph(log_folder=tmp_path) as graph:
         for name, (package, executable) in NODES.items():
             # What the installed executable does, after the packages are made absent.
             entry = f"load_entry_point = importlib.metadata.distribution('{package}').entry_points"

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import hashlib
 import pickle
-import tempfile
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -16,6 +15,7 @@ import numpy as np
 from kept import kept_folder
 from numpy.typing import NDArray
 
+from teo_common.atomic_files import write_atomically
 from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
@@ -77,17 +77,15 @@ def take(settings: TakeSettings, cache: Path) -> list[TakeFrame]:
     if not path.exists():
         frames = list(_rendered(settings))
         cache.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=cache, delete=False) as file:
-            pickle.dump(frames, file, protocol=5)
-        Path(file.name).replace(path)
+        write_atomically(path, pickle.dumps(frames, protocol=5))
     loaded: list[TakeFrame] = pickle.loads(path.read_bytes())
     return loaded
 
 
 def default_cache() -> Path:
     """Give the folder that takes are kept in unless another is named."""
-    makers = ("teo_synthetic_signer", "teo_skeleton_retriever.detectors", __name__)
-    return kept_folder("retriever_accuracy", *makers)
+    rooms = (f"teo_skeleton_retriever.{room}" for room in ("camera", "detectors", "layouts"))
+    return kept_folder("retriever_accuracy", "teo_synthetic_signer", *rooms, __name__)
 
 
 def _rendered(settings: TakeSettings) -> Iterator[TakeFrame]:

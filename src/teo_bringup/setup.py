@@ -17,7 +17,7 @@ setup(
         (f"share/{PACKAGE}/launch", sorted(map(str, Path("launch").glob("*.launch.py")))),
         (f"share/{PACKAGE}/config", sorted(map(str, Path("config").glob("*.yaml")))),
     ],
-    install_requires=["setuptools"],
+    install_requires=[],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

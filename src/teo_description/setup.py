@@ -16,7 +16,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/urdf", sorted(map(str, Path("urdf").glob("*.urdf")))),
     ],
-    install_requires=["setuptools", "numpy", "pin"],
+    install_requires=["numpy", "pin"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

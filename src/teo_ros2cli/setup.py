@@ -14,7 +14,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/config", ["config/fastdds.xml"]),
     ],
-    install_requires=["setuptools", "mcap", "numpy", "PyYAML"],
+    install_requires=["mcap", "numpy", "PyYAML"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

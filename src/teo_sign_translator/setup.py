@@ -23,7 +23,7 @@ setup(
             for folder in (Path("data"), *sorted(path for path in Path("data").iterdir() if path.is_dir()))
         ),
     ],
-    install_requires=["setuptools", "numpy", "PyYAML", "rich", "safetensors", "threadpoolctl", "typer"],
+    install_requires=["numpy", "PyYAML", "rich", "safetensors", "threadpoolctl", "typer"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

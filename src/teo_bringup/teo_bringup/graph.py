@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import subprocess
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import IO
@@ -53,18 +52,14 @@ def executable_of(package: str, executable: str) -> Path:
 class Graph:
     """Processes that are all stopped, by SIGINT as Ctrl-C does, when the `with` block ends."""
 
-    def __init__(
-        self, *, log_folder: Path | None = None, environment: Mapping[str, str] | None = None
-    ) -> None:
+    def __init__(self, *, log_folder: Path | None = None) -> None:
         """Prepare to start processes.
 
         Args:
             log_folder: Where each process's output goes, as NAME.log. None: it is printed, each line with
                 the name of its process before it.
-            environment: Added to our own.
         """
         self._log_folder = log_folder
-        self._environment = {**os.environ, **(environment or {})}
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
         self._logs: dict[str, IO[bytes]] = {}
         self._printers: dict[str, threading.Thread] = {}
@@ -95,7 +90,6 @@ class Graph:
         """Start a command under a name of its own."""
         process = subprocess.Popen(
             command,
-            env=self._environment,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE if self._log_folder is None else self._open_log(name),
             stderr=subprocess.STDOUT,

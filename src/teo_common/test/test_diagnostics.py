@@ -15,9 +15,9 @@ from teo_common.diagnostics import Diagnosis, DiagnosticsPublisher, Level, RateM
 
 
 @pytest.fixture
-def context() -> Iterator[Context]:
+def context(domain_id: int) -> Iterator[Context]:
     context = Context()
-    rclpy.init(context=context, domain_id=98)
+    rclpy.init(context=context, domain_id=domain_id)
     yield context
     rclpy.try_shutdown(context=context)
 

@@ -122,8 +122,7 @@ class ExecutorNode(Node):
         )
         self.create_timer(1.0 / _STEP_RATE, self._step)
         self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback)
-        lut = self._lut
-        self.get_logger().info(f"ready with {len(lut)} signs of {lut.directory}")
+        self.get_logger().info(f"ready with {len(self._lut)} signs of {self._lut.directory}")
         self._step()
 
     def _on_tokens(self, message: SignSentence) -> None:
@@ -170,7 +169,7 @@ class ExecutorNode(Node):
                     self._goals.finish(event)
 
     def _plan(self, wanted: PlanWanted) -> list[Event]:
-        self._fresh_lut()
+        self._refresh_lut()
         began = time.perf_counter()
         try:
             plan = self._planner.plan(wanted.sentence.tokens, wanted.start, form=wanted.sentence.form)
@@ -204,19 +203,20 @@ class ExecutorNode(Node):
             self._goals.give_feedback(progress)
 
     def _on_list_signs(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
-        for problem in list_signs(self._fresh_lut(), request, response):
+        self._refresh_lut()
+        for problem in list_signs(self._lut, request, response):
             self.get_logger().warning(problem)
         return response
 
     def _on_get_sign(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
-        get_sign(self._fresh_lut(), request, response)
+        self._refresh_lut()
+        get_sign(self._lut, request, response)
         return response
 
-    def _fresh_lut(self) -> Lut:
+    def _refresh_lut(self) -> None:
         problem = self._lut.refresh()
         if problem:
             self.get_logger().error(f"look-up table not read again: {problem}", throttle_duration_sec=5.0)
-        return self._lut
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         try:
@@ -231,9 +231,8 @@ class ExecutorNode(Node):
         self._queue.limits, self._queue.settings = self._planner.limits, queue_settings_from(values)
 
     def _make_planner(self, values: dict[str, Value]) -> Planner:
-        signs = self._lut
         return Planner(
-            MirroredSigns(signs, self._robot) if left_handed_from(values) else signs,
+            MirroredSigns(self._lut, self._robot) if left_handed_from(values) else self._lut,
             limits=limits_from(values),
             style=style_from(values),
             robot=self._robot,

@@ -161,8 +161,8 @@ def _from_files(
         for topic in _topics_of(report, found):
             topics.setdefault(topic.name, topic)
             counts[topic.name] = counts.get(topic.name, 0) + report.counts.get(topic.name, 0)
-        start = report.start if report.messages else NO_START
-        records.append(FileRecord(file.name, start, max(report.end - start, 0), report.messages))
+        duration = max(report.end - report.start, 0)
+        records.append(FileRecord(file.name, report.start, duration, report.messages))
     if metadata and (lost := metadata.messages - sum(counts.values())) > 0:
         found.append(f"{lost} of {metadata.messages} messages that the metadata count cannot be read")
     start = min((record.start for record in records), default=NO_START)

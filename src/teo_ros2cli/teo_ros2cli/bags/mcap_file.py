@@ -12,6 +12,7 @@ from pathlib import Path
 from mcap.reader import make_reader
 
 from teo_common.mcap_salvage import DAMAGE, McapContent, NotMcapError, StoredMessage, salvage
+from teo_ros2cli.bags.metadata import NO_START
 from teo_ros2cli.errors import Ros2CliError
 
 
@@ -21,12 +22,12 @@ class FileReport(McapContent):
 
     Args:
         counts: Messages by topic name.
-        start: Time of the first message [ns]; meaningless without messages.
+        start: Time of the first message [ns], `NO_START` without messages.
         end: Time of the last message [ns].
     """
 
     counts: dict[str, int] = field(default_factory=dict)
-    start: int = 2**63 - 1
+    start: int = NO_START
     end: int = 0
 
     @property

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import Any
 
 import yaml
 
+from teo_common.atomic_files import write_atomically
 from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.errors import Ros2CliError
 
@@ -136,9 +136,8 @@ def block_text(tree: Mapping[str, Any] | Sequence[Any]) -> str:
 
 def write_metadata(directory: Path, metadata: BagMetadata) -> None:
     """Write `metadata.yaml` into a bag's directory, all of it or nothing."""
-    temporary = directory / f".{FILE_NAME}.{os.getpid()}"
-    temporary.write_text(block_text({"rosbag2_bagfile_information": metadata.to_tree()}), encoding="utf-8")
-    temporary.replace(directory / FILE_NAME)
+    text = block_text({"rosbag2_bagfile_information": metadata.to_tree()})
+    write_atomically(directory / FILE_NAME, text.encode())
 
 
 def read_metadata(directory: Path) -> BagMetadata:
