@@ -25,6 +25,7 @@ from report import Figure, percentiles
 from sensor_msgs.msg import CameraInfo, Image
 from teo_sign_msgs.msg import SkeletonArray
 
+from teo_common.node_process import run_node
 from teo_skeleton_retriever.bags.bag_images import BagImages
 from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import choose_topics
@@ -336,16 +337,12 @@ class _Waving:
 
 
 def _run_node(arguments: Sequence[str]) -> None:
-    rclpy.init()
-    node = RetrieverNode(detector=_Waving() if "replay" in arguments else None)
-    tune_interpreter()
-    try:
-        rclpy.spin(node)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
+    def tuned_node() -> RetrieverNode:
+        node = RetrieverNode(detector=_Waving() if "replay" in arguments else None)
+        tune_interpreter()
+        return node
+
+    run_node(tuned_node, None)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 from accuracy.errors import Errors, body_errors, hand_errors
-from accuracy.methods import Estimate, estimate_of, nothing
+from accuracy.methods import Estimate, estimate_of, nothing, signer_estimate
 from accuracy.takes import TakeFrame, default_cache, take
 from report import Figure
 from retriever_accuracy import TEST_TAKES
@@ -84,8 +84,7 @@ def worsened(frames: Sequence[TakeFrame], worsen: Worsen, seed: int) -> list[Est
     for frame in frames:
         depth = worsen(frame.depth(), random)
         found = retriever.process(DetectionFrame(frame.stamp, frame.people, depth, frame.camera))
-        signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
-        estimates.append(estimate_of(signers[0]) if signers else nothing())
+        estimates.append(signer_estimate(found))
     return estimates
 
 

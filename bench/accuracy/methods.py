@@ -75,8 +75,7 @@ def ours(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
     estimates = []
     for frame in frames:
         found = retriever.process(DetectionFrame(frame.stamp, see(frame), frame.depth(), frame.camera))
-        signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
-        estimates.append(estimate_of(signers[0]) if signers else nothing())
+        estimates.append(signer_estimate(found))
     return estimates
 
 
@@ -123,6 +122,12 @@ def original(frames: Sequence[TakeFrame], see: Detections) -> list[Estimate]:
                     estimate.body[BODY_ROW[name]] = skeleton.points[row]
         estimates.append(estimate)
     return estimates
+
+
+def signer_estimate(found: Sequence[Skeleton]) -> Estimate:
+    """What is said of the signer, or of the first person while nobody is known to be one."""
+    signers = [skeleton for skeleton in found if skeleton.is_signer] or list(found)
+    return estimate_of(signers[0]) if signers else nothing()
 
 
 def estimate_of(skeleton: Skeleton) -> Estimate:

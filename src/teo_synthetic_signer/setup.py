@@ -14,7 +14,6 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
     install_requires=[
-        "setuptools",
         "anny",
         "embreex",
         "lazy-loader",

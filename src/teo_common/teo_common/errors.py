@@ -22,6 +22,6 @@ class CodedError(Exception):
         super().__init__(message)
         self.code = code
 
-    def __reduce__(self) -> tuple[type[CodedError], tuple[str, str]]:
+    def __reduce__(self) -> tuple[type[CodedError], tuple[str, ...]]:
         """Both arguments, so that the error can pass from one process to another."""
-        return type(self), (self.code, str(self))
+        return type(self), (self.code, *self.args)

@@ -4,23 +4,19 @@
 
 from __future__ import annotations
 
+from teo_common.errors import CodedError
 
-class RetrieverError(Exception):
-    """Base of everything this package raises.
 
-    Attributes:
-        code: Stable reason, for programs.
-        sentence: What was expected, what came and what to do, for people.
-    """
+class RetrieverError(CodedError):
+    """Base of everything this package raises; its text is the code and the sentence."""
 
-    def __init__(self, code: str, sentence: str) -> None:
-        super().__init__(f"{code}: {sentence}")
-        self.code = code
-        self.sentence = sentence
+    @property
+    def sentence(self) -> str:
+        """What was expected, what came and what to do, for people."""
+        return str(self.args[0])
 
-    def __reduce__(self) -> tuple[type[RetrieverError], tuple[str, ...]]:
-        """Give the arguments, so that the error can pass from one process to another."""
-        return type(self), (self.code, self.sentence)
+    def __str__(self) -> str:
+        return f"{self.code}: {self.sentence}"
 
 
 class KeypointError(RetrieverError):

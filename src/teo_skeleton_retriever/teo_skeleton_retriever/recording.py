@@ -25,9 +25,6 @@ from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
-# Parts of a signer whose keypoints are counted.
-PARTS = ("body", "hands", "face")
-
 
 @dataclass(frozen=True, kw_only=True)
 class RetrievalReport:
@@ -39,7 +36,7 @@ class RetrievalReport:
         images: Number of images that were processed.
         images_with_people: Number of these in which somebody was found.
         people: Number of different people.
-        statuses: Number of the signer's keypoints by `KeypointStatus`, for each of `PARTS`.
+        statuses: Number of the signer's keypoints by `KeypointStatus`, for "body", "hands" and "face".
         detector_time: Median time of the detector for an image [s]; NaN without images.
         own_time: Median time of the rest for an image [s]; NaN without images.
         left_out: Number of colour images that could not be used, by reason code.
@@ -115,13 +112,13 @@ def retrieve_recording(
         OSError: `out` cannot be written.
     """
     with ExitStack() as stack:
-        if images is None:
-            images = ImageRetriever(make_detector("mediapipe"), Retriever(RetrieverParameters()))
-            stack.callback(images.close)
         bag = Bag(recording)
         topics = choose_topics(bag, color=color_topic, depth=depth_topic, camera_info=camera_info_topic)
         reader = BagImages(bag, topics, slop=round(slop * 1e9), rectified=rectified)
         skeletons = stack.enter_context(skeleton_bag(out)) if out is not None else None
+        if images is None:  # after the input was looked at: to load the detector takes seconds
+            images = ImageRetriever(make_detector("mediapipe"), Retriever(RetrieverParameters()))
+            stack.callback(images.close)
         total = sum(bag.counts.get(topic, 0) for topic in topics)
         tally = _Tally()
 
@@ -154,7 +151,7 @@ class _Tally:
         self._with_people = 0
         self._ids: set[int] = set()
         self._times: list[tuple[float, float]] = []
-        self._statuses: dict[str, Counter[int]] = {part: Counter() for part in PARTS}
+        self._statuses: dict[str, Counter[int]] = {"body": Counter(), "hands": Counter(), "face": Counter()}
 
     def add(self, retrieved: Retrieved) -> None:
         """Count an image."""

@@ -128,6 +128,19 @@ def test_what_cannot_be_read_or_written_is_refused(bag, keypoints, tmp_path):
         retrieve(bag, keypoints, out=tmp_path / "none" / "x.mcap")
 
 
+def test_the_input_is_looked_at_before_the_detector_is_loaded(bag, tmp_path, monkeypatch):
+    def load(*_):
+        raise AssertionError("the detector was loaded")
+
+    monkeypatch.setattr("teo_skeleton_retriever.recording.make_detector", load)
+    with pytest.raises(BagError, match="missing_bag"):
+        retrieve_recording(tmp_path / "none.mcap")
+    with pytest.raises(BagError, match="unknown_topic"):
+        retrieve_recording(bag, color_topic="/none")
+    with pytest.raises(OutputError, match="bad_name"):
+        retrieve_recording(bag, out=tmp_path / "x.bag")
+
+
 def test_errors_pass_from_one_process_to_another():
     error = pickle.loads(pickle.dumps(TopicError("no_depth", "expected a topic", "depth_topic")))
     assert (type(error), error.code, error.sentence) == (TopicError, "no_depth", "expected a topic")

@@ -156,14 +156,15 @@ class _Salvaged:
 
     def __init__(self, files: list[Path], reason: str) -> None:
         self._files = files
+        self._faults: dict[Path, str] = {}
         self.kinds: dict[str, str] = {}
-        self.problem = f"cut off: {reason}"
         counts: Counter[str] = Counter()
         for message in self.messages(()):
             counts[message.topic] += 1
             self.kinds[message.topic] = message.kind
         self.counts = dict(counts)
-        self.problem = f"cut off, {sum(counts.values())} messages can be read: {reason}"
+        reasons = "; ".join(dict.fromkeys((reason, *self._faults.values())))
+        self.problem = f"cut off, {sum(counts.values())} messages can be read: {reasons}"
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
         for file in self._files:
@@ -171,5 +172,5 @@ class _Salvaged:
                 for message in salvage(file):
                     if not topics or message.topic in topics:
                         yield message
-            except CutOff:
-                continue  # said in `problem`; the next file of the bag may be whole
+            except CutOff as fault:
+                self._faults[file] = str(fault)  # the next file of the bag may be whole

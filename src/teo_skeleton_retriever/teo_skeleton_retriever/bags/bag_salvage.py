@@ -32,14 +32,14 @@ class RawMessage(NamedTuple):
 
 
 class CutOff(Exception):  # noqa: N818  not an error: the expected end of such a file
-    """Nothing more can be read from here on; says why."""
+    """The file was not read whole; says why."""
 
 
 def salvage(path: Path) -> Iterator[RawMessage]:
     """Read a file from the front.
 
     Raises:
-        CutOff: Where it ends before its time.
+        CutOff: After the last message that can be read, if the file was not read whole.
     """
     scans: dict[str, Callable[[Path], Iterator[RawMessage]]] = {
         ".mcap": _scan_mcap,
@@ -56,10 +56,11 @@ def _scan_mcap(path: Path) -> Iterator[RawMessage]:
             yield RawMessage(stored.topic, stored.type, stored.log_time, stored.data)
     except mcap_salvage.NotMcapError as error:
         raise CutOff(str(error)) from None
-    if not content.complete:
-        raise CutOff(content.fault)
+    faults = [] if content.complete else [content.fault]
     if content.damaged_chunks:
-        raise CutOff(f"{content.damaged_chunks} damaged chunks are left out")
+        faults.append(f"{content.damaged_chunks} damaged chunks are left out")
+    if faults:
+        raise CutOff("; ".join(faults))
 
 
 # ROS 1, format 2.0. Source: http://wiki.ros.org/Bags/Format/2.0

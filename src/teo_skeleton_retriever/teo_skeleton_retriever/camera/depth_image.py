@@ -65,7 +65,7 @@ def metres(image: np.ndarray) -> DepthArray:
     """Bring an image of whole millimetres or of metres to metres.
 
     Args:
-        image: Uint16 [mm] or float32 or float64 [m]. Shape (height, width).
+        image: As stored: uint16 [mm], float32 or float64 [m]. Shape (height, width).
 
     Returns:
         [m], NaN where unknown: zero, negative, NaN or infinite. Shape (height, width).

@@ -130,7 +130,8 @@ def _retrieve(
     except OSError as error:
         _complain(f"cannot write {error.filename}: {error.strerror}")
         raise typer.Exit(1) from None
-    _tell(_table(report), [path for path in (out, video) if path is not None], quiet=as_lines)
+    film_path = video if report.images else None
+    _tell(_table(report), [path for path in (out, film_path) if path is not None], quiet=as_lines)
     for complaint in report.complaints:
         _complain(complaint)
     if report.complaints:

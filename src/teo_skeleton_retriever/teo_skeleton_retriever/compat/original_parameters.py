@@ -24,7 +24,8 @@ class OriginalParameters:
         min_acceptable_path: Length of the longest path through a skeleton [m].
         tracking_threshold: How far a pivot may move between images [px].
         time_to_live: How long a skeleton that is not seen is kept [s].
-        depth_filter: Depth::kernel-size, iterations, min-distance, max-distance; None for depth::enable off.
+        depth_filter: By depth::kernel-size, depth::iterations, depth::min-distance and depth::max-distance;
+            None for depth::enable off.
         filter_keypoint_order: Past samples of the median of a keypoint.
         filter_limblength_order: Past samples of the median of a limb's length.
         optimize_limblength: Whether limbs are moved so that their lengths hold.

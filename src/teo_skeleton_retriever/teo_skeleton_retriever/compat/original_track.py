@@ -52,9 +52,8 @@ class OriginalMedian:
         return self._output.copy()
 
 
-DEFAULT_ORDER = 40
 # A limb this many times as long as calibrated loses its far end for that image; fixed in the original.
-TOO_LONG = 2.0
+_TOO_LONG = 2.0
 
 
 class OriginalLimbLength:
@@ -63,7 +62,7 @@ class OriginalLimbLength:
     `LimbLength` goes on estimating.
     """
 
-    def __init__(self, order: int = DEFAULT_ORDER) -> None:
+    def __init__(self, order: int) -> None:
         self._order = order
         self._count = 0
         self._median = OriginalMedian(order, np.zeros(1))
@@ -80,8 +79,8 @@ class OriginalLimbLength:
         return float(self._median.output[0]) if self._count > self._order else None
 
     def too_long(self, length: float) -> bool:
-        """Whether a length [m] is more than `TOO_LONG` times the calibrated one; False before that."""
-        return self.value is not None and length > TOO_LONG * self.value
+        """Whether a length [m] is more than `_TOO_LONG` times the calibrated one; False before that."""
+        return self.value is not None and length > _TOO_LONG * self.value
 
 
 _INDEX = SKELETON_STD.index

@@ -12,6 +12,15 @@ from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame
+from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
+
+# The parts of a skeleton and the layout of each.
+SKELETON_PARTS: dict[str, Layout] = {
+    "body": BODY_25,
+    "left_hand": HAND_21,
+    "right_hand": HAND_21,
+    "face": FACE_70,
+}
 
 
 class KeypointStatus(IntEnum):

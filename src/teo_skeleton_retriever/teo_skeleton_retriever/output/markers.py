@@ -13,8 +13,7 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from teo_skeleton_retriever.layouts.layout import Layout
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
-from teo_skeleton_retriever.output.messages import PARTS
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, KeypointStatus, Skeleton
 
 # A marker goes by itself so long after the last image: a person who left, a node that ended.
 _LIFETIME = Duration(nanosec=500_000_000)
@@ -38,7 +37,7 @@ def marker_array(skeletons: Sequence[Skeleton], header: Header) -> MarkerArray:
     markers = []
     for skeleton in skeletons:
         number = 0
-        for part, layout in PARTS.items():
+        for part, layout in SKELETON_PARTS.items():
             keypoints: Keypoints3D = getattr(skeleton, part)
             color = _SIGNER if skeleton.is_signer else _OTHER
             bones = _marker(header, skeleton.track_id, number, Marker.LINE_LIST, _BONE[part], color)

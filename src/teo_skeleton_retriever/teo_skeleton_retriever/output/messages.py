@@ -18,11 +18,8 @@ from teo_sign_msgs.msg import Keypoint3D, Skeleton3D, SkeletonArray
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.color_image import ColorArray
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame
-from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, Skeleton
-
-# The parts of a Skeleton3D and the layout of each.
-PARTS: dict[str, Layout] = {"body": BODY_25, "left_hand": HAND_21, "right_hand": HAND_21, "face": FACE_70}
+from teo_skeleton_retriever.layouts.layout import Layout
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, Skeleton
 
 
 def skeleton_array(skeletons: Sequence[Skeleton], header: Header) -> SkeletonArray:
@@ -55,7 +52,7 @@ def image_message(picture: ColorArray, header: Header) -> Image:
 
 def _message(skeleton: Skeleton) -> Skeleton3D:
     message = Skeleton3D(id=skeleton.track_id, is_signer=skeleton.is_signer)
-    for part, layout in PARTS.items():
+    for part, layout in SKELETON_PARTS.items():
         setattr(message, part, _keypoint_messages(getattr(skeleton, part), layout.keypoints))
     message.body_frame, message.body_frame_origin = _pose(skeleton.body_frame)
     return message
@@ -114,7 +111,7 @@ def _quaternion(rotation: FloatArray) -> tuple[float, float, float, float]:
 
 def _skeleton(message: Skeleton3D) -> Skeleton:
     parts: dict[str, Any] = {
-        part: _keypoints(getattr(message, part), layout) for part, layout in PARTS.items()
+        part: _keypoints(getattr(message, part), layout) for part, layout in SKELETON_PARTS.items()
     }
     return Skeleton(
         track_id=message.id, is_signer=message.is_signer, body_frame=_body_frame(message), **parts

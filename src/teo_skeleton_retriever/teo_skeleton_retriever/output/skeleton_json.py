@@ -9,10 +9,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame
-from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.layouts.layout import Layout
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, KeypointStatus, Skeleton
 
-_LAYOUTS = {"body": BODY_25, "left_hand": HAND_21, "right_hand": HAND_21, "face": FACE_70}
 _DIGITS = 5  # of metres, hundredths of a millimetre
 
 
@@ -25,7 +24,7 @@ def as_json(stamp: float, skeletons: Sequence[Skeleton]) -> dict[str, Any]:
 
 
 def _skeleton(skeleton: Skeleton) -> dict[str, Any]:
-    parts = {part: _part(getattr(skeleton, part), layout) for part, layout in _LAYOUTS.items()}
+    parts = {part: _part(getattr(skeleton, part), layout) for part, layout in SKELETON_PARTS.items()}
     return {
         "id": skeleton.track_id,
         "is_signer": skeleton.is_signer,

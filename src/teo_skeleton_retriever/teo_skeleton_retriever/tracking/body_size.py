@@ -86,15 +86,6 @@ class LimbLength:
         """Sum of the weights of the lengths: their number if all were seen across the view."""
         return self._weight
 
-    @property
-    def spread(self) -> float:
-        """Robust standard deviation of the recent lengths [m]; NaN without an estimate."""
-        if self._value is None:
-            return math.nan
-        samples = self._recent().copy()
-        samples[:, 0] = np.abs(samples[:, 0] - self._value)
-        return 1.4826 * _weighted_median(samples)
-
     def _recent(self) -> FloatArray:
         """The lengths that count, in no particular order, and their weights. Shape (n, 2)."""
         return self._samples[: self._count]

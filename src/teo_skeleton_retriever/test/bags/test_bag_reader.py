@@ -8,6 +8,7 @@ import bag_take
 import camera_take as take
 import numpy as np
 import pytest
+from mcap.reader import make_reader
 from rosbags.rosbag2 import StoragePlugin
 
 from teo_skeleton_retriever.bags.bag_images import BagImages
@@ -79,6 +80,23 @@ def test_no_cut_anywhere_does_more_than_shorten(tmp_path, kind):
             assert len(list(Bag(bag_take.cut(file, share)).messages([bag_take.DEPTH]))) <= IMAGES
         except BagError as refused:
             assert refused.code == "unreadable_bag"
+
+
+def test_damaged_chunks_of_a_bag_that_was_cut_off_are_told(tmp_path):
+    whole = write(tmp_path, "mcap") / "take.mcap"
+    with whole.open("rb") as stream:
+        second_chunk = make_reader(stream).get_summary().chunk_indexes[1].chunk_start_offset
+    file = bag_take.cut(whole, 0.9)
+    before = Bag(file)
+    assert "damaged chunks" not in before.problem
+    data = bytearray(file.read_bytes())
+    checksum = second_chunk + 33  # after opcode, length, both times and the size
+    data[checksum : checksum + 4] = b"\x01\x02\x03\x04"
+    file.write_bytes(data)
+    bag = Bag(file)
+    assert 0 < bag.counts[bag_take.COLOR] < before.counts[bag_take.COLOR]
+    assert bag.problem.startswith("cut off")
+    assert bag.problem.endswith("; 1 damaged chunks are left out")
 
 
 def test_a_message_that_is_not_of_its_type_is_left_out_and_told(tmp_path):

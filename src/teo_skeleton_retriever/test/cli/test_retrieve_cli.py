@@ -165,6 +165,19 @@ def test_what_cannot_be_read_or_written_is_told_with_its_reason(bag, seen, code,
     assert (status, code in stderr) == (1, True)
 
 
+def test_a_film_without_an_image_is_not_said_to_be_written(seen, tmp_path):
+    stored = [
+        (topic, kind, time, take.color_message(time, encoding="odd") if topic == bag_take.COLOR else message)
+        for topic, kind, time, message in bag_take.messages(2)
+    ]
+    out, film = tmp_path / "x.mcap", tmp_path / "x.mp4"
+    bag = bag_take.write_ros2(tmp_path / "odd", stored)
+    code, stdout, _ = run(bag, "--color-topic", bag_take.COLOR, "--out", out, "--video", film, *seen)
+    assert (code, film.exists()) == (1, False)
+    assert f"wrote {out}" in stdout
+    assert f"wrote {film}" not in stdout
+
+
 def test_nothing_half_written_is_left_behind(bag, seen, tmp_path):
     run(bag, "--out", tmp_path / "x.mcap", "--video", tmp_path / "none" / "x.mp4", *seen)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["keypoints", "take"]

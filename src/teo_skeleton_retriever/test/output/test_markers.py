@@ -6,13 +6,12 @@ import numpy as np
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker
 
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, Skeleton
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, Skeleton
 from teo_skeleton_retriever.output.markers import marker_array
-from teo_skeleton_retriever.output.messages import PARTS
 
 
 def person(track_id: int, known: list[int], is_signer: bool = False) -> Skeleton:
-    parts = {part: Keypoints3D.lost(len(layout)) for part, layout in PARTS.items()}
+    parts = {part: Keypoints3D.lost(len(layout)) for part, layout in SKELETON_PARTS.items()}
     points, status = np.full((25, 3), np.nan), np.zeros(25, dtype=np.uint8)
     points[known] = np.column_stack([np.arange(len(known)), np.zeros(len(known)), np.ones(len(known))])
     status[known] = 1

@@ -11,8 +11,8 @@ from std_msgs.msg import Header
 from teo_sign_msgs.msg import Skeleton3D
 
 from teo_skeleton_retriever.layouts.body_frame import BodyFrame
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, Skeleton
-from teo_skeleton_retriever.output.messages import PARTS, skeleton_array, skeletons_of
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, Skeleton
+from teo_skeleton_retriever.output.messages import skeleton_array, skeletons_of
 
 
 def keypoints(n: int, seed: int) -> Keypoints3D:
@@ -26,7 +26,9 @@ def keypoints(n: int, seed: int) -> Keypoints3D:
 
 
 def skeleton(seed: int = 0, frame: BodyFrame | None = None) -> Skeleton:
-    parts = {part: keypoints(len(layout), seed + i) for i, (part, layout) in enumerate(PARTS.items())}
+    parts = {
+        part: keypoints(len(layout), seed + i) for i, (part, layout) in enumerate(SKELETON_PARTS.items())
+    }
     return Skeleton(track_id=seed, is_signer=seed == 0, body_frame=frame, **parts)
 
 
@@ -45,7 +47,7 @@ def test_skeletons_come_back_from_their_message(quaternion, hips):
     )
     (after,) = skeletons_of(message)
     assert (after.track_id, after.is_signer) == (2, False)
-    for part in PARTS:
+    for part in SKELETON_PARTS:
         for field in ("points", "confidence", "status", "sigma", "pixels"):
             old, new = getattr(getattr(before, part), field), getattr(getattr(after, part), field)
             np.testing.assert_allclose(new, old, rtol=1e-6)
@@ -65,16 +67,16 @@ def test_half_turns_have_a_quaternion_too():
 def test_every_keypoint_has_its_name_and_a_lost_part_is_left_out():
     person = skeleton()
     message = skeleton_array([person], Header()).skeletons[0]
-    assert [k.name for k in message.right_hand] == list(PARTS["right_hand"].keypoints)
-    assert all(len(k.name) <= 32 for part in PARTS for k in getattr(message, part))
+    assert [k.name for k in message.right_hand] == list(SKELETON_PARTS["right_hand"].keypoints)
+    assert all(len(k.name) <= 32 for part in SKELETON_PARTS for k in getattr(message, part))
     lost = Skeleton(
         track_id=1,
         is_signer=False,
         body_frame=None,
-        **{part: Keypoints3D.lost(len(layout)) for part, layout in PARTS.items()},
+        **{part: Keypoints3D.lost(len(layout)) for part, layout in SKELETON_PARTS.items()},
     )
     message = skeleton_array([lost], Header()).skeletons[0]
-    assert not any(len(getattr(message, part)) for part in PARTS)
+    assert not any(len(getattr(message, part)) for part in SKELETON_PARTS)
     assert message.body_frame_origin == Skeleton3D.BODY_FRAME_UNKNOWN
     assert np.isnan(message.body_frame.position.x)
     assert skeletons_of(skeleton_array([lost], Header()))[0].body_frame is None
@@ -85,6 +87,7 @@ def test_nobody_is_an_empty_array_with_a_header():
     assert (list(message.skeletons), message.header.frame_id) == ([], "camera")
 
 
-@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("part", SKELETON_PARTS)
 def test_the_message_bounds_are_those_of_the_layouts(part):
-    assert len(getattr(skeleton_array([skeleton()], Header()).skeletons[0], part)) == len(PARTS[part])
+    (message,) = skeleton_array([skeleton()], Header()).skeletons
+    assert len(getattr(message, part)) == len(SKELETON_PARTS[part])

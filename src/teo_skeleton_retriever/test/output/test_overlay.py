@@ -8,8 +8,7 @@ import pytest
 
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.image_retriever import Retrieved
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
-from teo_skeleton_retriever.output.messages import PARTS
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.output.overlay import STATUS_COLORS, Overlay
 from teo_skeleton_retriever.output.overlay_video import overlay_video
 
@@ -31,7 +30,9 @@ def person(status: KeypointStatus, place: float = 0.0, is_signer: bool = True) -
     body = Keypoints3D(
         points=points, confidence=np.zeros(25), status=statuses, sigma=body.sigma, pixels=pixels
     )
-    others = {part: Keypoints3D.lost(len(layout)) for part, layout in PARTS.items() if part != "body"}
+    others = {
+        part: Keypoints3D.lost(len(layout)) for part, layout in SKELETON_PARTS.items() if part != "body"
+    }
     return Skeleton(track_id=4, is_signer=is_signer, body=body, body_frame=None, **others)
 
 

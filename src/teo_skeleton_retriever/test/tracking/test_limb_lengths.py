@@ -45,7 +45,6 @@ def test_ours_has_an_estimate_after_a_third_of_a_second() -> None:
     for _ in range(9):
         limb.step(*ends(0.28))
     assert limb.value is None
-    assert math.isnan(limb.spread)
     limb.step(*ends(0.28))
     assert limb.value == pytest.approx(0.28)
 
@@ -67,7 +66,6 @@ def test_two_fifths_of_wild_lengths_do_not_move_it() -> None:
         wild = random.random() < 0.4
         limb.step(*ends(random.uniform(0.1, 0.6) if wild else random.normal(0.27, 0.004)))
     assert limb.value == pytest.approx(0.27, abs=0.006)
-    assert limb.spread < 0.05
 
 
 def test_limbs_across_the_view_count_more_than_limbs_along_it() -> None:

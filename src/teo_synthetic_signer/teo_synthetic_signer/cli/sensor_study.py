@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import csv
 import math
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, NamedTuple
@@ -20,6 +19,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from teo_common.atomic_files import atomic_path
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
@@ -207,12 +207,10 @@ def table(results: Sequence[Study]) -> Table:
 
 def write_csv(results: Sequence[Study], path: Path) -> None:
     """Write results, in metres and shares, whole or not at all."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
-    with beside.open("w", newline="") as file:
+    with atomic_path(path) as temporary, temporary.open("w", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(Study._fields)
         writer.writerows([f"{v:.4g}" if isinstance(v, float) else v for v in result] for result in results)
-    beside.replace(path)
 
 
 def main() -> None:

@@ -40,14 +40,14 @@ def own_hands(landmarks: HolisticLandmarks) -> OwnHands:
 
 # Mean distance of their keypoints, in mean distances from the hand's middle, below which two hands are one.
 # Of one hand taken twice it was 0 to 0.2; of two hands that touch, 0.9.
-SAME = 0.35
+_SAME_HAND = 0.35
 _NOTHING = np.zeros((0, 3))
 
 
 def without_doubles(person: Person2D) -> Person2D:
     """Where both hands are the same one, remove that which is farther from its own arm's wrist."""
     left, right = person.left_hand, person.right_hand
-    if not (len(left) and len(right) and len(person.body)) or _apart(left, right) > SAME:
+    if not (len(left) and len(right) and len(person.body)) or _apart(left, right) > _SAME_HAND:
         return person
     if _off_arm(left, person, "LWrist") > _off_arm(right, person, "RWrist"):
         return replace(person, left_hand=_NOTHING, left_hand_world=None)

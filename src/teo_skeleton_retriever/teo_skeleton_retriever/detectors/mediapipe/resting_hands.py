@@ -52,7 +52,7 @@ class RestingHands:
         """Take in what was seen in an image.
 
         Args:
-            pose: X and y in [0, 1] of width and height, first of the columns; None if nobody was seen.
+            pose: Its first columns are x, y in [0, 1] of width and height; None if nobody was seen.
                 Shape (33, k).
             found: Whether each of `HANDS` was.
             width: Of the image [px].

@@ -112,12 +112,12 @@ def _top(before: FloatArray, middle: FloatArray, after: FloatArray) -> FloatArra
 
 
 # Places looked at along a limb.
-FEWEST, MOST = 5, 25
+_FEWEST_SAMPLES, _MOST_SAMPLES = 5, 25
 # Of the square root of the area: parts so close together may be joined though the field between them is too
 # coarse to say so (an ear behind a shoulder).
-SHORT = 1.0 / 150.0
+_SHORT_LIMB = 1.0 / 150.0
 # Candidates looked at together: some 10 MB, and no more whatever the network gives.
-AT_ONCE = 4096
+_CANDIDATES_AT_ONCE = 4096
 
 
 class Limbs(NamedTuple):
@@ -151,8 +151,8 @@ def find_limbs(
     second = np.concatenate([b for _, b in pairs])
     channels = np.repeat(model.fields, [len(a) for a, _ in pairs], axis=0)
     scores = np.zeros(len(first))
-    for begin in range(0, len(first), AT_ONCE):
-        some = slice(begin, begin + AT_ONCE)
+    for begin in range(0, len(first), _CANDIDATES_AT_ONCE):
+        some = slice(begin, begin + _CANDIDATES_AT_ONCE)
         scores[some] = _line_scores(
             fields,
             channels[some],
@@ -176,8 +176,8 @@ def _line_scores(
     along = end - start
     length = np.hypot(along[:, 0], along[:, 1])
     direction = along / np.maximum(length, 1e-6)[:, None]
-    count = np.clip(np.rint(np.sqrt(5.0 * np.abs(along).max(axis=1))), FEWEST, MOST)
-    step = np.arange(MOST)
+    count = np.clip(np.rint(np.sqrt(5.0 * np.abs(along).max(axis=1))), _FEWEST_SAMPLES, _MOST_SAMPLES)
+    step = np.arange(_MOST_SAMPLES)
     looked_at = step < count[:, None]
     share = np.minimum(step / (count[:, None] - 1.0), 1.0)
     places = start[:, None] + share[..., None] * along[:, None]
@@ -187,7 +187,7 @@ def _line_scores(
     agrees = looked_at & (component > thresholds.along_limb)
     agreeing = agrees.sum(axis=1)
     mean = np.where(agrees, component, 0.0).sum(axis=1) / np.maximum(agreeing, 1)
-    short = length < SHORT * np.sqrt(size[0] * size[1])
+    short = length < _SHORT_LIMB * np.sqrt(size[0] * size[1])
     score = np.where(agreeing > thresholds.agreeing * count, mean, np.where(short, thresholds.peak, 0.0))
     return np.where(length > 1e-6, score, 0.0)
 
