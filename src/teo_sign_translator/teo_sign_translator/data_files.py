@@ -48,7 +48,7 @@ def read_lines(path: Path) -> Iterator[tuple[int, str]]:
     except (OSError, UnicodeDecodeError) as error:
         raise TranslationError("invalid_data", f"{path}: expected a readable UTF-8 file: {error}") from error
     for number, line in enumerate(lines, start=1):
-        if line.strip() and not line.startswith("#"):
+        if line.strip() and not line.lstrip().startswith("#"):
             yield number, line
 
 
@@ -67,7 +67,10 @@ def read_listed(path: Path, valid: Callable[[str], bool], expected: str) -> dict
     for number, (key, listed) in read_rows(path, columns=2):
         if key in found or not valid(key):
             raise invalid_line(path, number, f"{expected}, once", f"'{key}'")
-        found[key] = frozenset(word.strip() for word in listed.split(","))
+        words = [word.strip() for word in listed.split(",")]
+        if not all(words):
+            raise invalid_line(path, number, "words between the commas", f"'{listed}'")
+        found[key] = frozenset(words)
     return found
 
 

@@ -28,21 +28,20 @@ def models_directory() -> Path:
     return package_path(PACKAGE, "models")
 
 
-def available_models(directory: Path | None = None, *, schema: int | None = None) -> tuple[str, ...]:
-    """Names of the models in a folder, sorted.
+def available_models(directory: Path | None = None) -> tuple[str, ...]:
+    """Names of the models in a folder (by default the package's), sorted."""
+    weights = (directory or models_directory()).glob("*.safetensors")
+    return tuple(sorted(path.stem for path in weights if path.with_suffix(".json").is_file()))
 
-    Args:
-        directory: By default the package's.
-        schema: Only models whose card has this schema; None for all.
-    """
-    directory = directory or models_directory()
-    return tuple(
-        sorted(
-            path.stem
-            for path in directory.glob("*.safetensors")
-            if path.with_suffix(".json").is_file() and schema in (None, _schema(path.with_suffix(".json")))
-        )
-    )
+
+def card_schema(name: str, directory: Path | None = None) -> object:
+    """The schema that the card of a model in a folder gives; None if there is no card that can be read."""
+    path = (directory or models_directory()) / f"{name}.json"
+    try:
+        card = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    return card.get("schema") if isinstance(card, dict) else None
 
 
 def read_card(name: str, schema: int, directory: Path | None = None) -> dict[str, Any]:
@@ -78,7 +77,7 @@ def read_model(
     directory = directory or models_directory()
     path = directory / f"{name}.safetensors"
     if path not in directory.glob("*.safetensors"):
-        known = ", ".join(available_models(directory, schema=schema)) or "none"
+        known = ", ".join(available_models(directory)) or "none"
         raise TranslationError("unknown_model", f"expected a model of {directory} ({known}), got '{name}'")
     card = read_card(name, schema, directory)
     try:
@@ -109,11 +108,3 @@ def write_model(
     write_atomically(directory / f"{name}.safetensors", safetensors.numpy.save(halves))
     text = json.dumps({"schema": schema, "name": name, **card}, ensure_ascii=False, indent=indent)
     write_atomically(directory / f"{name}.json", text.encode() + b"\n")
-
-
-def _schema(path: Path) -> object:
-    try:
-        card = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return card.get("schema") if isinstance(card, dict) else None

@@ -24,7 +24,7 @@ def run_command(command: Callable[..., None]) -> None:
         typer.run(command)
     except (TranslationError, OSError) as error:
         code = f"{error.code}: " if isinstance(error, TranslationError) else ""
-        Console(stderr=True).print(f"{code}{error}", markup=False)
+        Console(stderr=True, highlight=False).print(f"{code}{error}", markup=False, soft_wrap=True)
         raise SystemExit(1) from None
 
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 from teo_sign_translator.corpus.tokens import Phrase, Sign, Token
 from teo_sign_translator.corpus.words import Word, WordLists
+from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.text.numerals import HUNDREDS, TENS, UNITS
 
 #: One more than the largest number that is written in words here.
@@ -33,7 +34,7 @@ def word_phrase(words: WordLists, category: str, word: Word, arguments: Mapping[
         letter = {"m+f": arguments.get("gender", "m"), "mf": "c"}.get(word.features["gender"])
         form = words.inflect(word.lemma, f"A:{letter}{arguments.get('number', 's')}" if letter else "A:cn")
     token = Token(form)
-    gloss = word.lemma.upper().replace(" ", "_")
+    gloss = gloss_name(word.lemma)
     return Phrase({**word.features, "lemma": word.lemma}, [token], [Sign(gloss, [token])], token)
 
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 from bisect import bisect
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import accumulate
 from pathlib import Path
 from random import Random
@@ -47,7 +48,6 @@ class Generator:
 
     grammar: Grammar
     words: WordLists
-    held_forms: frozenset[str] = field(default_factory=frozenset)
 
     @classmethod
     def load(cls, grammar_folder: Path, morphology: Morphology) -> Generator:
@@ -64,7 +64,12 @@ class Generator:
             )
         words = WordLists.load(grammar_folder, morphology, grammar.word_lists)
         words.held_out = held_out_words(grammar, words)
-        return cls(grammar, words, frozenset(word.lower() for word in words.held_out))
+        return cls(grammar, words)
+
+    @cached_property
+    def _held_forms(self) -> frozenset[str]:
+        """Held-out words as they stand inside a sentence."""
+        return frozenset(word.lower() for word in self.words.held_out)
 
     def pairs(
         self,
@@ -151,7 +156,7 @@ class Generator:
                 continue
             if held != bool(sentence.lemmas & self.words.held_out):
                 continue
-            if not held and any(word in self.held_forms for word in sentence.words):
+            if not held and any(word in self._held_forms for word in sentence.words):
                 continue
             return sentence
         return None

@@ -15,7 +15,7 @@ from teo_common.text_folding import fold
 from teo_sign_translator.corpus.pairs_file import Pair
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.text.source_words import SourceWord, source_words
 
 #: Stand in sentences and glosses for any name and any number.
@@ -65,11 +65,6 @@ class AlignedPair:
     sentence: str
     glosses: tuple[str, ...]
     sources: tuple[tuple[str, ...], ...]
-
-
-def gloss_name(written: str) -> str:
-    """A gloss as the look-up table names it: `"Por favor"` is `"POR_FAVOR"`."""
-    return written.strip().upper().replace(" ", "_")
 
 
 def read_pairs(path: Path) -> list[PublishedPair]:

@@ -6,8 +6,8 @@
 and the forms of a lemma. Its lists are `data/lexicon` and `data/morphology`.
 """
 
-from teo_sign_translator.morphology.analyser import Morphology
-from teo_sign_translator.morphology.reading import Reading
+from teo_sign_translator.morphology.analyser import MAX_READINGS, Morphology
+from teo_sign_translator.morphology.reading import Reading, gloss_name
 from teo_sign_translator.morphology.tags import TAGS, tag_class
 
-__all__ = ["TAGS", "Morphology", "Reading", "tag_class"]
+__all__ = ["MAX_READINGS", "TAGS", "Morphology", "Reading", "gloss_name", "tag_class"]

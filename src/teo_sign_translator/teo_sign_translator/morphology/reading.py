@@ -24,3 +24,8 @@ class Reading:
     tag: str
     clitics: tuple[str, ...] = ()
     exact: bool = True
+
+
+def gloss_name(written: str) -> str:
+    """A gloss as the look-up table names it: `"Por favor"` is `"POR_FAVOR"`."""
+    return written.strip().upper().replace(" ", "_")

@@ -47,8 +47,6 @@ def read_signs(path: Path) -> frozenset[str]:
     signs: set[str] = set()
     for line_number, line in read_lines(path):
         gloss = line.strip().upper()
-        if gloss.startswith("#"):
-            continue
         if not _SIGN_NAME.fullmatch(gloss):
             raise invalid_line(path, line_number, "one gloss", f"'{line.strip()}'")
         signs.add(gloss)

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from teo_common.text_folding import fold
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
-from teo_sign_translator.morphology import Reading
+from teo_sign_translator.morphology import MAX_READINGS, Reading
 from teo_sign_translator.pointer import OutputGloss
-from teo_sign_translator.pointer.vocabulary import READINGS, copied_gloss
+from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
 
 _NONE = "-"
@@ -114,7 +114,7 @@ class GlossEvidence:
 
 def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
     """Whether a source of the gloss has as many readings as are kept, so that one may be missing: "bajo"."""
-    return any(len(words[place].readings) >= READINGS for place in gloss.sources)
+    return any(len(words[place].readings) >= MAX_READINGS for place in gloss.sources)
 
 
 def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:

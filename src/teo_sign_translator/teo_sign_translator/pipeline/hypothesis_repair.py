@@ -73,10 +73,12 @@ class HypothesisRepair:
             words: Of the sentence; one at least is no mark.
             hypotheses: Its translations, best first.
         """
+        faults: list[int] = []
         for hypothesis in hypotheses:
-            if hypothesis.glosses and not self._faults(words, hypothesis.glosses):
+            faults.append(self._faults(words, hypothesis.glosses))
+            if hypothesis.glosses and not faults[-1]:
                 return as_said(hypothesis)
-        best = min((each.glosses for each in hypotheses), key=lambda each: self._faults(words, each))
+        best = hypotheses[faults.index(min(faults))].glosses
         invented = self.evidence.invented(words, best)
         best = tuple(gloss for place, gloss in enumerate(best) if place not in invented)
         missing = {place: self._meant(words[place]) for place in self.coverage.lost(words, best)}

@@ -14,7 +14,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.store import load_model
-from teo_sign_translator.model_files import available_models
+from teo_sign_translator.model_files import card_schema
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import attach_carried, divide, number_tokens
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
@@ -100,7 +100,7 @@ class Translator:
         """
         glosses = GlossList.load()
         taught = Phrasebook(training_pairs(), glosses)
-        if name in available_models(directory, schema=SCHEMA):
+        if card_schema(name, directory) == SCHEMA:
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 
 from teo_common.text_folding import fold
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology import Reading
+from teo_sign_translator.morphology import MAX_READINGS, Reading, gloss_name
 from teo_sign_translator.text.source_words import SourceWord
 
-#: Readings of a word that a model looks at; `Morphology.readings` gives no more.
-READINGS = 4
+#: Readings of a word that a model looks at: all that there are.
+READINGS = MAX_READINGS
 
 #: First entries of the lists. ROOT stands before the sentence: what no word says is aligned with it. BLANK
 #: stands behind it in the equal-length layout, where glosses that outnumber the words find room.
@@ -56,7 +56,7 @@ class WordFeatures(NamedTuple):
 
 def copied_gloss(reading: Reading) -> str:
     """The gloss that carries a reading over: its lemma in capitals, `_` for spaces."""
-    return reading.lemma.upper().replace(" ", "_")
+    return gloss_name(reading.lemma)
 
 
 def tag_key(reading: Reading) -> str:

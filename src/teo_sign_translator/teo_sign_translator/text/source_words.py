@@ -7,15 +7,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from teo_sign_translator.morphology import Morphology, Reading
+from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
 from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
 from teo_sign_translator.text.numerals import roman_value
 from teo_sign_translator.text.reading import Clause, Word, WordKind, read
 
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
-#: Readings that a word has at most.
-_MOST_READINGS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,5 +127,5 @@ def _with_name(text: str, readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
     """Readings of a word with a capital inside a sentence: it may be a name that the lexicon lacks."""
     name = Reading(text, "NAME", exact=False)
     if not any(reading.exact for reading in readings):
-        return (name, *readings[: _MOST_READINGS - 1])
-    return (*readings[: _MOST_READINGS - 1], name)
+        return (name, *readings[: MAX_READINGS - 1])
+    return (*readings[: MAX_READINGS - 1], name)

@@ -9,7 +9,8 @@ from dataclasses import replace
 
 from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.pairs_file import Pair
-from teo_sign_translator.corpus.paper_pairs import filled, gloss_name, paper_pairs, training_pairs
+from teo_sign_translator.corpus.paper_pairs import filled, paper_pairs, training_pairs
+from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.training.examples import Reader
 

@@ -85,7 +85,8 @@ def test_a_text_that_cannot_be_translated_is_refused_with_a_reason() -> None:
 def test_an_unknown_model_is_refused_with_those_available() -> None:
     code, out, err = _run("--model", "gpt", "Hola")
     assert (code, out) == (1, "")
-    assert "lstm256" in err
+    assert err.endswith("(lstm256, pointer), got 'gpt'\n")
+    assert err.count("\n") == 1, "on one line, which can be searched for"
 
 
 def test_the_models_are_listed() -> None:

@@ -12,9 +12,9 @@ import pytest
 import simplemma
 
 from teo_sign_translator.corpus.generator import LARGEST_SHARE, SHARES, Generator
-from teo_sign_translator.corpus.paper_pairs import gloss_name, own_pairs, paper_pairs
+from teo_sign_translator.corpus.paper_pairs import own_pairs, paper_pairs
 from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.morphology.nominal import unaccented as strip_accents
 from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
 from teo_sign_translator.pointer import OutputGloss

@@ -12,7 +12,6 @@ import pytest
 
 from teo_sign_translator.corpus.paper_pairs import (
     NUMBER,
-    gloss_name,
     paper_pairs,
     paper_predictions,
     read_aligned_pairs,
@@ -22,6 +21,7 @@ from teo_sign_translator.corpus.paper_pairs import (
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.lstm256.store import SCHEMA, load_model
 from teo_sign_translator.model_files import read_card
+from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.training.lstm256_run import shipped_examples

@@ -54,7 +54,7 @@ def test_a_gloss_says_its_own_words_and_those_that_are_listed(
     assert _lost(sentence, *glosses) == lost
 
 
-@pytest.mark.parametrize("line", ["edad\taño", "EDAD\taño\nEDAD\tvejez", "EDAD"])
+@pytest.mark.parametrize("line", ["edad\taño", "EDAD\taño\nEDAD\tvejez", "EDAD", "EDAD\taño,,vejez"])
 def test_a_damaged_list_is_refused_with_file_and_line(tmp_path: Path, line: str) -> None:
     path = tmp_path / "gloss_words.tsv"
     path.write_text(line, encoding="utf-8")

@@ -10,7 +10,8 @@ from collections.abc import Callable
 
 import pytest
 
-from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs
+from teo_sign_translator.corpus.paper_pairs import paper_pairs
+from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.pipeline.translator import Translator
 
 WAYS_OF_TYPING: dict[str, Callable[[str], str]] = {

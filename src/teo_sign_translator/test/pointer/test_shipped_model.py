@@ -35,7 +35,7 @@ def _translated(sentence: str) -> str:
 
 def test_the_default_model_is_the_pointer_of_the_zoo() -> None:
     assert Translator.load().name == POINTER
-    assert POINTER in available_models(schema=SCHEMA)
+    assert POINTER in available_models()
     assert NetworkConfig(**read_card(POINTER, SCHEMA)["network"]) == ZOO[POINTER]
 
 

@@ -17,7 +17,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
-from teo_sign_translator.pointer.store import SCHEMA, save_sentence_model
+from teo_sign_translator.pointer.store import save_sentence_model
 from teo_sign_translator.training.fitting import Fit
 
 
@@ -36,7 +36,7 @@ def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> 
 
 def test_a_saved_model_says_the_same_after_loading(tmp_path: Path) -> None:
     model = small_model(POINTER, _save(tmp_path))
-    assert available_models(tmp_path, schema=SCHEMA) == ("small",)
+    assert available_models(tmp_path) == ("small",)
     loaded = load_sentence_model("small", tmp_path)
     for pair in sentence_pairs(10):
         (expected,), (got,) = model.translate(read(pair.spanish)), loaded.translate(read(pair.spanish))

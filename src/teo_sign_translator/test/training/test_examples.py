@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from teo_common.text_folding import folded, without_accents
 from teo_sign_translator.corpus import Pair
-from teo_sign_translator.corpus.paper_pairs import gloss_name, paper_pairs, training_pairs
-from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.corpus.paper_pairs import paper_pairs, training_pairs
+from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
 from teo_sign_translator.text.source_words import source_words
 from teo_sign_translator.training.batches import WordNumbers, batches
