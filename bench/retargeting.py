@@ -21,7 +21,7 @@ from signs.signer_tracks import signer_track
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
-from teo_sign_capture.retarget import robot_motion as motion_retarget
+from teo_sign_capture.retarget import robot_motion
 from teo_sign_capture.retarget.arm_bounds import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
@@ -81,7 +81,7 @@ def measure() -> list[Figure]:
 def _compared(robot: Robot, what: str, tracks: list[tuple[SkeletonTrack, Handedness]]) -> list[Figure]:
     ours, copied = [], []
     for track, hands in tracks:
-        motion = motion_retarget.retarget_motion(robot, track, handedness=hands)
+        motion = robot_motion.retarget_motion(robot, track, handedness=hands)
         for side in ("right", "left") if hands == "both" else (hands,):
             ours.append(errors(robot, track, side, motion.joints, motion.positions))
             copied.append(errors(robot, track, side, *copied_joints(track, side)))
@@ -116,7 +116,7 @@ class _Watch:
 @contextmanager
 def _watched() -> Iterator[_Watch]:
     watch = _Watch()
-    retarget = motion_retarget.retarget_motion
+    retarget = robot_motion.retarget_motion
 
     def solving(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:
         start = time.process_time()
@@ -141,9 +141,9 @@ def _watched() -> Iterator[_Watch]:
         return motion
 
     with (
-        patch.object(motion_retarget, "solve_arms", solving),
-        patch.object(motion_retarget, "clear_arms", clearing),
-        patch.object(motion_retarget, "retarget_motion", retargeting),
+        patch.object(robot_motion, "solve_arms", solving),
+        patch.object(robot_motion, "clear_arms", clearing),
+        patch.object(robot_motion, "retarget_motion", retargeting),
     ):
         yield watch
 

@@ -41,7 +41,7 @@ def copied_joints(track: SkeletonTrack, side: str) -> tuple[tuple[str, ...], Arr
     fingers = finger_bends(in_palm(hand)).mean(axis=2)
     thumb = np.tile([0.0, np.radians(-30.0)], (len(arm), 1))
     if side == "left":
-        arm = np.stack([mirrored(row) for row in arm])
+        arm = mirrored(arm)
     joints = RIGHT_ARM + RIGHT_HAND if side == "right" else LEFT_ARM + LEFT_HAND
     limits = joint_limits(joints)
     return joints, np.clip(np.concatenate([arm, thumb, fingers], axis=1), limits.lower, limits.upper)

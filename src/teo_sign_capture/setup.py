@@ -17,7 +17,6 @@ setup(
         (f"share/{PACKAGE}/scores/lse", sorted(map(str, Path("scores/lse").glob("*.yaml")))),
     ],
     install_requires=[
-        "setuptools",
         "distributed",
         "lazy-loader",
         "numpy",

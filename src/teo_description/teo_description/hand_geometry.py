@@ -26,13 +26,13 @@ PHALANGES = np.array([0.035, 0.025, 0.027])
 FINGER_LENGTH = float(PHALANGES.sum())
 
 # Thickest phalanges of the collision model [m].
-_FINGER_RADIUS, _THUMB_RADIUS = 0.009, 0.009
+FINGER_RADIUS, THUMB_RADIUS = 0.009, 0.009
 
 # Height of a thumb's axis over the palm's frame at which its surface touches the palm's box [m].
-_PALM_FRONT = 0.009 - 0.003
+PALM_FRONT = 0.009 - 0.003
 
 # The palm's box along and across the hand [m], the thumb's radius added at its sides.
-_PALM_FROM, _PALM_TO, _PALM_HALF_WIDTH = -0.075, 0.032, 0.047
+PALM_FROM, PALM_TO, PALM_HALF_WIDTH = -0.075, 0.032, 0.047
 
 # Step of the table [rad]: between its points it is off by (finger length) * step^2 / 8 < 0.1 mm.
 _STEP = np.radians(2.0)
@@ -80,14 +80,14 @@ def thumb_clearances(points: HandPoints) -> Array:
     starts, ends = points.thumb[:-1], points.thumb[1:]
     finger_starts, finger_ends = points.fingers[:, :-1].reshape(-1, 3), points.fingers[:, 1:].reshape(-1, 3)
     found = [
-        segment_distances(start, end, finger_starts, finger_ends) - (_FINGER_RADIUS + _THUMB_RADIUS)
+        segment_distances(start, end, finger_starts, finger_ends) - (FINGER_RADIUS + THUMB_RADIUS)
         for start, end in zip(starts, ends, strict=True)
     ]
     samples = np.linspace(starts, ends, 3).reshape(-1, 3)
     over_palm = (
-        (samples[:, 0] > _PALM_FROM) & (samples[:, 0] < _PALM_TO) & (np.abs(samples[:, 1]) < _PALM_HALF_WIDTH)
+        (samples[:, 0] > PALM_FROM) & (samples[:, 0] < PALM_TO) & (np.abs(samples[:, 1]) < PALM_HALF_WIDTH)
     )
-    found.append(np.where(over_palm, samples[:, 2] - _PALM_FRONT, np.inf))
+    found.append(np.where(over_palm, samples[:, 2] - PALM_FRONT, np.inf))
     return np.concatenate(found)
 
 

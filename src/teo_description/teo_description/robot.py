@@ -65,11 +65,6 @@ class Robot:
                 offset[row] = float(mimic.attrib["offset"])
         return matrix, offset
 
-    @property
-    def frame_names(self) -> tuple[str, ...]:
-        """Names of all link and fixed frames."""
-        return tuple(self._frames)
-
     def configuration(self, positions: Mapping[str, float]) -> Matrix:
         """Expand named joint positions to the model's configuration.
 
@@ -101,7 +96,7 @@ class Robot:
 
         Args:
             q: Configuration, shape (nq,).
-            frame: A name of `frame_names`.
+            frame: Name of a link or of a fixed frame.
 
         Returns:
             Homogeneous transform [m]. Shape (4, 4).
@@ -128,7 +123,7 @@ class Robot:
 
         Args:
             q: Configuration, shape (nq,).
-            frame: A name of `frame_names`.
+            frame: Name of a link or of a fixed frame.
             joints: N names of `ALL_JOINTS`.
 
         Returns:

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
+from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits, mirrored_name
 from teo_description.robot import Robot
 from teo_signs.sign import Sign
 from teo_signs.sign_file import LIMIT_TOLERANCE
@@ -80,13 +80,6 @@ class MirroredSigns(Mapping[str, Sign]):
         return len(self._signs)
 
 
-def mirrored_joint(name: str) -> str:
-    """The joint on the other side; joints of head and trunk are their own."""
-    if "Left" in name:
-        return name.replace("Left", "Right")
-    return name.replace("Right", "Left")
-
-
 def mirrored_positions(joints: tuple[str, ...], positions: Array) -> Array:
     """Positions of the mirrored joints in the mirror image of a posture [rad], in the same order.
 
@@ -99,7 +92,7 @@ def mirrored_positions(joints: tuple[str, ...], positions: Array) -> Array:
 
 def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     """The mirror image of a sign, within the limits."""
-    joints = tuple(mirrored_joint(name) for name in sign.joints)
+    joints = tuple(mirrored_name(name) for name in sign.joints)
     knots = mirrored_positions(sign.joints, sign.knots)
     place = turn = 0.0
     for side, arm in _ARMS.items():

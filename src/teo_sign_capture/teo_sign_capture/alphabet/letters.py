@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation, Slerp
 
 from teo_common.arrays import Array
@@ -19,7 +18,7 @@ from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import SPELLING_POSES
 from teo_sign_capture.alphabet.face_visibility import shift_off_face
 from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME, ArmFit, fit_arm, follow_arm
-from teo_sign_capture.alphabet.spelling_arm_and_hand import fit_whole
+from teo_sign_capture.alphabet.spelling_arm_and_hand import fit_arm_and_hand
 from teo_sign_capture.alphabet.spelling_hand import HandFit, fit_dextra
 from teo_sign_capture.alphabet.stroke import Stroke, find_stroke, palm_centres, reaches, tilts
 from teo_sign_capture.recordings.letter_clips import LICENCE, PACKAGE, LetterClip, clips_version
@@ -28,8 +27,6 @@ from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin
 from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, measure_signer
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
-
-Frames = NDArray[np.int64]
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 
@@ -129,20 +126,19 @@ def capture_letter(robot: Robot, alphabet: Alphabet, letter: str) -> Sign:
     """
     clip = alphabet.clips[letter]
     stroke = find_stroke(clip)
-    poses, spans = _held_poses(clip, stroke, alphabet.signer)
-    frames = np.arange(stroke.first, stroke.last + 1, dtype=np.int64)
-    places = _places(clip, alphabet, frames, moving=stroke.sways or len(poses) > 1)
+    poses = _held_poses(clip, stroke, alphabet.signer)
+    places = _places(clip, alphabet, stroke)
     shared = _shared_pose(alphabet, letter)
     shift = np.zeros(3)
     for _ in range(_FACE_TRIES):
-        arms, hands = _retarget(robot, clip, stroke, poses, spans, places + shift, shared)
-        hand_path = _hand_path(clip, stroke, hands, spans, frames)
+        arms, hands = _retarget(robot, clip, stroke, poses, places + shift, shared)
+        hand_path = _hand_path(clip, stroke, hands)
         positions = np.hstack([np.array([arm.positions for arm in arms]), hand_path])
         more = shift_off_face(robot, positions)
         if not more.any():
             break
         shift = shift + more
-    times = (frames - frames[0]) / clip.rate
+    times = (stroke.frames - stroke.first) / clip.rate
     kept = reduce_to_knots(times, positions, _TOLERANCE)
     knots = positions[kept]
     return Sign(
@@ -154,19 +150,17 @@ def capture_letter(robot: Robot, alphabet: Alphabet, letter: str) -> Sign:
         times=np.round(times[kept], 6),
         knots=knots,
         provenance=_provenance(clip, letter),
-        quality=_quality(robot, knots, arms, hands, poses, spans, stroke.first, places, alphabet.scale),
+        quality=_quality(robot, knots, arms, hands, poses, stroke, places, alphabet.scale),
     )
 
 
-def _held_poses(
-    clip: LetterClip, stroke: Stroke, signer: SignerHand
-) -> tuple[list[HandPose], list[tuple[int, int]]]:
-    """The hand of each hold, and the frames of each."""
+def _held_poses(clip: LetterClip, stroke: Stroke, signer: SignerHand) -> list[HandPose]:
+    """The hand of each hold."""
     poses = []
     for start, end in stroke.holds:
         hand = clip.hand[start : end + 1]
         poses.append(fit_hand(np.median(hand - hand.mean(axis=1, keepdims=True), axis=0), signer))
-    return poses, list(stroke.holds)
+    return poses
 
 
 def _shared_pose(alphabet: Alphabet, letter: str) -> HandPose | None:
@@ -175,7 +169,7 @@ def _shared_pose(alphabet: Alphabet, letter: str) -> HandPose | None:
     if other is None:
         return None
     clip = alphabet.clips[other]
-    return _held_poses(clip, find_stroke(clip), alphabet.signer)[0][0]
+    return _held_poses(clip, find_stroke(clip), alphabet.signer)[0]
 
 
 def _retarget(
@@ -183,17 +177,16 @@ def _retarget(
     clip: LetterClip,
     stroke: Stroke,
     poses: list[HandPose],
-    spans: list[tuple[int, int]],
     places: Array,
     shared: HandPose | None,
 ) -> tuple[list[ArmFit], list[HandFit]]:
     """Arm in each frame, hand in each hold."""
-    frames = np.arange(stroke.first, stroke.last + 1, dtype=np.int64)
+    frames = stroke.frames
     middle = np.median(places, axis=0)
     first = fit_arm(robot, poses[0].rotation, middle)
-    if len(poses) == 1:
+    if not stroke.turns:
         if first.angle_error > _OUT_OF_REACH:
-            first = fit_whole(robot, shared or poses[0], middle)
+            first = fit_arm_and_hand(robot, shared or poses[0], middle)
         hand = fit_dextra(robot, poses[0], first.palm)
         if not stroke.sways:
             return [first] * len(frames), [hand]
@@ -204,35 +197,33 @@ def _retarget(
         # About what can be reached, so that the movement is whole where the pose is not.
         arms = follow_arm(robot, rocking @ first.palm, first.place + places - middle, first)
         return arms, [hand]
-    edges = [frame for span in spans for frame in span]
+    edges = [frame for hold in stroke.holds for frame in hold]
     held = Rotation.from_matrix(np.array([pose.rotation for pose in poses for _ in range(2)]))
     palms = Slerp(edges, held)(np.clip(frames, edges[0], edges[-1])).as_matrix()
     arms = follow_arm(robot, palms, places, fit_arm(robot, palms[0], places[0]))
     hands = [
         fit_dextra(robot, pose, arms[(start + end) // 2 - stroke.first].palm)
-        for pose, (start, end) in zip(poses, spans, strict=True)
+        for pose, (start, end) in zip(poses, stroke.holds, strict=True)
     ]
     return arms, hands
 
 
-def _places(clip: LetterClip, alphabet: Alphabet, frames: Frames, *, moving: bool) -> Array:
+def _places(clip: LetterClip, alphabet: Alphabet, stroke: Stroke) -> Array:
     """Place of the palm wanted in each frame [m]. Shape (n, 3)."""
-    centres = palm_centres(clip.hand)[frames]
-    if not moving:
-        centres = np.repeat(np.median(centres, axis=0)[None], len(frames), axis=0)
-    places = np.repeat(alphabet.place[None], len(frames), axis=0)
+    centres = palm_centres(clip.hand)[stroke.frames]
+    if not stroke.sways:
+        centres[:] = np.median(centres, axis=0)
+    places = np.repeat(alphabet.place[None], len(centres), axis=0)
     places[:, 1:] += alphabet.scale * (centres - alphabet.centre)
     return places
 
 
-def _hand_path(
-    clip: LetterClip, stroke: Stroke, hands: list[HandFit], spans: list[tuple[int, int]], frames: Frames
-) -> Array:
+def _hand_path(clip: LetterClip, stroke: Stroke, hands: list[HandFit]) -> Array:
     """Axes of the hand in each frame [rad]. Shape (n, 6)."""
-    edges = [frame for span in spans for frame in span]
+    edges = [frame for hold in stroke.holds for frame in hold]
     held = np.array([hand.positions for hand in hands for _ in range(2)])
-    path = np.column_stack([np.interp(frames, edges, held[:, axis]) for axis in range(held.shape[1])])
-    reach = reaches(clip.hand)[frames]
+    path = np.column_stack([np.interp(stroke.frames, edges, held[:, axis]) for axis in range(held.shape[1])])
+    reach = reaches(clip.hand)[stroke.frames]
     for finger in stroke.wagging:
         # A finger that bends again and again: the share of its length that the viewer sees.
         path[:, 2 + finger] = _flexion_for(reach[:, finger] / reach[:, finger].max(), RIGHT_HAND[2 + finger])
@@ -269,13 +260,12 @@ def _quality(
     arms: list[ArmFit],
     hands: list[HandFit],
     poses: list[HandPose],
-    spans: list[tuple[int, int]],
-    first: int,
+    stroke: Stroke,
     places: Array,
     scale: float,
 ) -> dict[str, float]:
     """Against the person's hand: worst of the letter's holds."""
-    held = [arms[(start + end) // 2 - first] for start, end in spans]
+    held = [arms[(start + end) // 2 - stroke.first] for start, end in stroke.holds]
     turned = [
         Rotation.from_matrix(pose.rotation.T @ arm.palm).magnitude()
         for pose, arm in zip(poses, held, strict=True)

@@ -36,8 +36,6 @@ _WEIGHTS = ArmWeights(
     # share of its axis to the little finger's side.
     palm=0.77,
     fingers=0.77,
-    upper_arm=0.0,
-    fore_arm=0.0,
     # Chooses among equals, moves a reachable hand by less than 1 deg.
     easy=np.full(JOINTS, 0.03),
     easy_arm=SPELLING_ARM,
@@ -82,10 +80,11 @@ def fit_arm(robot: Robot, palm: Array, place: Array, *, both_sides: bool = False
         place: Where the middle of the palm should be, in ``base_link`` [m]. Shape (3,).
         both_sides: Whether the left arm must be able to mirror the pose.
     """
-    problem = _problem(robot, palm[None], place[None])
+    chain = ArmKinematics(robot)
+    problem = _problem(chain, palm[None], place[None])
     bounds = spelling_bounds(both_sides=both_sides)
     found, costs = search_arms(problem, 0, np.zeros(1, np.intp), bounds)
-    return arm_fits(robot, found[0, costs[0].argmin()][None], palm[None], place[None])[0]
+    return arm_fits(chain, found[0, costs[0].argmin()][None], palm[None], place[None])[0]
 
 
 def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[ArmFit]:
@@ -97,14 +96,15 @@ def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[
         places: Places wanted [m]. Shape (n, 3).
         near: A pose from which all are sought.
     """
-    problem, frames = _problem(robot, palms, places), np.arange(len(places))
+    chain = ArmKinematics(robot)
+    problem, frames = _problem(chain, palms, places), np.arange(len(places))
     found, _ = search_arms(problem, 0, frames, spelling_bounds(), starts=near.positions[None])
-    return arm_fits(robot, found[:, 0], palms, places)
+    return arm_fits(chain, found[:, 0], palms, places)
 
 
-def arm_fits(robot: Robot, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
+def arm_fits(chain: ArmKinematics, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
     """How well arms do; arguments of n poses as for `follow_arm`."""
-    poses = ArmKinematics(robot).poses(positions)
+    poses = chain.poses(positions)
     angles = Rotation.from_matrix(palms.transpose(0, 2, 1) @ poses.rotation).magnitude()
     away = np.linalg.norm(poses.place - places, axis=1)
     rows = zip(positions, poses.rotation, poses.place, angles.tolist(), away.tolist(), strict=True)
@@ -114,15 +114,12 @@ def arm_fits(robot: Robot, positions: Array, palms: Array, places: Array) -> lis
     ]
 
 
-def _problem(robot: Robot, palms: Array, places: Array) -> ArmProblem:
-    none = np.zeros_like(places)
-    goals = HandGoals(
-        local=none,
+def _problem(chain: ArmKinematics, palms: Array, places: Array) -> ArmProblem:
+    goals = HandGoals.without_arm(
+        local=np.zeros_like(places),
         place=places,
         contact=np.zeros(len(places)),
         palm=palms[:, :, 2],
         fingers=palms[:, :, 0],
-        upper_arm=none,
-        fore_arm=none,
     )
-    return ArmProblem(ArmKinematics(robot), (goals,), weights=_WEIGHTS)
+    return ArmProblem(chain, (goals,), weights=_WEIGHTS)

@@ -19,6 +19,7 @@ from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.spelling_arm import PALM_FRAME, SPELLING_ARM, ArmFit, arm_fits, spelling_bounds
 from teo_sign_capture.alphabet.spelling_hand import HandProblem, fit_dextra
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.tracks.hand_model import HandPose
 
 # [1/cm] Weight of a centimetre at a finger tip: about the angle in radians under which a finger's length sees
@@ -37,7 +38,7 @@ _START = np.radians([-78.0, 12.0, 54.0, -50.0, 15.0, 43.0])
 _VALLEY = np.radians(10.0)
 
 
-def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
+def fit_arm_and_hand(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
     """Find the arm, with the hand in mind, for a person's hand whose palm is out of reach.
 
     Args:
@@ -76,4 +77,4 @@ def fit_whole(robot: Robot, pose: HandPose, place: Array) -> ArmFit:
     start = np.clip(np.concatenate([_START, guess]), lower + 1e-3, upper - 1e-3)
     fit = least_squares(residuals, start, bounds=(lower, upper), diff_step=1e-3)
     arm = np.clip(fit.x[:arm_count], arm_lower, arm_upper)
-    return arm_fits(robot, arm[None], pose.rotation[None], place[None])[0]
+    return arm_fits(ArmKinematics(robot), arm[None], pose.rotation[None], place[None])[0]

@@ -36,6 +36,7 @@ from teo_description.hand_geometry import (
     thumb_clearances,
 )
 from teo_description.robot import Robot
+from teo_sign_capture.retarget.hand_motion import thumb_contacts
 from teo_sign_capture.tracks.hand_model import HandPose, finger_directions
 
 # Weights of the bending plane and of the viewer's plane; chosen by eye on pictures of the thirty letters.
@@ -56,8 +57,6 @@ _REST = 0.1
 _HOME_THUMB = np.array([HOME[joint] for joint in RIGHT_HAND[:2]])
 # Weight of the place of neighbouring tips to each other, as seen: parted in U, together in P.
 _PARTED = 1.0
-# [m] Tips farther apart than this, on TEO's scale, are not meant to touch.
-_NEAR = 0.045
 # Weight of overlap: stronger than any wish.
 _OVERLAP = 15.0
 # [rad] Spread is no longer seen in a finger that is bent so much in all.
@@ -68,10 +67,6 @@ _STARTS = np.radians(
 )
 # The search sets out from so many of the starts, the best ones: more found nothing better.
 _SEARCHES = 10
-# [m] Distance of the tips' axes when thumb and finger touch: two radii.
-_TOUCH = 0.018
-# [m] A gap smaller than this is a contact: two landmarks are off by 3 mm each.
-_SURELY_APART = 0.006
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,14 +124,8 @@ class HandProblem:
         self._lasts, self._fingers = np.array(chains).transpose(1, 0, 2)
         self._thumb = pose.thumb[2] * FINGER_LENGTH
         gaps = ((pose.thumb[2] - pose.tips) @ pose.rotation.T) * _FLAT
-        apart = np.linalg.norm(gaps, axis=1) * FINGER_LENGTH
-        nearness = np.clip(1.0 - apart / _NEAR, 0.0, 1.0)
-        # Several fingers at the thumb share the weight of one: else D's three would be bent into a fist to
-        # reach it.
-        self._contacts = _CONTACT * nearness / max(1.0, float(nearness.sum()))
-        self._apart = np.where(apart < _TOUCH + _SURELY_APART, _TOUCH, apart)
+        self._nearness, self._apart = thumb_contacts(np.linalg.norm(gaps, axis=1) * FINGER_LENGTH)
         # A finger that the thumb is near has it on one side or the other: another letter.
-        self._nearness = nearness / max(1.0, float(nearness.sum()))
         self._beside = (pose.thumb[2, 1] - pose.tips[:, 1]) * FINGER_LENGTH
         self._steps = np.diff(pose.bends.sum(axis=1)) / 3.0
 
@@ -169,7 +158,7 @@ class HandProblem:
                 _SEEN * self._seen(fingers, self._fingers).ravel(),
                 _SHAPE * (thumb - self._thumb),
                 _SEEN * self._seen(thumb, self._thumb),
-                self._contacts * (apart - self._apart),
+                self._nearness * _CONTACT * (apart - self._apart),
                 self._nearness * _SIDE * (points.thumb[2, 1] - points.fingers[:, 3, 1] - self._beside),
                 _PARTED * np.diff(self._seen(fingers, self._fingers), axis=0).ravel(),
                 _OVERLAP * overlap,

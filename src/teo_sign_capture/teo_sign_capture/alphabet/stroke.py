@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_capture.recordings.letter_clips import LetterClip
@@ -44,7 +45,7 @@ class Stroke:
         first: First frame.
         last: Last frame, included.
         holds: Runs of frames in which the palm keeps its orientation: first and last frame; at least one.
-        sways: Whether the hand moves from place to place or rocks.
+        sways: Whether the hand moves from place to place, rocks or turns.
         wagging: Fingers that bend again and again: 0 index ... 3 little.
     """
 
@@ -53,6 +54,11 @@ class Stroke:
     holds: tuple[tuple[int, int], ...]
     sways: bool
     wagging: tuple[int, ...]
+
+    @property
+    def frames(self) -> NDArray[np.intp]:
+        """All frames. Shape (n,)."""
+        return np.arange(self.first, self.last + 1)
 
     @property
     def turns(self) -> bool:

@@ -17,6 +17,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from teo_common.atomic_files import write_atomically
 from teo_sign_capture.notation.performance import performance
 from teo_sign_capture.notation.score_file import default_scores_directory, read_scores
 from teo_sign_capture.notation.score_schema import Score
@@ -68,7 +69,7 @@ def perform_scores(
         chosen = _chosen(scores, only)
         out.mkdir(parents=True, exist_ok=True)
         for score in chosen:
-            _write(out / f"{score.gloss}.yaml", performance(score).text)
+            write_atomically(out / f"{score.gloss}.yaml", performance(score).text.encode())
     except LutError as error:
         _errors.print(f"{error.code}: {error}", soft_wrap=True)
         raise typer.Exit(1) from error
@@ -147,15 +148,6 @@ def _without_frames(said: str) -> Iterable[str]:
     return "".join(
         letter if letter.isprintable() and letter not in "╭╮╰╯─│━" else " " for letter in said
     ).split()
-
-
-def _write(path: Path, text: str) -> None:
-    beside = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        beside.write_text(text, "utf-8")
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def main() -> None:

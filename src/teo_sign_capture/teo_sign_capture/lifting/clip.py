@@ -3,8 +3,8 @@
 """From a person's points in a picture to a track of keypoints in space.
 
 The view is taken as from far away, the person as facing it: what is left and up is seen, what is forward
-follows from the lengths of limbs (`arm_lifting`), of a hand's bones (`hand_lifting`) and from the shape of a
-head (`head_lifting`). Shoulders and hips are in one plane across the view.
+follows from the lengths of limbs (`lifting.arms`), of a hand's bones (`lifting.hands`) and from the shape of
+a head (`lifting.head`). Shoulders and hips are in one plane across the view.
 """
 
 from __future__ import annotations

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from teo_common.arrays import Array
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
 from teo_sign_capture.recordings.pose_file import Points
+from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_sign_capture.tracks.hand_model import INDEX, KNUCKLES, LITTLE, PALM, THUMB, WRIST, palm_axes
 
 # Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out.
@@ -68,7 +69,6 @@ _STEPS = np.linspace(-1.0, 1.0, 81)
 _ACCELERATION = 12.0
 # [m] Standard deviation of a point across the view: two pixels of a person who is 500 pixels high.
 _POINT_SIGMA = 0.004
-_MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 class LiftedHand(NamedTuple):
@@ -102,7 +102,7 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
     if not seen.any():
         return LiftedHand(points, sigma)
     # A left hand is lifted as the right hand that its mirror image is.
-    places = hand.places[seen] * (1.0 if right else _MIRROR)
+    places = hand.places[seen] * (1.0 if right else MIRROR)
     places = places - places[:, WRIST, None]
     lengths = _bone_lengths(places, scale)
     guess = _guess(places, scale)
@@ -123,7 +123,7 @@ def lift_hand(hand: Points, *, scale: float, period: float, right: bool, forearm
         lifted[:, second, 0] = lifted[:, first, 0] + np.clip(depths[:, bone], -lengths[bone], lengths[bone])
         spread[:, second] = np.hypot(spread[:, first], bone_sigma[:, bone])
     lifted = _with_rigid_palm(lifted)
-    points[seen] = lifted * (1.0 if right else _MIRROR)
+    points[seen] = lifted * (1.0 if right else MIRROR)
     sigma[seen] = np.sqrt((2.0 * _POINT_SIGMA**2 + spread**2) / 3.0)
     return LiftedHand(points, sigma)
 

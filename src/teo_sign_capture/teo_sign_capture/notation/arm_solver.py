@@ -19,7 +19,7 @@ from teo_description.hand_geometry import DextraHand
 from teo_description.robot import Robot
 from teo_sign_capture.notation.targets import HandTarget
 from teo_sign_capture.retarget.arm_bounds import Bounds
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, angles_between
 from teo_sign_capture.retarget.arm_residuals import EASY_ARM, JOINTS, ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
@@ -33,9 +33,6 @@ _WEIGHTS = ArmWeights(
     on_body=14.0,
     palm=1.0,
     fingers=0.7,
-    # A score says nothing of the arm.
-    upper_arm=0.0,
-    fore_arm=0.0,
     # Chooses among equals, moves a reachable hand by less than 1 deg.
     easy=np.full(JOINTS, 0.03),
     easy_arm=EASY_ARM,
@@ -80,13 +77,8 @@ class ArmSolver:
 
     def _distinct(self, target: HandTarget, found: Array, costs: Array) -> list[ArmCandidate]:
         poses = self._chain.poses(found)
-        palms, fingers = (
-            2.0 * np.arcsin(np.clip(np.linalg.norm(reached - wanted, axis=1) / 2.0, 0.0, 1.0))
-            for reached, wanted in (
-                (poses.rotation[:, :, 2], target.palm),
-                (poses.rotation[:, :, 0], target.fingers),
-            )
-        )
+        palms = angles_between(poses.rotation[:, :, 2], target.palm)
+        fingers = angles_between(poses.rotation[:, :, 0], target.fingers)
         candidates: list[ArmCandidate] = []
         for index in np.argsort(costs, kind="stable").tolist():
             if all(np.abs(found[index] - other.positions).max() > _SAME for other in candidates):
@@ -142,15 +134,12 @@ class ArmSolver:
 
 def _goals(targets: Sequence[HandTarget], parts: Array) -> HandGoals:
     """The targets as what is wanted of a hand, one a frame; parts of the hand as `ArmSolver.part`. (n, 3)."""
-    unknown = np.zeros((len(targets), 3))
-    return HandGoals(
+    return HandGoals.without_arm(
         local=parts,
         place=np.array([target.point for target in targets]),
         contact=np.array([float(target.meets) for target in targets]),
         palm=np.array([target.palm for target in targets]),
         fingers=np.array([target.fingers for target in targets]),
-        upper_arm=unknown,
-        fore_arm=unknown,
     )
 
 

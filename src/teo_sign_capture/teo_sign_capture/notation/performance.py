@@ -18,6 +18,7 @@ import yaml
 from teo_common.arrays import Array
 from teo_sign_capture.notation.person_inventory import FINGERS, person_place, person_shape
 from teo_sign_capture.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
+from teo_sign_capture.notation.targets import circle_offsets, fingers_across
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import split_place
 
@@ -77,9 +78,7 @@ class _Hand:
             x, y, z = way.tolist()
             away = [round(a + b, 4) for a, b in zip(away, (x, -y, z), strict=True)]
         palm = direction(self.palm)
-        fingers = direction(self.fingers)
-        # Words are rough: the palm is as said, the fingers as near to what is said as a hand allows.
-        fingers = fingers - (fingers @ palm) * palm
+        fingers = fingers_across(palm, direction(self.fingers))
         written = {
             "at": at,
             "offset": away,
@@ -138,16 +137,8 @@ def _keys(score: Score) -> Iterator[dict[str, Any]]:
 def _circle(circle: Circle | None, hands: dict[str, _Hand]) -> Iterator[dict[str, Any]]:
     if circle is None:
         return
-    axes = {"front": ("up", "out"), "side": ("up", "front"), "top": ("front", "out")}[circle.plane]
-    first, second = (0.01 * circle.radius * direction(word) for word in axes)
-    begin = direction(circle.start)
-    angle = float(np.arctan2(begin @ direction(axes[1]), begin @ direction(axes[0])))
-    turn = 2.0 * np.pi * circle.turns * (1.0 if circle.clockwise else -1.0)
     count = max(2, round(_PER_TURN * circle.turns))
-    start = np.cos(angle) * first + np.sin(angle) * second
-    for index in range(1, count + 1):
-        now = angle + turn * index / count
-        way = np.cos(now) * first + np.sin(now) * second - start
+    for index, way in enumerate(circle_offsets(circle, count), start=1):
         key: dict[str, Any] = {side: hand.arm(way) for side, hand in hands.items()}
         yield key | {"move": circle.time / count} | ({"through": True} if index < count else {})
 

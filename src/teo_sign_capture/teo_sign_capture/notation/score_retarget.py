@@ -20,6 +20,7 @@ from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
 from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored
 from teo_sign_capture.retarget.quality_figures import clearance_mm, least_clearance, limit_margin_deg
+from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance
@@ -35,7 +36,6 @@ _TOUCH = 0.5
 # [rad] How far elbows are opened to lead hands round what is in their way: 5, 11, 16 cm off the body.
 _OPENED_ELBOWS = np.radians([10.0, 20.0, 30.0])
 
-_MIRROR = np.array([1.0, -1.0, 1.0])
 _OUT = np.array([0.0, -1.0, 0.0])
 
 
@@ -172,9 +172,9 @@ class _Performance:
         """A target on the left hand, in ``base_link``; away from the left palm is its way out."""
         if not right.other:
             return right
-        point = _MIRROR * self._solver.hand_point(candidate.positions, left, right.other)
+        point = MIRROR * self._solver.hand_point(candidate.positions, left, right.other)
         wanted = point + right.point
-        away = wanted - _MIRROR * self._solver.palm(candidate.positions)[1]
+        away = wanted - MIRROR * self._solver.palm(candidate.positions)[1]
         # The hand comes from where its own palm does not look.
         outward = away / max(float(np.linalg.norm(away)), 1e-6) - right.palm
         return replace(right, point=wanted, outward=outward / max(float(np.linalg.norm(outward)), 1e-6))

@@ -124,10 +124,18 @@ def _target(before: HandTarget | None, hand: HandScore | None) -> HandTarget:
         fields["fingers"] = direction(hand.fingers)
     if hand.part is not None or before is None:
         fields["part"] = hand.part or "palm"
-    # Words are rough: the palm is as said, the fingers as near to what is said as a hand allows.
-    along = fields["fingers"] - (fields["fingers"] @ fields["palm"]) * fields["palm"]
-    fields["fingers"] = along / np.linalg.norm(along)
+    fields["fingers"] = fingers_across(fields["palm"], fields["fingers"])
     return HandTarget(**fields)
+
+
+def fingers_across(palm: Array, fingers: Array) -> Array:
+    """The way at right angles with the palm's that is nearest to the fingers', unit vector. Shape (3,).
+
+    Words are rough: the palm is as said, the fingers as near to what is said as a hand allows.
+    """
+    along = fingers - (fingers @ palm) * palm
+    across: Array = along / np.linalg.norm(along)
+    return across
 
 
 def _swung_out(first: Posture, second: Posture, swing: Array, time: float) -> Posture:
@@ -156,32 +164,32 @@ def _movement(posture: Posture, step: Step) -> Iterator[Posture]:
     """What follows the posture of a step: a circle, a wiggle; times from the posture on."""
     start = 0.0
     if step.circle is not None:
-        for time, offset in _circle(step.circle):
+        count = round(_PER_TURN * step.circle.turns)
+        for index, offset in enumerate(circle_offsets(step.circle, count), start=1):
             moved = [
                 # On a circle the place counts as on the body: its shape is what is read.
                 None if hand is None else replace(hand, point=hand.point + offset, body=True)
                 for hand in (posture.right, posture.left)
             ]
             assert moved[0] is not None
-            yield replace(posture, time=time, right=moved[0], left=moved[1])
+            yield replace(posture, time=step.circle.time * index / count, right=moved[0], left=moved[1])
         start = step.circle.time
     if step.wiggle is not None:
         for time, swings in _wiggle(step.wiggle):
             yield replace(posture, time=start + time, swings=swings)
 
 
-def _circle(circle: Circle) -> Iterator[tuple[float, Array]]:
+def circle_offsets(circle: Circle, count: int) -> Array:
+    """Ways from where a circle begins, evenly in time, the last at its end [m]. Shape (count, 3)."""
     axes = {"front": ("up", "out"), "side": ("up", "front"), "top": ("front", "out")}[circle.plane]
     first, second = (direction(word) for word in axes)
     begin = direction(circle.start)
     angle = float(np.arctan2(begin @ second, begin @ first))
     turn = 1.0 if circle.clockwise else -1.0
-    count = round(_PER_TURN * circle.turns)
-    for index in range(1, count + 1):
-        now = angle + turn * 2.0 * np.pi * circle.turns * index / count
-        radius = 0.01 * circle.radius
-        around = np.cos(now) * first + np.sin(now) * second - np.cos(angle) * first - np.sin(angle) * second
-        yield circle.time * index / count, radius * around
+    now = angle + turn * 2.0 * np.pi * circle.turns * np.arange(1, count + 1)[:, None] / count
+    around = np.cos(now) * first + np.sin(now) * second - np.cos(angle) * first - np.sin(angle) * second
+    offsets: Array = 0.01 * circle.radius * around
+    return offsets
 
 
 _FINGER_NAMES = ("index", "middle", "ring", "little")

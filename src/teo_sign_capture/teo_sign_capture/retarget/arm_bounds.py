@@ -10,6 +10,7 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
+from teo_signs.mirroring import mirrored_positions
 
 Bounds = tuple[Array, Array]
 Side = Literal["right", "left"]
@@ -23,8 +24,8 @@ MARGIN = np.radians(1.0)
 # its limits alone: nobody sees where they end.
 _LIKE_A_PERSON_LOWER = np.radians([-98.1, -75.5, -180.0, -99.6, -180.0, -90.0])
 _LIKE_A_PERSON_UPPER = np.radians([45.0, 22.4, 180.0, -5.0, 180.0, 44.7])
-# Only frontal axes turn the same way on both sides.
-_SAME = np.array([1.0 if joint.startswith("Frontal") else -1.0 for joint in RIGHT_ARM])
+# Signs of a right arm's joints in its mirror image. Shape (6,).
+_SIGNS = mirrored_positions(RIGHT_ARM, np.ones(len(RIGHT_ARM)))
 
 
 def arm_bounds(side: Side | Literal["both"]) -> Bounds:
@@ -46,5 +47,5 @@ def arm_bounds(side: Side | Literal["both"]) -> Bounds:
 
 def mirrored(arm: Array) -> Array:
     """The arm, or arms, of the other side that mirror some [rad]. Shape (6,) or (n, 6)."""
-    swapped: Array = _SAME * arm
+    swapped: Array = _SIGNS * arm
     return swapped

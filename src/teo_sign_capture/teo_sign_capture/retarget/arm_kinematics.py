@@ -46,14 +46,13 @@ class ArmPoses(NamedTuple):
         placed: Array = np.einsum("nij,nj->ni", self.rotation, local) + self.place
         return placed
 
-    def point_jacobian(self, points: Array, joints: int = len(RIGHT_ARM)) -> Array:
-        """How points that the first so many joints carry move with them [m/rad]. Shape (n, 3, joints)."""
-        arms = points[:, None] - self.origins[:, :joints]
-        return _cross(self.axes[:, :joints], arms)
+    def point_jacobian(self, points: Array) -> Array:
+        """How points that all joints carry move with them [m/rad]. Shape (n, 3, 6)."""
+        return _cross(self.axes, points[:, None] - self.origins)
 
-    def direction_jacobian(self, directions: Array, joints: int = len(RIGHT_ARM)) -> Array:
-        """The same of directions [1/rad]. Shape (n, 3, joints)."""
-        return _cross(self.axes[:, :joints], directions[:, None])
+    def direction_jacobian(self, directions: Array) -> Array:
+        """The same of directions [1/rad]. Shape (n, 3, 6)."""
+        return _cross(self.axes, directions[:, None])
 
 
 class ArmKinematics:
@@ -90,6 +89,12 @@ class ArmKinematics:
             first, second = cosine * one + sine * other, cosine * other - sine * one
             turned[:, :, (axis + 1) % 3], turned[:, :, (axis + 2) % 3] = first, second
         return ArmPoses(axes, origins, turned @ self._palm_rotation, place + turned @ self._palm_step)
+
+
+def angles_between(first: Array, second: Array) -> Array:
+    """Angles between unit vectors [rad]. Shapes (n, 3), (n, 3) or (3,), and (n,)."""
+    angles: Array = 2.0 * np.arcsin(np.clip(np.linalg.norm(first - second, axis=1) / 2.0, 0.0, 1.0))
+    return angles
 
 
 def _cross(first: Array, second: Array) -> Array:

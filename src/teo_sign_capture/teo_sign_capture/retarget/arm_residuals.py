@@ -50,8 +50,8 @@ class ArmWeights:
     on_body: float
     palm: float
     fingers: float
-    upper_arm: float
-    fore_arm: float
+    upper_arm: float = 0.0
+    fore_arm: float = 0.0
     easy: Array
     easy_arm: Array
 

@@ -15,21 +15,25 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_bounds import Bounds
-from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
+from teo_sign_capture.retarget.arm_residuals import EASY_ARM, JOINTS, ArmProblem
 
 # [rad] Right arms that sign, one in each valley. 64 starts more, spread evenly over the bounds, find nothing
 # better for any posture of the shipped scores; an arm that hangs finds nothing better for captured motions.
 # Shape (8, 6).
-STARTS = np.radians(
+STARTS = np.vstack(
     [
-        [-45.0, -12.0, 10.0, -80.0, 20.0, 0.0],  # at ease
-        [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],  # spelling
-        [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],  # hand at the chest
-        [-42.0, -74.0, 50.0, -95.0, 20.0, -20.0],  # elbow out
-        [-30.0, -10.0, -20.0, -80.0, 70.0, 10.0],  # palm up
-        [-55.0, -5.0, 52.0, -95.0, -56.0, 7.0],  # forearm across
-        [-90.0, -20.0, 30.0, -95.0, 60.0, -30.0],  # hand at the head
-        [-68.0, -9.0, 54.0, -99.0, 89.0, 44.0],  # palm to the front
+        EASY_ARM,
+        np.radians(
+            [
+                [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],  # spelling
+                [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],  # hand at the chest
+                [-42.0, -74.0, 50.0, -95.0, 20.0, -20.0],  # elbow out
+                [-30.0, -10.0, -20.0, -80.0, 70.0, 10.0],  # palm up
+                [-55.0, -5.0, 52.0, -95.0, -56.0, 7.0],  # forearm across
+                [-90.0, -20.0, 30.0, -95.0, 60.0, -30.0],  # hand at the head
+                [-68.0, -9.0, 54.0, -99.0, 89.0, 44.0],  # palm to the front
+            ]
+        ),
     ]
 )
 # A joint so near to its bound is at it [rad].

@@ -24,6 +24,7 @@ from teo_description import urdf_text
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.head_motion import HeadMotion
+from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_sign_capture.signing_space.places import find_place
 from teo_sign_capture.tracks.person import Person
 
@@ -129,24 +130,26 @@ class BodyMap:
 
     def place_with_head(self, points: Array, head: HeadMotion) -> Array:
         """The same while both heads move. Shapes (T, k, 3) [m]."""
-        share = self._head_share(points, head)[..., None]
-        straight = np.einsum("tij,tki->tkj", head.turns, points - head.places[:, None]) + self._head
-        placed = self.place(points + share * (straight - points))
+        placed, share = self._placed_straight(points, head)
         turned = np.einsum("tij,tkj->tki", head.robot_turns, placed - head.pivot) + head.pivot
         moved: Array = placed + share * (turned - placed)
         return moved
 
     def distance(self, points: Array, head: HeadMotion) -> Array:
         """How far the places that TEO has for points are from TEO's trunk and head [m]. (T, k, 3), (T, k)."""
-        share = self._head_share(points, head)[..., None]
-        straight = np.einsum("tij,tki->tkj", head.turns, points - head.places[:, None]) + self._head
-        placed = self.place(points + share * (straight - points))
+        placed, _ = self._placed_straight(points, head)
         away = [
             np.linalg.norm(np.maximum(np.abs(placed - middle) - half, 0.0), axis=-1)
             for middle, half in self._boxes
         ]
         nearest: Array = np.min(away, axis=0)
         return nearest
+
+    def _placed_straight(self, points: Array, head: HeadMotion) -> tuple[Array, Array]:
+        """Places before TEO's head turns [m], and how much they go with it. Shapes (T, k, 3), (T, k, 1)."""
+        share = self._head_share(points, head)[..., None]
+        straight = np.einsum("tij,tki->tkj", head.turns, points - head.places[:, None]) + self._head
+        return self.place(points + share * (straight - points)), share
 
     def _head_share(self, points: Array, head: HeadMotion) -> Array:
         """By how much points go with the head, 0 to 1. Shape (T, k)."""
@@ -167,7 +170,6 @@ class BodyMap:
 
     def _pairs(self, person: Person) -> tuple[Array, Array]:
         """Places on the person, and the same on TEO. Shapes (k, 3)."""
-        mirror = np.array([1.0, -1.0, 1.0])
         ours, theirs = [], []
         for name, place in _MIDDLE.items():
             ours.append(person.places[name])
@@ -175,7 +177,7 @@ class BodyMap:
         for name, place in _ASIDE.items():
             right = on_skin(self._boxes, place)
             right[1] = -abs(right[1])
-            for side in (np.ones(3), mirror):
+            for side in (np.ones(3), MIRROR):
                 ours.append(person.places[name] * side)
                 theirs.append(right * side)
         return np.array(ours), np.array(theirs)

@@ -62,6 +62,22 @@ class HandGoals:
     upper_arm: Array
     fore_arm: Array
 
+    @classmethod
+    def without_arm(
+        cls, *, local: Array, place: Array, contact: Array, palm: Array, fingers: Array
+    ) -> HandGoals:
+        """What is wanted of a hand where nothing is known of the arm: its ways are zero."""
+        unknown = np.zeros_like(place)
+        return cls(
+            local=local,
+            place=place,
+            contact=contact,
+            palm=palm,
+            fingers=fingers,
+            upper_arm=unknown,
+            fore_arm=unknown,
+        )
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairGoals:

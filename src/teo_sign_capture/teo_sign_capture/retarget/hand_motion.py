@@ -22,7 +22,16 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import FINGER_LENGTH, PHALANGES, DextraTable
+from teo_description.hand_geometry import (
+    FINGER_LENGTH,
+    FINGER_RADIUS,
+    PALM_FRONT,
+    PALM_HALF_WIDTH,
+    PALM_TO,
+    PHALANGES,
+    THUMB_RADIUS,
+    DextraTable,
+)
 from teo_sign_capture.signing_space.hand_points import KNUCKLES
 from teo_sign_capture.tracks.body_axes import smoothed
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
@@ -34,12 +43,10 @@ class HandMotion(NamedTuple):
 
     Attributes:
         axes: Of `RIGHT_HAND` [rad]; a left hand's are the same numbers. Shape (T, 6).
-        bends: Of the person's fingers, knuckle, middle and last joint, calibrated [rad]. Shape (T, 4, 3).
         error: Mean over the fingers of the difference of the whole bend, one joint's share [rad]. Shape (T,).
     """
 
     axes: Array
-    bends: Array
     error: Array
 
 
@@ -59,7 +66,7 @@ def follow_hand(table: DextraTable, times: Array, hand: Array, straight: Array) 
     scaled = local * (FINGER_LENGTH / float(np.median(bones)))
     thumb = follow_thumb(table, times, fingers, scaled - scaled[:, KNUCKLES[0], None])
     error = np.abs(bends.sum(axis=2) / 3.0 - fingers).mean(axis=1)
-    return HandMotion(np.concatenate([thumb, fingers], axis=1), bends, error)
+    return HandMotion(np.concatenate([thumb, fingers], axis=1), error)
 
 
 def finger_flexions(table: DextraTable, bends: Array) -> Array:
@@ -95,19 +102,35 @@ _FINGER_TIPS = (8, 12, 16, 20)
 # Weights of squares: of a metre at the thumb's joint (1 at its tip), at the distance to a tip that it
 # touches, inside of a finger or the palm; of a radian of way from frame to frame: 6 deg cost as much as 2 mm.
 _JOINT_WEIGHT, _TOUCH_WEIGHT, _INSIDE_WEIGHT, _WAY_WEIGHT = 0.3, 3.0, 60.0, 4e-4
-# [m] As in `alphabet.spelling_hand`: tips farther apart are not meant to touch; distance of their axes when
-# they do; a smaller gap is a contact, two keypoints being off by 3 mm each.
-_NEAR, _TOUCH, _SURELY_APART = 0.045, 0.018, 0.006
-# [m] Radii of a phalanx of thumb and finger together; height over the palm at which the thumb touches it.
-_RADII, _PALM_FRONT = 0.018, 0.006
-# [m] The palm along and across the hand, the thumb's radius added (`teo_description.hand_geometry`).
-_PALM_TO, _PALM_HALF_WIDTH = 0.032, 0.047
+# [m] Tips farther apart than this, on TEO's scale, are not meant to touch.
+_NEAR = 0.045
+# [m] Distance of the axes of thumb and finger when they touch.
+_TOUCH = FINGER_RADIUS + THUMB_RADIUS
+# [m] A gap smaller than this is a contact: two keypoints are off by 3 mm each.
+_SURELY_APART = 0.006
 # Thumbs looked at closely in each frame: those whose tip is best.
 _CANDIDATES = 32
 # Every so manieth of the hand table's steps of 2 deg is a candidate; the path is smoothed afterwards.
 _EVERY = 2
 # [s] Standard deviation of the Gaussian that takes the steps away.
 _TREMBLE = 0.04
+
+
+def thumb_contacts(gaps: Array) -> tuple[Array, Array]:
+    """What gaps between a person's thumb and fingers ask of TEO's thumb.
+
+    Args:
+        gaps: Distances of the thumb's tip from the four fingers', on TEO's scale [m]. Shape (..., 4).
+
+    Returns:
+        How much the thumb is at each finger, 1 in all at most, and how far from its tip TEO's should be [m].
+        Shapes (..., 4).
+    """
+    nearness = np.clip(1.0 - gaps / _NEAR, 0.0, 1.0)
+    # Several fingers at the thumb share the weight of one: else D's three would be bent into a fist to
+    # reach it.
+    nearness /= np.maximum(nearness.sum(axis=-1, keepdims=True), 1.0)
+    return nearness, np.where(gaps < _TOUCH + _SURELY_APART, _TOUCH, gaps)
 
 
 def follow_thumb(table: DextraTable, times: Array, fingers: Array, person: Array) -> Array:
@@ -155,10 +178,7 @@ def _meeting(thumbs: Array, fingers: Array, person: Array) -> Array:
         Shape (T, c).
     """
     gaps = np.linalg.norm(person[:, _FINGER_TIPS] - person[:, _TIP, None], axis=2)
-    nearness = np.clip(1.0 - gaps / _NEAR, 0.0, 1.0)
-    # Several fingers at the thumb share the weight of one.
-    nearness /= np.maximum(nearness.sum(axis=1, keepdims=True), 1.0)
-    wanted = np.where(gaps < _TOUCH + _SURELY_APART, _TOUCH, gaps)
+    nearness, wanted = thumb_contacts(gaps)
     reached = np.linalg.norm(thumbs[:, :, None, 2] - fingers[:, None, :, 3], axis=3)
     touching = (nearness[:, None] * (reached - wanted[:, None]) ** 2).sum(axis=2)
     shares = np.array([0.3, 0.7, 1.0])[:, None]
@@ -176,9 +196,9 @@ def _meeting(thumbs: Array, fingers: Array, person: Array) -> Array:
             bone = end - start
             along = np.clip(((probes - start) * bone).sum(axis=3) / (bone**2).sum(axis=3), 0.0, 1.0)
             away = np.linalg.norm(probes - start - along[..., None] * bone, axis=3)
-            inside += (np.maximum(_RADII - away, 0.0) ** 2).sum(axis=2)
-    over_palm = (probes[..., 0] < _PALM_TO) & (np.abs(probes[..., 1]) < _PALM_HALF_WIDTH)
-    sunk = np.where(over_palm, np.maximum(_PALM_FRONT - probes[..., 2], 0.0), 0.0)
+            inside += (np.maximum(_TOUCH - away, 0.0) ** 2).sum(axis=2)
+    over_palm = (probes[..., 0] < PALM_TO) & (np.abs(probes[..., 1]) < PALM_HALF_WIDTH)
+    sunk = np.where(over_palm, np.maximum(PALM_FRONT - probes[..., 2], 0.0), 0.0)
     inside += (sunk**2).sum(axis=2)
     cost: Array = _TOUCH_WEIGHT * touching + _INSIDE_WEIGHT * inside
     return cost

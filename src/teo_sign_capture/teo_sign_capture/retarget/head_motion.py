@@ -17,7 +17,7 @@ from teo_sign_capture.tracks.person import Person
 
 # [rad] A head or trunk that never leaves straight by more than this does not sign: people sway by 3 deg and
 # nod by 4 deg while they sign.
-_HEAD_MOVES, _TRUNK_MOVES = np.radians(8.0), np.radians(8.0)
+_MOVES = np.radians(8.0)
 
 
 class HeadMotion(NamedTuple):
@@ -45,15 +45,9 @@ class HeadMotion(NamedTuple):
 def follow_head(robot: Robot, head: HeadPose, person: Person) -> HeadMotion:
     """Let TEO's head follow, as far as its two joints go; it cannot tilt to the side."""
     places = np.where(np.isfinite(head.places), head.places, person.head)
-    yaw, pitch, _ = Rotation.from_matrix(head.turns).as_euler("ZYX").T
-    wanted = np.stack([yaw, pitch], axis=1)
-    limits = joint_limits(HEAD)
-    moves = bool(np.abs(wanted).max() >= _HEAD_MOVES)
-    axes = np.clip(wanted, limits.lower, limits.upper) if moves else np.zeros_like(wanted)
-    turns = Rotation.from_euler("ZY", axes)
-    left = turns.inv() * Rotation.from_matrix(head.turns)
+    axes, turns, moves, error = _followed(Rotation.from_matrix(head.turns), HEAD)
     pivot = robot.placement(robot.configuration({}), f"{HEAD[1]}_link")[:3, 3]
-    return HeadMotion(head.turns, places, turns.as_matrix(), pivot, axes, moves, left.magnitude())
+    return HeadMotion(head.turns, places, turns.as_matrix(), pivot, axes, moves, error)
 
 
 class TrunkMotion(NamedTuple):
@@ -76,11 +70,24 @@ def follow_trunk(trunk: Array) -> TrunkMotion:
     Args:
         trunk: `SkeletonTrack.trunk`, zeros where it is not known [rad]. Shape (T, 3).
     """
-    person = Rotation.from_rotvec(trunk)
+    axes, _, moves, error = _followed(Rotation.from_rotvec(trunk), TRUNK)
+    return TrunkMotion(axes, moves, error)
+
+
+def _followed(person: Rotation, joints: tuple[str, ...]) -> tuple[Array, Rotation, bool, Array]:
+    """Two joints that yaw and pitch, their turn, whether they move, and the angle left to the person's.
+
+    Args:
+        person: T turns of the person's.
+        joints: `HEAD` or `TRUNK`.
+
+    Returns:
+        Positions of the joints [rad], shape (T, 2), T turns, whether any moves, and angles [rad], shape (T,).
+    """
     yaw, pitch, _ = person.as_euler("ZYX").T
     wanted = np.stack([yaw, pitch], axis=1)
-    limits = joint_limits(TRUNK)
-    moves = bool(np.abs(wanted).max() >= _TRUNK_MOVES)
+    limits = joint_limits(joints)
+    moves = bool(np.abs(wanted).max() >= _MOVES)
     axes = np.clip(wanted, limits.lower, limits.upper) if moves else np.zeros_like(wanted)
-    left = Rotation.from_euler("ZY", axes).inv() * person
-    return TrunkMotion(axes, moves, left.magnitude())
+    turns = Rotation.from_euler("ZY", axes)
+    return axes, turns, moves, (turns.inv() * person).magnitude()

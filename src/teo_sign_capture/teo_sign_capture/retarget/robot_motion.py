@@ -13,7 +13,7 @@ from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TR
 from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import Side, arm_bounds, mirrored
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, angles_between
 from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.body_map import BodyMap
@@ -179,13 +179,7 @@ def _errors(
         column = _COLUMN[side]
         poses = chain.poses(arms[:, at : at + JOINTS])
         place[:, column] = np.linalg.norm(poses.points(wanted.local) - wanted.place, axis=1)
-        palm[:, column] = _angle(poses.rotation[:, :, 2], wanted.palm)
-        fingers[:, column] = _angle(poses.rotation[:, :, 0], wanted.fingers)
+        palm[:, column] = angles_between(poses.rotation[:, :, 2], wanted.palm)
+        fingers[:, column] = angles_between(poses.rotation[:, :, 0], wanted.fingers)
         flexion[:, column] = shapes[side].error
     return place, palm, fingers, flexion
-
-
-def _angle(first: Array, second: Array) -> Array:
-    """Angles between unit vectors [rad]. Shapes (n, 3) and (n,)."""
-    angles: Array = 2.0 * np.arcsin(np.clip(np.linalg.norm(first - second, axis=1) / 2.0, 0.0, 1.0))
-    return angles

@@ -159,7 +159,7 @@ def _between(points: Array) -> Array:
 
 def _aside(shape: Array, rows: dict[str, int]) -> Array:
     """The right one of a pair of places that mirror each other, from what is seen of both. Shape (3,)."""
-    pair = np.stack([shape[rows["right"]], shape[rows["left"]] * (1.0, -1.0, 1.0)])
+    pair = np.stack([shape[rows["right"]], shape[rows["left"]] * MIRROR])
     seen = pair[np.isfinite(pair).all(axis=1)]
     return seen.mean(axis=0) if len(seen) else np.full(3, np.nan)
 

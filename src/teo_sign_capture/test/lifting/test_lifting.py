@@ -21,10 +21,10 @@ from teo_sign_capture.tracks.hand_model import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, WRIST, SkeletonTrack
 
 BAG = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
+# [pixel/m] Of a person at 1.5 m before a camera of 640 pixels.
 PIXELS = 550.0
-"""Of a metre: of a person at 1.5 m before a camera of 640 pixels."""
+# [m] Below the shoulders; wrists under it hang.
 RAISED = -0.36
-"""[m] Below the shoulders; wrists under it hang."""
 
 
 @pytest.fixture(scope="module")

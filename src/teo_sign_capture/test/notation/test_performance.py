@@ -29,8 +29,8 @@ from teo_synthetic_signer.script.script_file import read_script
 BODIES = ("man_tall", "woman_small", "man_heavy")
 UP = {"palm": "front", "fingers": "up"}
 FLAT = {"shape": "flat", "place": "space", **UP}
+# Keypoints of FACE_70, iBUG's definition.
 FACE = {"nose": [30], "chin": [8], "mouth": list(range(48, 68))}
-"""Keypoints of FACE_70, iBUG's definition."""
 
 
 @cache

@@ -12,11 +12,10 @@ from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap, WorkspaceScaling, body_boxes, on_skin
 from teo_sign_capture.retarget.head_motion import follow_head
+from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_sign_capture.signing_space.places import find_place
 from teo_sign_capture.tracks.head_pose import head_pose
 from teo_sign_capture.tracks.person import measure_person
-
-MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 @pytest.fixture(scope="module")
@@ -94,8 +93,8 @@ def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
     assert placed[2, 1] == pytest.approx(placed[0, 1], abs=1e-9)
 
 
+# TEO's [m].
 REACH, SHOULDER, HEIGHT = 0.705, 0.347, 0.498
-"""TEO's [m]."""
 SIZES = [(1.0, 1.0, 1.0), (0.8, 0.5, 0.9), (1.1, 0.6, 1.2)]
 
 
@@ -136,6 +135,5 @@ def test_higher_farther_and_more_aside_stay_so(far):
 
 def test_the_middle_stays_the_middle_and_both_sides_are_alike(far):
     points = np.random.default_rng(0).uniform(-0.6, 0.6, (50, 3))
-    mirror = np.array([1.0, -1.0, 1.0])
-    assert far(points * mirror) == pytest.approx(far(points) * mirror)
+    assert far(points * MIRROR) == pytest.approx(far(points) * MIRROR)
     assert far(points * (1.0, 0.0, 1.0))[:, 1] == pytest.approx(np.zeros(50))

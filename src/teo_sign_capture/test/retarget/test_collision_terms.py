@@ -9,7 +9,7 @@ from teo_description import HEAD, TRUNK
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import Quadratic
-from teo_sign_capture.retarget.collision_terms import WANTED, CollisionModel, CollisionTerms
+from teo_sign_capture.retarget.collision_terms import WANTED, WATCHED, CollisionModel, CollisionTerms
 
 # Both hands before the chest, near it and each other [deg], the left one as in a mirror.
 NEAR = np.radians([-29.0, -2.0, 54.0, -61.0, 0.0, 10.0, -25.0, 0.0, 50.0, -72.0, -25.0, 11.0])
@@ -24,22 +24,17 @@ def model():
 
 
 def test_slopes_say_how_each_distance_changes(model):
-    arms = np.stack([NEAR, NEAR])
-    terms = model.terms(np.array([0]), arms)
-    assert len(terms.frames) > 3
+    def all_pairs(arm):
+        return model.terms(np.array([0]), np.stack([arm, NEAR]), within=10.0)
+
+    terms = all_pairs(NEAR)
+    near = terms.distances < WATCHED
+    assert near.sum() > 3
     step = 1e-3
-    for joint in range(12):
-        moved = arms.copy()
-        ends = []
-        for sign in (1.0, -1.0):
-            moved[0] = NEAR + sign * step * np.eye(12)[joint]
-            ends.append(model.terms(np.array([0]), moved))
-        if not len(ends[0].frames) == len(ends[1].frames) == len(terms.frames):
-            continue  # a pair has come near or gone
-        slope = (ends[0].distances - ends[1].distances) / (2.0 * step)
-        # Where witness points lie on flat faces they jump, and one or two pairs have no slope.
-        assert np.median(np.abs(slope - terms.slopes[:, joint])) < 0.01
-        assert np.percentile(np.abs(slope - terms.slopes[:, joint]), 80) < 0.05
+    for joint, turn in enumerate(step * np.eye(12)):
+        ahead, behind = all_pairs(NEAR + turn), all_pairs(NEAR - turn)
+        slopes = (ahead.distances - behind.distances) / (2.0 * step)
+        assert terms.slopes[near, joint] == pytest.approx(slopes[near], abs=0.01)
 
 
 def test_the_nearest_of_them_is_the_clearance(model):
@@ -69,7 +64,8 @@ def test_only_what_is_too_near_costs():
 def test_arms_that_hang_are_near_to_nothing_that_matters(model):
     hanging = np.tile(np.radians([0.0, -30.0, 0.0, -20.0, 0.0, 0.0] * 2), (2, 1))
     terms = model.terms(np.array([0, 1]), hanging)
-    assert terms.slopes.shape == (len(terms.frames), 12)
+    assert not len(terms.frames)
+    assert terms.slopes.shape == (0, 12)
 
 
 def test_what_touches_on_a_way_between_frames_moves_the_frames_before_and_after():
@@ -125,4 +121,4 @@ def test_the_way_of_the_hands_is_no_shorter_than_that_of_their_knuckles(model):
     for side in ("Right", "Left"):
         places = [robot.placement(q, f"{side}MiddleFinger_link")[:3, 3] for q in ends]
         moved += float(np.linalg.norm(places[1] - places[0]))
-    assert 0.8 * moved < model.ways(arms)[0] < 3.0 * moved
+    assert moved < model.ways(arms)[0] < 1.5 * moved

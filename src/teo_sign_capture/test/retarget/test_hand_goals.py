@@ -16,8 +16,8 @@ from teo_sign_capture.signing_space.hand_points import MIRROR, PALM, teo_hand_po
 from teo_sign_capture.tracks.head_pose import head_pose
 from teo_sign_capture.tracks.person import measure_person
 
+# Among the points of a hand: palm, heel, four knuckles, four middle joints, then the tips.
 INDEX_TIP = 10
-"""Among the points of a hand: palm, heel, four knuckles, four middle joints, then the tips."""
 ARM = np.array([[[0.0, -0.35, 0.0], [0.1, -0.35, -0.3], [0.3, -0.2, -0.1]]])
 
 

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_tracks import HANGING, Move, lose, make_track, path
 
+from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_sign_capture.tracks.segmentation import SignSpan, find_signs, the_sign
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
@@ -90,8 +91,7 @@ def test_both_hands_are_seen_to_sign() -> None:
 
 def test_a_left_handed_sign_is_told() -> None:
     times = np.arange(0.0, 3.0, 1.0 / RATE)
-    mirror = np.array([1.0, -1.0, 1.0])
-    left = path(times, REST, ONE) * mirror
+    left = path(times, REST, ONE) * MIRROR
     track = make_track(times, np.tile(HANGING["right"], (len(times), 1)), left)
     assert spans_of(track)[0].handedness == "left"
 
