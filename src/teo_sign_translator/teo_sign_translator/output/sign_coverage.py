@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""How much of a text has signs, and which missing signs would help most."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Set
+from dataclasses import dataclass, field
+from enum import StrEnum
+from itertools import groupby
+
+from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token, Translation
+
+# A gloss is shown by another sign than its own.
+_SUBSTITUTES = (Origin.LEMMA, Origin.SYNONYM, Origin.PARAPHRASE, Origin.HYPERNYM)
+
+
+class Showing(StrEnum):
+    """What shows an output word."""
+
+    SIGN = "sign"
+    NUMBER = "number"
+    SUBSTITUTE = "substitute"
+    GUESS = "guess"
+    NAME = "name"
+    LETTERS = "letters"
+
+
+@dataclass(frozen=True, slots=True)
+class ShownWord:
+    """One output word of a sentence and what shows it.
+
+    Attributes:
+        gloss: What the translation means: the gloss that was looked for; the letters of a name.
+        signs: What is signed, in order: one gloss, the signs of a paraphrase, letters, a number.
+        showing: How the signs stand for the gloss.
+        source_words: Words of the text that it stands for, as typed.
+    """
+
+    gloss: str
+    signs: tuple[str, ...]
+    showing: Showing
+    source_words: tuple[str, ...]
+
+
+def shown_words(sentence: Sentence, guesses: Set[str] = frozenset()) -> list[ShownWord]:
+    """What shows each output word of a sentence, pauses apart.
+
+    Args:
+        sentence: Translated with the signs of a table.
+        guesses: Glosses of that table whose form has no source: as many as these were signed if guesses were
+            allowed, and are spelled if not.
+    """
+    return [
+        _shown(tuple(run), guesses)
+        for (_, meant), run in groupby(
+            (token for token in sentence.tokens if token.kind is not Kind.PAUSE), key=_word
+        )
+    ]
+
+
+def _word(token: Token) -> tuple[int | None, str]:
+    """What tokens of one output word share: the word's number, or the gloss that a paraphrase says."""
+    return (None if token.origin is Origin.PARAPHRASE else token.word_index), token.meant
+
+
+def _shown(tokens: tuple[Token, ...], guesses: Set[str]) -> ShownWord:
+    first = tokens[0]
+    signs = tuple(token.gloss for token in tokens)
+    gloss = first.meant or "".join(signs)
+    if first.kind is Kind.NUMBER:
+        showing = Showing.NUMBER
+    elif first.kind is Kind.LETTER:
+        showing = Showing.NAME if not first.meant else Showing.GUESS if gloss in guesses else Showing.LETTERS
+    else:
+        showing = Showing.SUBSTITUTE if first.origin in _SUBSTITUTES else Showing.SIGN
+    return ShownWord(gloss, signs, showing, first.source_words)
+
+
+@dataclass
+class Coverage:
+    """Counts over texts.
+
+    Attributes:
+        showings: How many output words are shown how.
+        sentences: How many sentences there were.
+        whole: How many of them need no letters but for names.
+        missing: Glosses that are spelled for want of a sign, by how often they were wanted.
+        guessed: Those of them that have a sign without a source.
+        examples: For each of them the first sentence that wants it.
+        dropped: Words of the texts that nothing was signed for, by how often.
+    """
+
+    showings: Counter[Showing] = field(default_factory=Counter)
+    sentences: int = 0
+    whole: int = 0
+    missing: Counter[str] = field(default_factory=Counter)
+    guessed: Counter[str] = field(default_factory=Counter)
+    examples: dict[str, str] = field(default_factory=dict)
+    dropped: Counter[str] = field(default_factory=Counter)
+
+    def add(self, translation: Translation, guesses: Set[str] = frozenset()) -> None:
+        """Count a text that was translated with the signs of a table; `guesses` as in `shown_words`."""
+        for sentence in translation.sentences:
+            words = shown_words(sentence, guesses)
+            self.sentences += 1
+            self.whole += not any(word.showing in (Showing.LETTERS, Showing.GUESS) for word in words)
+            self.showings.update(word.showing for word in words)
+            self.dropped.update(sentence.dropped)
+            for word in words:
+                if word.showing is Showing.LETTERS:
+                    self.missing[word.gloss] += 1
+                elif word.showing is Showing.GUESS:
+                    self.guessed[word.gloss] += 1
+                if word.showing in (Showing.LETTERS, Showing.GUESS):
+                    self.examples.setdefault(word.gloss, sentence.text)
+
+    @property
+    def words(self) -> int:
+        """Output words, pauses apart."""
+        return self.showings.total()
+
+    @property
+    def signed(self) -> int:
+        """Output words that a sign shows: its own, a number's, or another's that means the same."""
+        return sum(self.showings[showing] for showing in (Showing.SIGN, Showing.NUMBER, Showing.SUBSTITUTE))
+
+
+def most_wanted(coverage: Coverage, count: int) -> Iterable[tuple[str, int]]:
+    """Glosses whose sign would help most: spelled or only guessed now, the most frequent first."""
+    return (coverage.missing + coverage.guessed).most_common(count)
