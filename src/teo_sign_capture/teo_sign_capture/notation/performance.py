@@ -139,7 +139,9 @@ def _circle(circle: Circle | None, hands: dict[str, _Hand]) -> Iterator[dict[str
         return
     count = max(2, round(_PER_TURN * circle.turns))
     for index, way in enumerate(circle_offsets(circle, count), start=1):
-        key: dict[str, Any] = {side: hand.arm(way) for side, hand in hands.items()}
+        key: dict[str, Any] = {
+            side: hand.arm(way if circle.hand in (None, side) else None) for side, hand in hands.items()
+        }
         yield key | {"move": circle.time / count} | ({"through": True} if index < count else {})
 
 
@@ -149,7 +151,10 @@ def _wiggle(wiggle: Wiggle | None, hands: dict[str, _Hand]) -> Iterator[dict[str
     count = 2 * wiggle.times
     for index in range(1, count + 1):
         key: dict[str, Any] = {
-            side: hand.arm(None, *_bent(wiggle, hand, away=index % 2 == 1)) for side, hand in hands.items()
+            side: hand.arm(None, *_bent(wiggle, hand, away=index % 2 == 1))
+            if wiggle.hand in (None, side)
+            else hand.arm()
+            for side, hand in hands.items()
         }
         yield key | {"move": wiggle.time / count}
 

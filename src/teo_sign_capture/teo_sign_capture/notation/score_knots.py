@@ -56,7 +56,7 @@ def _limb(moment: Posture, target: HandTarget | None, candidate: ArmCandidate, s
     arm, hand = candidate.positions.copy(), target.shape.copy()
     hand_limits = joint_limits(RIGHT_HAND)
     lower, upper = arm_bounds(side)
-    for name, angle in moment.swings:
+    for name, angle in moment.swings if moment.swinging in (None, side) else ():
         if name in _ARM_SWINGS:
             index = _ARM_SWINGS[name]
             arm[index] = _swung(arm[index], angle, lower[index], upper[index])

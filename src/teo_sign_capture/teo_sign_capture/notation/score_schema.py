@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from teo_sign_capture.notation.handshapes import handshape
+from teo_sign_capture.retarget.arm_bounds import Side
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import OTHER_HAND, split_place
 from teo_signs.sign_schema import STANDING_MEANING, Gloss, Standing, Text
@@ -66,6 +67,7 @@ class Circle(BaseModel):
         True, description="As the signer sees it; in plane side from the hand's own side, in top from above."
     )
     time: Annotated[float, Field(gt=0.0, le=10.0)] = Field(description="Of the whole movement [s].")
+    hand: Side | None = Field(None, description="Which hand of two written ones; both without it.")
 
 
 class Wiggle(BaseModel):
@@ -79,6 +81,7 @@ class Wiggle(BaseModel):
     angle: float = Field(gt=0.0, le=90.0, description="From one end to the other [deg].")
     times: int = Field(ge=1, le=10, description="How often there and back.")
     time: Annotated[float, Field(gt=0.0, le=10.0)] = Field(description="Of the whole movement [s].")
+    hand: Side | None = Field(None, description="Which hand of two written ones; both without it.")
 
 
 class HeadScore(BaseModel):
@@ -157,6 +160,9 @@ class Score(_Heading):
                 raise ValueError(f"the first step to say shape, place, palm and fingers of the {side} hand")
             if not used and any(getattr(step, side) is not None for step in steps):
                 raise ValueError(f"no {side} hand where hands is {self.hands!r}")
+        moved = [movement.hand for step in steps for movement in (step.circle, step.wiggle) if movement]
+        if self.hands != "both" and any(moved):
+            raise ValueError(f"no hand named for a movement where hands is {self.hands!r}")
         for side in ("right", "left"):
             palm = fingers = ""
             for step in steps:

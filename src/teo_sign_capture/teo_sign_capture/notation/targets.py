@@ -11,7 +11,16 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_capture.notation.handshapes import handshape
-from teo_sign_capture.notation.score_schema import Circle, HandScore, Part, Score, Step, Wiggle, flattened
+from teo_sign_capture.notation.score_schema import (
+    Circle,
+    HandScore,
+    Part,
+    Score,
+    Step,
+    Wiggle,
+    flattened,
+)
+from teo_sign_capture.retarget.arm_bounds import Side
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import OTHER_HAND, find_place, split_place
 
@@ -62,6 +71,7 @@ class Posture:
         left: What is wanted of the left hand, as the right hand that it mirrors; None if it takes no part.
         turn: Head towards the right, bow: forward [rad].
         swings: Joint offsets to and fro: name of a wiggle's joint and its offset [rad].
+        swinging: The hand whose joints swing; None for all that take part.
     """
 
     time: float
@@ -70,6 +80,7 @@ class Posture:
     turn: float
     bow: float
     swings: tuple[tuple[str, float], ...] = ()
+    swinging: Side | None = None
 
 
 def postures(score: Score) -> list[Posture]:
@@ -168,15 +179,17 @@ def _movement(posture: Posture, step: Step) -> Iterator[Posture]:
         for index, offset in enumerate(circle_offsets(step.circle, count), start=1):
             moved = [
                 # On a circle the place counts as on the body: its shape is what is read.
-                None if hand is None else replace(hand, point=hand.point + offset, body=True)
-                for hand in (posture.right, posture.left)
+                hand
+                if hand is None or step.circle.hand not in (None, side)
+                else replace(hand, point=hand.point + offset, body=True)
+                for side, hand in (("right", posture.right), ("left", posture.left))
             ]
             assert moved[0] is not None
             yield replace(posture, time=step.circle.time * index / count, right=moved[0], left=moved[1])
         start = step.circle.time
     if step.wiggle is not None:
         for time, swings in _wiggle(step.wiggle):
-            yield replace(posture, time=start + time, swings=swings)
+            yield replace(posture, time=start + time, swings=swings, swinging=step.wiggle.hand)
 
 
 def circle_offsets(circle: Circle, count: int) -> Array:

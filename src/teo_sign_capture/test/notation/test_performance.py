@@ -215,6 +215,22 @@ def test_what_wiggles_goes_away_and_comes_back_and_the_rest_stays(tmp_path: Path
         assert np.degrees(np.arccos(cosine)) == pytest.approx(20.0, abs=0.5)
 
 
+@pytest.mark.parametrize(
+    "movement",
+    [
+        {"circle": {"plane": "top", "radius": 6.0, "turns": 1.0, "time": 0.8, "hand": "left"}},
+        {"wiggle": {"joint": "wrist", "angle": 20.0, "times": 1, "time": 0.8, "hand": "left"}},
+    ],
+)
+def test_a_movement_of_one_hand_leaves_the_other_still(tmp_path: Path, movement: dict[str, Any]) -> None:
+    hand = {**FLAT, "place": "space 12 out"}
+    performed = performance(score({"right": hand, "left": hand, **movement}, hands="both"))
+    motion = played(performed, tmp_path)
+    at = [truth(motion, performed.start + time, "woman_small") for time in (0.0, 0.4)]
+    assert np.abs(at[0]["right"] - at[1]["right"]).max() < 0.01
+    assert np.abs(at[0]["left"] - at[1]["left"]).max() > 0.03
+
+
 def test_a_mirrored_sign_is_made_alike_by_both_hands(tmp_path: Path) -> None:
     performed = performance(
         score({"right": {**FLAT, "place": "space 8 out", "palm": "in"}}, hands="mirrored")

@@ -124,6 +124,28 @@ def test_circles_come_round_and_wiggles_come_back(robot: Robot, tmp_path: Path) 
     assert sign.duration == pytest.approx(1.3)
 
 
+@pytest.mark.parametrize(
+    "movement",
+    [
+        "circle: {plane: top, radius: 4, turns: 1, start: front, time: 0.8, hand: right}",
+        "wiggle: {joint: forearm, angle: 30, times: 2, time: 0.8, hand: right}",
+        "wiggle: {joint: index, angle: 30, times: 2, time: 0.8, hand: right}",
+    ],
+)
+def test_a_movement_of_one_hand_leaves_the_other_still(robot: Robot, tmp_path: Path, movement: str) -> None:
+    text = (
+        GOOD.replace("hands: right", "hands: both").partition("  - right")[0]
+        + f"""\
+  - right: {{shape: flat, place: space 10 out, palm: in, fingers: front up}}
+    left: {{shape: flat, place: space 10 out, palm: in, fingers: front up}}
+    {movement}
+"""
+    )
+    sign = made(robot, tmp_path, text)
+    moved = {joint for joint, way in zip(sign.joints, np.ptp(sign.knots, axis=0), strict=True) if way > 0.01}
+    assert moved and all("Right" in joint for joint in moved)
+
+
 def test_a_hand_wanted_inside_the_body_stays_outside_and_says_how_far(robot: Robot, tmp_path: Path) -> None:
     sign = made(robot, tmp_path, GOOD.replace("place: space, palm: in, fingers: front up", INSIDE))
     assert sign.quality["clearance_mm"] > 0.0
@@ -142,6 +164,12 @@ def test_a_hand_wanted_inside_the_body_stays_outside_and_says_how_far(robot: Rob
         ("standing: sketched", "standing: sure", "bad_score", ":2: standing:"),
         ("time: 0.5", "time: -1", "bad_score", ":7: steps.1.time:"),
         ("time: 0.5", "tempo: 0.5", "bad_score", ":7: steps.1.tempo:"),
+        (
+            "    hold: 0.2",
+            "    wiggle: {joint: thumb, angle: 9, times: 1, time: 1, hand: right}",
+            "bad_score",
+            "no hand named for a movement where hands is 'right'",
+        ),
         ("gloss: PRUEBA", "gloss: OTRA", "gloss_mismatch", "expected 'PRUEBA'"),
         ("hands: right", "hands: [right", "not_yaml", "PRUEBA.yaml"),
         (GOOD, "", "bad_score", "PRUEBA.yaml:1"),
