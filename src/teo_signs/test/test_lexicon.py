@@ -93,12 +93,25 @@ def test_a_number_of_too_low_a_standing_is_signed_in_digits_which_are_always_use
     assert whole.token.gloss == "11"
 
 
-def test_the_package_signs_11_to_14_as_one_and_other_numbers_in_digits() -> None:
+def test_the_package_composes_numbers_of_what_its_table_holds() -> None:
     lut = Lut.open()
-    for number in ("11", "12", "13", "14"):
-        assert resolved(lut, *digits(number)) == [(number, number)]
-    for number in ("15", "20", "21", "85", "100", "1112", "1999"):
-        assert resolved(lut, *digits(number)) == [(digit, digit) for digit in number]
+    for number, signs in {
+        "7": "7",
+        "15": "15",
+        "21": "2 1",
+        "40": "40",
+        "85": "8 5",
+        "100": "100",
+        "352": "3 100 5 2",
+        "1999": "1000 9 100 9 9",
+        "20015": "20 1000 15",
+        "100000": "100 1000",
+        "007": "0 0 7",
+        "612345678": "6 1 2 3 4 5 6 7 8",
+    }.items():
+        expected = [(gloss, gloss) for gloss in signs.split()]
+        assert resolved(lut, Token(gloss=number, kind=Kind.NUMBER)) == expected
+        assert resolved(lut, *digits(number)) == expected  # sent digit by digit, as others may
 
 
 def test_a_letter_is_not_taken_for_a_sign_of_the_same_name(table: Mapping[str, Sign]) -> None:

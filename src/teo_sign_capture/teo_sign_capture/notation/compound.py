@@ -46,6 +46,7 @@ def performed(compound: Compound, parts: Sequence[Score]) -> Score:
         steps[0] = steps[0].model_copy(update={"left": _WAITING})
     return Score(
         gloss=compound.gloss,
+        kind=compound.kind,
         standing=compound.standing,
         source=compound.source,
         hands=hands,

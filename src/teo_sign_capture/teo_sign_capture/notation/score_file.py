@@ -17,6 +17,9 @@ from teo_signs.errors import LutError
 from teo_signs.look_up_table import LANGUAGE
 from teo_signs.sign import gloss_key
 
+# Names of models that pydantic puts into the place of an error, where a field may be one of two.
+_UNION_NAMES = ("Step", "Repeat", "FormStep", "FormRepeat")
+
 # A score of a dozen steps is 2 kB; this is no score.
 _MOST_BYTES = 100_000
 
@@ -72,7 +75,7 @@ def _read(path: Path, within: tuple[str, ...]) -> Score:
         score = (Compound if compound else Score).model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
-        where = [part for part in first["loc"] if not (isinstance(part, str) and part in ("Step", "Repeat"))]
+        where = [part for part in first["loc"] if not (isinstance(part, str) and part in _UNION_NAMES)]
         field = ".".join(map(str, where)) or "score"
         expected = first["msg"].removeprefix("Value error, ")
         raise LutError("bad_score", f"{path.name}:{_line(root, where)}: {field}: {expected}") from error
