@@ -21,12 +21,14 @@ from teo_sign_capture.notation.score_schema import Forms, Score, Step, flattened
 # Where persons are: the first at the signer's chest, the second before it, the third to the right, as far as the
 # arm reaches without help of the trunk (GramLSE, Morphology 3.1.1.1: a place of the signing space that is neither
 # the signer's nor the addressee's). Each a place, and its distance from it in centimetres.
-_PERSONS = {"1": "chest 17 front 6 out", "2": "space 12 front 2 up", "3": "space 4 front 26 out 2 up"}
+_PERSONS = {"1": "space 4 back", "2": "space 14 front 2 up", "3": "space 6 front 20 out 4 up"}
 # The same seen from above [cm]: front, out. Only their directions from each other are used.
-_SEEN_FROM_ABOVE = {"1": (0.0, 0.0), "2": (30.0, 4.0), "3": (20.0, 26.0)}
+_SEEN_FROM_ABOVE = {"1": (-4.0, 0.0), "2": (14.0, 0.0), "3": (6.0, 20.0)}
 
-# Where a gloss of a body part is, and the way along the body there: up and down on the trunk's front a hand is
-# drawn across, too.
+# What is out for the right hand is in for the left one beside it.
+_MIRROR = {"out": "in", "in": "out"}
+
+# Where the part of the body is that a gloss names.
 BODY_PLACES = {
     "CABEZA": "forehead 2 front",
     "FRENTE": "forehead 2 front",
@@ -54,7 +56,11 @@ def inflected_scores(score: Score) -> dict[str, Score]:
         return {}
     return {
         inflection: score.model_copy(
-            update={"steps": [_worded(step, words) for step in flattened(score.forms.steps)], "forms": None}
+            update={
+                "hands": score.forms.hands or score.hands,
+                "steps": [_worded(step, words) for step in flattened(score.forms.steps)],
+                "forms": None,
+            }
         )
         for inflection, words in _wordings(score.forms).items()
     }
@@ -66,6 +72,8 @@ def _wordings(forms: Forms) -> Mapping[str, Mapping[str, str]]:
         return {gloss: {"there": place} for gloss, place in BODY_PLACES.items()}
     made = {}
     for giver, receiver in permutations(_PERSONS, 2):
+        if forms.only is not None and f"{giver}>{receiver}" not in forms.only:
+            continue
         way = np.subtract(_SEEN_FROM_ABOVE[receiver], _SEEN_FROM_ABOVE[giver])
         front, out = way / np.linalg.norm(way)
         made[f"{giver}>{receiver}"] = {
@@ -86,10 +94,11 @@ def _words(front: float, out: float) -> str:
 def _worded(step: Step, words: Mapping[str, str]) -> Step:
     """A step with each of the words replaced by what it stands for."""
     said = step.model_dump(exclude_unset=True)
-    for side in ("right", "left"):
+    across = {word: " ".join(_MIRROR.get(part, part) for part in text.split()) for word, text in words.items()}
+    for side, own in (("right", words), ("left", across)):
         for field in ("place", "palm", "fingers"):
             if said.get(side) and said[side].get(field):
-                said[side][field] = _replaced(said[side][field], words)
+                said[side][field] = _replaced(said[side][field], own)
     if said.get("arc"):
         said["arc"] = _replaced(said["arc"], words)
     return Step.model_validate(said)

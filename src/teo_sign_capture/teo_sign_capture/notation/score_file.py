@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from teo_common.package_files import package_path
 from teo_sign_capture.notation.compound import performed
+from teo_sign_capture.notation.inflection import inflected_scores
 from teo_sign_capture.notation.score_schema import Compound, Score
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import LANGUAGE
@@ -96,7 +97,14 @@ def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: t
         raise LutError("bad_score", f"{where}: expected a sign that is not made of itself, got {gloss!r}")
     if not beside.is_file():
         raise LutError("bad_score", f"{where}: expected a sign with a score beside this one, got {gloss!r}")
-    return _read(beside, within)
+    part = _read(beside, within)
+    if not compound.inflection:
+        return part
+    forms = inflected_scores(part)
+    if compound.inflection not in forms:
+        there = ", ".join(forms) or "none"
+        raise LutError("bad_score", f"{where}: expected a form of {gloss} ({there}), got {compound.inflection!r}")
+    return forms[compound.inflection]
 
 
 def read_scores(directory: Path) -> Iterator[Score]:

@@ -140,6 +140,13 @@ class Compound(_Heading):
     """A sign that is made of others, or that is another under a second name."""
 
     signs: list[Gloss] = Field(min_length=1, max_length=4, description="Scores it is made of, in order.")
+    inflection: str = Field("", description="Form of its one sign, e.g. '2>1'; the citation form without it.")
+
+    @model_validator(mode="after")
+    def _one_is_inflected(self) -> Compound:
+        if self.inflection and len(self.signs) > 1:
+            raise ValueError("an inflection of one sign, not of several")
+        return self
 
 
 class FormHand(HandScore):
@@ -174,6 +181,12 @@ class Forms(BaseModel):
 
     along: Literal["persons", "body"] = Field(
         description="What the sign agrees with: who acts on whom, or the place of the body that is meant."
+    )
+    only: list[Literal["1>2", "1>3", "2>1", "2>3", "3>1", "3>2"]] | None = Field(
+        None, description="Forms along persons that TEO can make; all without it."
+    )
+    hands: Literal["right", "both"] | None = Field(
+        None, description="Hands of the forms where the score mirrors them: two hands that go to one side are both."
     )
     steps: list[FormStep | FormRepeat] = Field(min_length=1)
 
