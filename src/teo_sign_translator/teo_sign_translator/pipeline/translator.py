@@ -20,6 +20,7 @@ from teo_sign_translator.output.output_words import attach_carried, divide, numb
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
 from teo_sign_translator.output.spelling import unsignable
 from teo_sign_translator.output.translation import Sentence, Translation
+from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
@@ -104,7 +105,12 @@ class Translator:
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
-                model, morphology, HypothesisRepair.load(), taught, beam_width=beam_width
+                model,
+                morphology,
+                HypothesisRepair.load(),
+                taught,
+                Agreement.load(),
+                beam_width=beam_width,
             )
             return cls(back_end, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
         back_end = LstmBackEnd(load_model(name, directory), taught, glosses, name=name)
