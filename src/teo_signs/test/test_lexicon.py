@@ -10,7 +10,7 @@ import pytest
 from teo_signs.errors import LutError, PlanError
 from teo_signs.lexicon import Lexicon
 from teo_signs.look_up_table import Lut
-from teo_signs.sign import Sign
+from teo_signs.sign import Form, Sign
 from teo_signs.tokens import Kind, Token
 
 MakeSign = Callable[..., Sign]
@@ -112,6 +112,20 @@ def test_the_package_composes_numbers_of_what_its_table_holds() -> None:
         expected = [(gloss, gloss) for gloss in signs.split()]
         assert resolved(lut, Token(gloss=number, kind=Kind.NUMBER)) == expected
         assert resolved(lut, *digits(number)) == expected  # sent digit by digit, as others may
+
+
+def test_a_token_is_made_in_the_form_that_it_asks_for_if_the_sign_has_it(table: Mapping[str, Sign]) -> None:
+    you = table["TÚ"]
+    moved = Form(times=you.times, knots=you.knots + 0.01)
+    signs = {**table, "TÚ": replace(you, forms={"2>1": moved})}
+    form, other, citation = (
+        item.sign
+        for item in Lexicon(signs).resolve(
+            [Token(gloss="TÚ", inflection=inflection) for inflection in ("2>1", "1>3", "")]
+        )
+    )
+    assert form is not None and form.knots is moved.knots
+    assert other is signs["TÚ"] and citation is signs["TÚ"]
 
 
 def test_a_letter_is_not_taken_for_a_sign_of_the_same_name(table: Mapping[str, Sign]) -> None:

@@ -84,8 +84,20 @@ def _read(path: Path, within: tuple[str, ...]) -> Score:
         message = f"{path.name}:1: gloss: expected {path.stem!r}, the file's name, got {score.gloss!r}"
         raise LutError("gloss_mismatch", message)
     if isinstance(score, Score):
+        _check_forms(path, root, score)
         return score
     return performed(score, [_part(path, root, score, index, within) for index in range(len(score.signs))])
+
+
+def _check_forms(path: Path, root: yaml.Node, score: Score) -> None:
+    """Refuse forms whose words mean nothing: they are filled in for each person or place."""
+    try:
+        for form in inflected_scores(score).values():
+            Score.model_validate(form.model_dump(exclude_unset=True))
+    except ValidationError as error:
+        expected = error.errors()[0]["msg"].removeprefix("Value error, ")
+        line = _line(root, ["forms"])
+        raise LutError("bad_score", f"{path.name}:{line}: forms: {expected}") from error
 
 
 def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
