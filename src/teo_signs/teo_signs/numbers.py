@@ -3,8 +3,8 @@
 """Which signs show a number.
 
 A number below a million is made as Fernández Viader and Fuentes describe it for the sign languages of Spain
-("The systems of numerals in Catalan Sign Language and Spanish Sign Language", TISLR 9, 2008): what there is of
-a magnitude, then its operator CIEN or MIL, in falling order: 352,000 is 3 100 52 1000. A single hundred or
+("The systems of numerals in Catalan Sign Language and Spanish Sign Language", TISLR 9, 2008): how many there are
+of a magnitude, then its operator CIEN or MIL, in falling order: 352,000 is 3 100 5 2 1000. A single hundred or
 thousand is the operator alone. Tens and units have one sign where the table has it; else they are their digits
 side by side, the tens first, as SignPuddle's entry "veintidós" writes 22 and as 20 to 50 themselves are made in
 DILSE: the digit, then the ring that is 0. No zero is made between them: 305 is 3 100 5.
@@ -28,12 +28,12 @@ def number_glosses(digits: str, has: Callable[[str], bool]) -> tuple[str, ...]:
 
     Args:
         digits: The number, 0 to 9 only.
-        has: Whether a number has a sign of its own that may be used; not asked for single digits, which nothing
-            could stand for.
+        has: Whether a number has a sign of its own that may be used; not asked for single digits,
+            which nothing could stand for.
 
     Returns:
-        Glosses of number signs. The digits of the number if it is too long, begins with a zero, or an operator
-        has no sign: half a number would be read as another one.
+        Glosses of number signs. The digits of the number if it is too long, begins with a zero, or an
+        operator has no sign: half a number would be read as another one.
     """
     if len(digits) == 1 or has(digits):
         return (digits,)

@@ -43,8 +43,8 @@ class Sign:
         knots: Positions [rad], a column for each of `joints`. Shape (n, len(joints)), read-only.
         provenance: Where the sign came from.
         quality: Figures of the capture, by name.
-        forms: Inflected forms by inflection: "2>1" from the addressee to the signer, "CABEZA" at the head. What
-            `times` and `knots` hold is the citation form.
+        forms: Inflected forms by inflection: "2>1" from the addressee to the signer, "CABEZA" at the head.
+            What `times` and `knots` hold is the citation form.
     """
 
     gloss: str

@@ -89,9 +89,13 @@ def format_sign(sign: Sign) -> str:
         "times": np.round(sign.times, _DECIMALS).tolist(),
     }
     lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
-    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign.joints, sign.knots).tolist()]))
+    lines.append(
+        _block("knots", "[]", [_json(row) for row in _rounded_within(sign.joints, sign.knots).tolist()])
+    )
     if sign.forms:
-        forms = [f"{_json(inflection)}: {_form(sign.joints, form)}" for inflection, form in sign.forms.items()]
+        forms = [
+            f"{_json(inflection)}: {_form(sign.joints, form)}" for inflection, form in sign.forms.items()
+        ]
         lines.append(_block("forms", "{}", forms))
     for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
@@ -139,10 +143,14 @@ class _Reader:
         if content.gloss != self._stem:
             self._refuse("gloss_mismatch", "gloss", f"{self._stem!r}, the file's name", repr(content.gloss))
         self._check_joints(content.joints)
-        for field, motion in (("", content), *((f"forms.{name}.", form) for name, form in content.forms.items())):
-            self._check_times(motion.times, field)
-            self._check_knots(content.joints, motion, field)
+        self._check_motion(content.joints, content, "")
+        for inflection, form in content.forms.items():
+            self._check_motion(content.joints, form, f"forms.{inflection}.")
         return content
+
+    def _check_motion(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
+        self._check_times(motion.times, field)
+        self._check_knots(joints, motion, field)
 
     def _refuse(self, code: str, field: str, expected: str, got: str) -> NoReturn:
         place = f"{self._name}: {field}" if field else self._name
@@ -222,7 +230,9 @@ class _Reader:
         for index in range(1, len(times)):
             if times[index] <= times[index - 1]:
                 expected = f"more than {times[index - 1]:g} s, the time before"
-                self._refuse("times_not_increasing", f"{field}times[{index}]", expected, f"{times[index]:g} s")
+                self._refuse(
+                    "times_not_increasing", f"{field}times[{index}]", expected, f"{times[index]:g} s"
+                )
 
     def _check_knots(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
         rows, columns = len(motion.times), len(joints)
@@ -274,9 +284,7 @@ def _rounded_within(joints: tuple[str, ...], knots: NDArray[np.float64]) -> NDAr
         return rounded  # refused by name when it is read
     lower, upper = _bounds(list(joints))
     step = 10.0**-_DECIMALS
-    rounded = np.where(
-        (rounded > upper) & (knots <= upper), np.round(rounded - step, _DECIMALS), rounded
-    )
+    rounded = np.where((rounded > upper) & (knots <= upper), np.round(rounded - step, _DECIMALS), rounded)
     return np.where((rounded < lower) & (knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
 
 

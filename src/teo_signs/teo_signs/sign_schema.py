@@ -52,7 +52,9 @@ Gloss = Annotated[str, Field(min_length=1, max_length=MAX_GLOSS_LENGTH), AfterVa
 
 #: Longest name of an inflection; the message holds no longer one.
 MAX_INFLECTION_LENGTH = 16
-Inflection = Annotated[str, Field(min_length=1, max_length=MAX_INFLECTION_LENGTH, pattern=r"^[0-9A-ZÁÉÍÓÚÜÑ_>]+$")]
+Inflection = Annotated[
+    str, Field(min_length=1, max_length=MAX_INFLECTION_LENGTH, pattern=r"^[0-9A-ZÁÉÍÓÚÜÑ_>]+$")
+]
 
 # How well founded a sign's form is, the best first.
 Standing = Literal["recorded", "measured", "described", "sketched"]
@@ -121,8 +123,8 @@ class SignFile(BaseModel):
     )
     forms: dict[Inflection, FormFile] = Field(
         default={},
-        description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee to the "
-        "signer, 'CABEZA' at the head. May be left out.",
+        description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee to "
+        "the signer, 'CABEZA' at the head. May be left out.",
     )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(

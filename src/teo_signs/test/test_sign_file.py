@@ -296,10 +296,18 @@ def test_an_entry_without_forms_has_none_and_is_written_without() -> None:
     ("change", "code", "field"),
     [
         (lambda forms: forms["2>1"]["times"].__setitem__(0, 0.1), "bad_start", "forms.2>1.times[0]"),
-        (lambda forms: forms["2>1"]["times"].__setitem__(2, 0.4), "times_not_increasing", "forms.2>1.times[2]"),
+        (
+            lambda forms: forms["2>1"]["times"].__setitem__(2, 0.4),
+            "times_not_increasing",
+            "forms.2>1.times[2]",
+        ),
         (lambda forms: forms["2>1"]["knots"].pop(), "wrong_length", "forms.2>1.knots"),
         (lambda forms: forms["CABEZA"]["knots"][0].pop(), "wrong_length", "forms.CABEZA.knots[0]"),
-        (lambda forms: forms["CABEZA"]["knots"][0].__setitem__(0, 9.0), "outside_limits", "forms.CABEZA.knots[0][0]"),
+        (
+            lambda forms: forms["CABEZA"]["knots"][0].__setitem__(0, 9.0),
+            "outside_limits",
+            "forms.CABEZA.knots[0][0]",
+        ),
         (lambda forms: forms.__setitem__("to me", forms.pop("2>1")), "bad_value", "forms"),
         (lambda forms: forms.__setitem__("A" * 17, forms.pop("2>1")), "bad_value", "forms"),
         (lambda forms: forms["2>1"].pop("times"), "missing_field", "forms.2>1.times"),

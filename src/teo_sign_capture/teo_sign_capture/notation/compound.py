@@ -51,6 +51,7 @@ def performed(compound: Compound, parts: Sequence[Score]) -> Score:
         source=compound.source,
         hands=hands,
         face=compound.face or ", then ".join(dict.fromkeys(part.face for part in parts if part.face)),
+        forms=None,
         notes=" ".join(filter(None, (compound.notes, *(part.notes for part in parts)))),
         steps=list(steps),
     )

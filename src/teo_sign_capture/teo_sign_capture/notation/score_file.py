@@ -115,7 +115,9 @@ def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: t
     forms = inflected_scores(part)
     if compound.inflection not in forms:
         there = ", ".join(forms) or "none"
-        raise LutError("bad_score", f"{where}: expected a form of {gloss} ({there}), got {compound.inflection!r}")
+        raise LutError(
+            "bad_score", f"{where}: expected a form of {gloss} ({there}), got {compound.inflection!r}"
+        )
     return forms[compound.inflection]
 
 

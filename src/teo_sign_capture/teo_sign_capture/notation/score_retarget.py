@@ -67,7 +67,9 @@ def score_sign(robot: Robot, score: Score) -> Sign:
         quality={
             "place_error_mm": round(1000.0 * max(motion.place_error for motion in every), 1),
             "palm_angle_error_deg": round(float(np.degrees(max(motion.palm_error for motion in every))), 1),
-            "finger_angle_error_deg": round(float(np.degrees(max(motion.finger_error for motion in every))), 1),
+            "finger_angle_error_deg": round(
+                float(np.degrees(max(motion.finger_error for motion in every))), 1
+            ),
             "clearance_mm": min(clearance_mm(robot, motion.joints, motion.knots) for motion in every),
             "limit_margin_deg": min(limit_margin_deg(motion.joints, motion.knots) for motion in every),
         },
@@ -95,7 +97,7 @@ class _Motion:
     finger_error: float
 
     def on(self, joints: tuple[str, ...]) -> Array:
-        """The knots on the joints of the citation form; those that this form does not move are at home [rad]."""
+        """The knots on the joints of the citation form, at home where this form moves none [rad]."""
         home = np.array([HOME[joint] for joint in joints])
         rows = np.tile(home, (len(self.knots), 1))
         rows[:, [joints.index(joint) for joint in self.joints]] = self.knots

@@ -150,7 +150,7 @@ class Compound(_Heading):
 
 
 class FormHand(HandScore):
-    """What one hand does in a step of the forms; checked when the words for persons and places are filled in."""
+    """What one hand does in a step of the forms; checked when persons and places are filled in."""
 
     place: str | None = Field(None, description="As of a hand; also 'giver', 'receiver', or 'there'.")
     palm: str | None = Field(None, description="As of a hand; also 'onward', 'homeward'.")
@@ -186,7 +186,8 @@ class Forms(BaseModel):
         None, description="Forms along persons that TEO can make; all without it."
     )
     hands: Literal["right", "both"] | None = Field(
-        None, description="Hands of the forms where the score mirrors them: two hands that go to one side are both."
+        None,
+        description="Hands of the forms, if the score mirrors them: two that go to one side are both.",
     )
     steps: list[FormStep | FormRepeat] = Field(min_length=1)
 

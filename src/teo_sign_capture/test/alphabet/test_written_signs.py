@@ -106,7 +106,8 @@ def test_sixteen_to_nineteen_begin_as_ten_and_part_into_the_unit(robot: Robot) -
 def test_tens_turn_the_palm_from_the_signer_to_the_side(robot: Robot) -> None:
     for number in ("20", "30", "40", "50"):
         first, last = (
-            robot.placement(robot.configuration(sign(number).pose(knot)), "right_palm")[:3, 2] for knot in (0, -1)
+            robot.placement(robot.configuration(sign(number).pose(knot)), "right_palm")[:3, 2]
+            for knot in (0, -1)
         )
         assert first[0] < -0.7
         assert last[1] > 0.7

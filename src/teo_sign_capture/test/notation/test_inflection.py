@@ -54,7 +54,10 @@ def sign(gloss: str) -> Sign:
 def palms(robot: Robot, one: Sign) -> np.ndarray:
     """Places of the right palm at the knots [m]."""
     return np.array(
-        [robot.placement(robot.configuration(one.pose(knot)), "right_palm")[:3, 3] for knot in range(len(one.times))]
+        [
+            robot.placement(robot.configuration(one.pose(knot)), "right_palm")[:3, 3]
+            for knot in range(len(one.times))
+        ]
     )
 
 
@@ -90,7 +93,14 @@ def test_pain_is_shown_at_the_place_that_hurts(robot: Robot) -> None:
         tips[gloss] = robot.placement(q, "RightIndexFingerTip")[:3, 3]
     assert set(sign("DOLER").forms) == set(BODY_PLACES)
     height = {gloss: tip[2] for gloss, tip in tips.items()}
-    assert height["CABEZA"] > height["OJO"] > height["BOCA"] > height["GARGANTA"] > height["PECHO"] > height["BARRIGA"]
+    assert (
+        height["CABEZA"]
+        > height["OJO"]
+        > height["BOCA"]
+        > height["GARGANTA"]
+        > height["PECHO"]
+        > height["BARRIGA"]
+    )
     assert tips["CORAZÓN"][1] > tips["PECHO"][1] + 0.03  # the heart is on the left
     assert tips["OREJA"][1] < tips["OJO"][1] - 0.03
 
@@ -140,9 +150,7 @@ def test_a_second_name_of_a_form_is_that_form(robot: Robot, tmp_path: Path) -> N
         ("palm: up", "palm: sideways", "sideways"),
     ],
 )
-def test_forms_that_are_not_right_are_refused_by_name(
-    tmp_path: Path, old: str, new: str, named: str
-) -> None:
+def test_forms_that_are_not_right_are_refused_by_name(tmp_path: Path, old: str, new: str, named: str) -> None:
     with pytest.raises(LutError) as refusal:
         read_score(write(tmp_path, SCORE.replace(old, new)))
     assert refusal.value.code == "bad_score"

@@ -44,8 +44,8 @@ class Token:
         kind: Sign of its own, letter, number or pause.
         confidence: How sure the translator is, 0 (guess) to 1 (certain).
         duration_scale: Times the sign's recorded duration.
-        word_index: Counts the words of the sentence's output from 0; letters of a spelled word and digits of a
-            number of more than six share it.
+        word_index: Counts the words of the sentence's output from 0; letters of a spelled word and
+            digits of a number of more than six share it.
         source_words: Words of the text, as typed, that the token stands for.
         origin: How it came about.
         inflection: Form of the sign: "2>1" from the addressee to the signer; empty for the citation form.

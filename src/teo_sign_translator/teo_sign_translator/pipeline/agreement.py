@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which form a sign takes that agrees: who acts on whom, or where it hurts, from the words of its clause.
 
-The form is a token's inflection: "2>1" is from the addressee to the signer (`¿Me ayudas?`), "CABEZA" at the head
-(`Me duele la cabeza`). It is empty where the clause does not say both persons, or says two places: then the
+The form is a token's inflection: "2>1" is from the addressee to the signer (`¿Me ayudas?`), "CABEZA" at the
+head (`Me duele la cabeza`). It is empty where the clause does not say both persons, or says two places: then the
 citation form is signed, which says less but nothing false.
 """
 
@@ -173,7 +173,10 @@ class _Clause:
     def _prepositional_object(self) -> str:
         """Person behind "a": `ayudo a Ana`, `se lo doy a él`."""
         for place in range(self._verb + 1, len(self._words)):
-            if not self._words[place].readings[0].tag.startswith("PREP") or self._words[place].form not in ("a", "al"):
+            if not self._words[place].readings[0].tag.startswith("PREP") or self._words[place].form not in (
+                "a",
+                "al",
+            ):
                 continue
             for word in self._words[place + 1 : place + 3]:
                 tag = word.readings[0].tag
@@ -205,7 +208,9 @@ class _Clause:
             readings = [reading for reading in readings if not reading.tag.startswith("V:imp")]
         persons = [self._person(reading) for reading in readings]
         said = {reading.lemma: reading for word in self._words for reading in word.readings[:1]}
-        explicit = {_SUBJECTS[lemma] for lemma in said if lemma in _SUBJECTS and said[lemma].tag.startswith("PRON")}
+        explicit = {
+            _SUBJECTS[lemma] for lemma in said if lemma in _SUBJECTS and said[lemma].tag.startswith("PRON")
+        }
         possible = [person for person in dict.fromkeys(persons) if person != receiver]
         for person in possible:
             if person in explicit:

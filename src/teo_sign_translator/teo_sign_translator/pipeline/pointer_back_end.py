@@ -97,10 +97,7 @@ class PointerBackEnd:
         ]
         said = iter(self._say(every))
         return [
-            [
-                _assembled(sentence, [next(said) for _ in sentence.parts], self._agreement)
-                for sentence in text
-            ]
+            [_assembled(sentence, [next(said) for _ in sentence.parts], self._agreement) for sentence in text]
             for text in sentences
         ]
 
