@@ -42,9 +42,9 @@ class Lexicon:
     pause. Accents are dropped first, except on Ñ, which is a letter of its own. So is a gloss whose sign is
     of too low a standing; letters and digits are always used, for nothing could stand for them.
 
-    The tokens of one word that hold digits are one number, whose signs `numbers` chooses: 352 is 3 100 5 2 where
-    the table has no sign for it. A token with an inflection is made with that form of its sign ("2>1": from
-    the addressee to the signer), or with the citation form where the entry has no such form.
+    The tokens of one word that hold digits are one number, whose signs `numbers` chooses: 352 is 3 100 5 2
+    where the table has no sign for it. A token with an inflection is made with that form of its sign
+    ("2>1": from the addressee to the signer), or with the citation form where the entry has no such form.
     """
 
     def __init__(self, signs: Mapping[str, Sign], least_standing: Standing = DEFAULT_STANDING) -> None:

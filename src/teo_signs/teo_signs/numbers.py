@@ -3,11 +3,12 @@
 """Which signs show a number.
 
 A number below a million is made as Fernández Viader and Fuentes describe it for the sign languages of Spain
-("The systems of numerals in Catalan Sign Language and Spanish Sign Language", TISLR 9, 2008): how many there are
-of a magnitude, then its operator CIEN or MIL, in falling order: 352,000 is 3 100 5 2 1000. A single hundred or
-thousand is the operator alone. Tens and units have one sign where the table has it; else they are their digits
-side by side, the tens first, as SignPuddle's entry "veintidós" writes 22 and as 20 to 50 themselves are made in
-DILSE: the digit, then the ring that is 0. No zero is made between them: 305 is 3 100 5.
+("The systems of numerals in Catalan Sign Language and Spanish Sign Language", TISLR 9, 2008): how many
+there are of a magnitude, then its operator CIEN or MIL, in falling order: 352,000 is 3 100 5 2 1000. A
+single hundred or thousand is the operator alone. Tens and units have one sign where the table has it; else
+they are their digits side by side, the tens first, as SignPuddle's entry "veintidós" writes 22 and as 20 to
+50 themselves are made in DILSE: the digit, then the ring that is 0. No zero is made between them: 305 is 3
+100 5.
 
 What is no such number is read out digit by digit: longer ones (telephone numbers), and those with a zero in
 front, which are codes.

@@ -123,8 +123,8 @@ class SignFile(BaseModel):
     )
     forms: dict[Inflection, FormFile] = Field(
         default={},
-        description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee to "
-        "the signer, 'CABEZA' at the head. May be left out.",
+        description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee "
+        "to the signer, 'CABEZA' at the head. May be left out.",
     )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Inflected forms of a score: a verb's way from person to person, or a sign at a place of the body.
 
-In verbs that agree the movement begins at the place of who acts and ends at that of whom it is done to; a hand
-that turns shows its back to the one, palm or finger tips to the other (GramLSE, Costello and Villameriel 2023,
-Lexicon 3.2.2.1). A score with `forms` says that way once, with `giver`, `receiver`, `onward` and `homeward` in
-its places and directions, or `there` for a place of the body; here they become ordinary words for every pair of
-persons, or every place.
+In verbs that agree the movement begins at the place of who acts and ends at that of whom it is done to; a
+hand that turns shows its back to the one, palm or finger tips to the other (GramLSE, Costello and
+Villameriel 2023, Lexicon 3.2.2.1). A score with `forms` says that way once, with `giver`, `receiver`,
+`onward` and `homeward` in its places and directions, or `there` for a place of the body; here they become
+ordinary words for every pair of persons, or every place.
 """
 
 from __future__ import annotations
@@ -19,9 +19,10 @@ import numpy as np
 
 from teo_sign_capture.notation.score_schema import Forms, Score, Step, flattened
 
-# Where persons are: the first before the signer's chest, the second farther away, the third to the right, as far
-# as the arm reaches without help of the trunk (GramLSE, Morphology 3.1.1.1: a place of the signing space that is
-# neither the signer's nor the addressee's). Each a place, and its distance from it in centimetres.
+# Where persons are: the first before the signer's chest, the second farther away, the third to the right,
+# as far as the arm reaches without help of the trunk (GramLSE, Morphology 3.1.1.1: a place of the signing
+# space that is neither the signer's nor the addressee's). Each a place, and its distance from it in
+# centimetres.
 _PERSONS = {"1": "space 4 back", "2": "space 14 front 2 up", "3": "space 6 front 20 out 4 up"}
 # The same seen from above [cm]: front, out. Only their directions from each other are used.
 _SEEN_FROM_ABOVE = {"1": (-4.0, 0.0), "2": (14.0, 0.0), "3": (6.0, 20.0)}

@@ -3,8 +3,8 @@
 """Which form a sign takes that agrees: who acts on whom, or where it hurts, from the words of its clause.
 
 The form is a token's inflection: "2>1" is from the addressee to the signer (`¿Me ayudas?`), "CABEZA" at the
-head (`Me duele la cabeza`). It is empty where the clause does not say both persons, or says two places: then the
-citation form is signed, which says less but nothing false.
+head (`Me duele la cabeza`). It is empty where the clause does not say both persons, or says two places:
+then the citation form is signed, which says less but nothing false.
 """
 
 from __future__ import annotations
