@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which signs show a number.
 
-A number below a million is made as Fernández Viader and Fuentes describe it for the sign languages of Spain
-("The systems of numerals in Catalan Sign Language and Spanish Sign Language", TISLR 9, 2008): how many
-there are of a magnitude, then its operator CIEN or MIL, in falling order: 352,000 is 3 100 5 2 1000. A
-single hundred or thousand is the operator alone. Tens and units have one sign where the table has it; else
-they are their digits side by side, the tens first, as SignPuddle's entry "veintidós" writes 22 and as 20 to
-50 themselves are made in DILSE: the digit, then the ring that is 0. No zero is made between them: 305 is 3
-100 5.
+A number below a million is how many there are of a magnitude, then its operator CIEN or MIL, in falling
+order: 352,000 is 3 100 5 2 1000. So Fuentes describes it for Catalan Sign Language (Sintagma 12, pages 19
+to 35), and Fernández Viader and Fuentes (TISLR 9, 2008) find the same system in Spanish Sign Language
+with other hands. A single hundred or thousand is the operator alone. Fuentes leaves CIEN out before tens
+and units (8,756 is 8 MIL 7 5 6); here it stays, as in Spanish, so that no zero has to be made: 305 is 3
+100 5. Tens and units have one sign where the table has it; else they are their digits side by side, the
+tens first, as SignPuddle's entry "veintidós" writes 22 and as 20 to 50 themselves are made in DILSE: the
+digit, then the ring that is 0.
 
 What is no such number is read out digit by digit: longer ones (telephone numbers), and those with a zero in
 front, which are codes.

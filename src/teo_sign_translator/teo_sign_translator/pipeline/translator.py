@@ -16,6 +16,7 @@ from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.store import load_model
 from teo_sign_translator.model_files import card_schema
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.output.incorporation import with_numbers_incorporated
 from teo_sign_translator.output.output_words import attach_carried, divide, number_tokens
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
 from teo_sign_translator.output.spelling import unsignable
@@ -177,7 +178,8 @@ class Translator:
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
-        output_words = self._chooser.choose(attach_carried(translated_sentence.output_words), signs)
+        chosen = self._chooser.choose(attach_carried(translated_sentence.output_words), signs)
+        output_words = with_numbers_incorporated(chosen, signs)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(
