@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Numbers that a sign takes up: two weeks are one sign, made with the hand of the number.
 
-Signers of LSE take numbers up to five into units of time and into pronouns (GramLSE, CNLSE, Morphology 3.1.1.3:
-THREE-MONTH; the corpus LSE-Health-UVigo: SEMANA(TRES), MES(DOS); the dual of pronouns: SignHub, LSE, Lexicon
-3.7.2.2). It is done where the table has the sign; else noun and number stay two signs.
+Signers of LSE take numbers up to five into units of time and into pronouns (GramLSE, CNLSE, Morphology
+3.1.1.3: THREE-MONTH; the corpus LSE-Health-UVigo: SEMANA(TRES), MES(DOS); the dual of pronouns: SignHub,
+LSE, Lexicon 3.7.2.2). It is done where the table has the sign; else noun and number stay two signs.
 """
 
 from __future__ import annotations
