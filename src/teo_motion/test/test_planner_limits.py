@@ -27,7 +27,7 @@ PERIOD = 0.02
 
 def random_tokens(rng: np.random.Generator, table: Mapping[str, Sign], most: int) -> list[Token]:
     tokens = []
-    for _ in range(rng.integers(1, most + 1)):
+    for index in range(rng.integers(1, most + 1)):
         sign = table[str(rng.choice(sorted(table)))]
         pause = rng.random() < 0.1
         tokens.append(
@@ -35,7 +35,9 @@ def random_tokens(rng: np.random.Generator, table: Mapping[str, Sign], most: int
                 gloss="" if pause else sign.gloss,
                 kind=Kind.PAUSE if pause else KINDS[sign.kind],
                 duration_scale=float(rng.choice([0.001, 0.3, 1.0, 2.0])),
-                word_index=int(rng.integers(3)),
+                # Words of their own: numbers of one word would be one number.
+                word_index=index,
+                inflection="" if pause else str(rng.choice(["", *sign.forms])),
             )
         )
     return tokens
@@ -85,7 +87,7 @@ def check(
         end = timing.start + timing.duration
         if timing.token.kind == Kind.PAUSE:
             continue
-        sign = table[timing.token.gloss]
+        sign = table[timing.token.gloss].inflected(timing.token.inflection)
         columns = [COMMANDED_JOINTS.index(name) for name in sign.joints]
         inside = (plan.times >= timing.start - 1e-9) & (plan.times <= end + 1e-9)
         passed = plan.positions[inside][:, columns]
@@ -150,7 +152,7 @@ def test_no_limit_is_broken_by_thousands_of_tokens(table: Mapping[str, Sign]) ->
     rng = np.random.default_rng(1)
     names = sorted(table)
     tokens = [
-        Token(gloss=gloss, kind=KINDS[table[gloss].kind], word_index=index // 7)
+        Token(gloss=gloss, kind=KINDS[table[gloss].kind], word_index=index)
         for index, gloss in enumerate(rng.choice(names, 1000).tolist())
     ]
     plan = Planner(table, max_duration=1e5).plan(tokens)
@@ -171,6 +173,19 @@ def test_no_limit_is_broken_by_the_table_of_the_package(driver_view: type) -> No
     planner = Planner(table, max_duration=1e4, least_standing="sketched")
     for _ in range(15):
         tokens = random_tokens(rng, table, most=8)
+        check(planner.plan(tokens), tokens, table, REST, driver_view)
+
+
+def test_no_limit_is_broken_by_the_inflected_forms_of_the_package(driver_view: type) -> None:
+    table = Lut.open()
+    inflected = [(gloss, inflection) for gloss in table for inflection in table[gloss].forms]
+    assert len(inflected) > 30
+    planner = Planner(table, max_duration=1e4)
+    for first in range(0, len(inflected), 6):
+        tokens = [
+            Token(gloss=gloss, inflection=inflection, word_index=index)
+            for index, (gloss, inflection) in enumerate(inflected[first : first + 6])
+        ]
         check(planner.plan(tokens), tokens, table, REST, driver_view)
 
 

@@ -11,6 +11,7 @@ from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
+from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.coverage import FunctionWords
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
@@ -51,5 +52,5 @@ MORPHOLOGY = Morphology.load()
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
     taught = Phrasebook(training_pairs(), GlossList.load())
-    back_end = PointerBackEnd(model, MORPHOLOGY, HypothesisRepair.load(), taught)
+    back_end = PointerBackEnd(model, MORPHOLOGY, HypothesisRepair.load(), taught, Agreement.load())
     return Translator(back_end, SignChooser(read_synonyms(), MORPHOLOGY))

@@ -11,6 +11,7 @@ from itertools import groupby
 
 from teo_common.text_folding import without_accents
 from teo_signs.errors import LutError, PlanError
+from teo_signs.numbers import number_glosses
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_schema import STANDINGS, Standing
 from teo_signs.tokens import Kind, Token, check_tokens
@@ -41,9 +42,9 @@ class Lexicon:
     pause. Accents are dropped first, except on Ñ, which is a letter of its own. So is a gloss whose sign is
     of too low a standing; letters and digits are always used, for nothing could stand for them.
 
-    The digits of one word are a number: it is made with its own sign where the table has one that is good
-    enough (11 to 14 in the package's), and else digit by digit. Tens and units are not put together: no
-    source says how LSE does it, and a digit for each is understood by everybody.
+    The tokens of one word that hold digits are one number, whose signs `numbers` chooses: 352 is 3 100 5 2
+    where the table has no sign for it. A token with an inflection is made with that form of its sign
+    ("2>1": from the addressee to the signer), or with the citation form where the entry has no such form.
     """
 
     def __init__(self, signs: Mapping[str, Sign], least_standing: Standing = DEFAULT_STANDING) -> None:
@@ -69,13 +70,15 @@ class Lexicon:
         check_tokens(tokens)
         return tuple(signed for token in self._numbers_joined(tokens) for signed in self._resolve(token))
 
-    def _numbers_joined(self, tokens: Sequence[Token]) -> Iterator[Token]:
-        """Tokens, those of one number's digits as one where the number has a sign of its own."""
-        for (kind, _), run in groupby(tokens, key=lambda token: (token.kind, token.word_index)):
+    @staticmethod
+    def _numbers_joined(tokens: Sequence[Token]) -> Iterator[Token]:
+        """Tokens, those that hold the digits of one word as one."""
+        for (kind, _, _), run in groupby(
+            tokens, key=lambda token: (token.kind, token.word_index, token.duration_scale)
+        ):
             word = tuple(run)
-            gloss = "".join(token.gloss.strip() for token in word)
-            if kind == Kind.NUMBER and len(word) > 1 and self._find(gloss, Kind.NUMBER) is not None:
-                yield dataclasses.replace(word[0], gloss=gloss)
+            if kind == Kind.NUMBER and len(word) > 1:
+                yield dataclasses.replace(word[0], gloss="".join(token.gloss.strip() for token in word))
             else:
                 yield from word
 
@@ -83,15 +86,27 @@ class Lexicon:
         if token.kind == Kind.PAUSE:
             return [SignedToken(token=token, sign=None)]
         gloss = gloss_key(token.gloss.strip()).upper()
+        if token.kind == Kind.NUMBER and gloss.isascii() and gloss.isdecimal():
+            return self._number(token, gloss)
         sign = self._find(gloss, token.kind)
         if sign is not None:
-            return [SignedToken(token=token, sign=sign)]
+            return [SignedToken(token=token, sign=sign.inflected(token.inflection))]
         if token.kind == Kind.LETTER:
             sign = self._find(without_accents(gloss), Kind.LETTER)
             if sign is None:
                 raise PlanError("unknown_sign", f"expected a letter of the table, got {token.gloss!r}")
             return [SignedToken(token=token, sign=sign)]
         return self._spell(token, without_accents(gloss))
+
+    def _number(self, token: Token, digits: str) -> list[SignedToken]:
+        """The signs of a number, each with a token of its own."""
+        signed: list[SignedToken] = []
+        for gloss in number_glosses(digits, lambda gloss: self._find(gloss, Kind.NUMBER) is not None):
+            sign = self._find(gloss, Kind.NUMBER)
+            if sign is None:
+                raise PlanError("unknown_sign", self._missing(token, gloss))
+            signed.append(SignedToken(token=dataclasses.replace(token, gloss=gloss), sign=sign))
+        return signed
 
     def _find(self, gloss: str, kind: Kind) -> Sign | None:
         if gloss not in self._signs:

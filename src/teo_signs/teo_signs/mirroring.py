@@ -93,24 +93,14 @@ def mirrored_positions(joints: tuple[str, ...], positions: Array) -> Array:
 def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     """The mirror image of a sign, within the limits."""
     joints = tuple(mirrored_name(name) for name in sign.joints)
-    knots = mirrored_positions(sign.joints, sign.knots)
-    place = turn = 0.0
-    for side, arm in _ARMS.items():
-        if not set(arm) <= set(joints):
-            continue
-        columns = [joints.index(name) for name in arm]
-        limits = joint_limits(arm)
-        for row in knots:
-            within = np.clip(row[columns], limits.lower, limits.upper)
-            # An entry keeps six decimals: what is beyond by less is on the limit.
-            if np.abs(within - row[columns]).max() > LIMIT_TOLERANCE:
-                wanted = row[columns]
-                for near in _NEAR:
-                    row[columns], found = _nearest(robot, side, wanted, within, near)
-                    if _is_clear(robot, joints, row):
-                        break
-                place, turn = max(place, found[0]), max(turn, found[1])
-    errors = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
+    knots, errors = _mirrored_knots(robot, sign.joints, joints, sign.knots)
+    forms = {}
+    for inflection, form in sign.forms.items():
+        rows, more = _mirrored_knots(robot, sign.joints, joints, form.knots)
+        forms[inflection] = replace(form, knots=rows)
+        errors = np.maximum(errors, more)
+    place, turn = errors.tolist()
+    figures = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
     notes = f"{sign.provenance.notes} Mirrored for a left-handed signer.".strip()
     return replace(
         sign,
@@ -118,8 +108,40 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
         joints=joints,
         knots=knots,
         provenance=sign.provenance.model_copy(update={"notes": notes}),
-        quality={**sign.quality, **errors} if turn else sign.quality,
+        quality={**sign.quality, **figures} if turn else sign.quality,
+        forms=forms,
     )
+
+
+def _mirrored_knots(
+    robot: Robot, joints: tuple[str, ...], mirrored: tuple[str, ...], knots: Array
+) -> tuple[Array, Array]:
+    """Mirrored knots within the limits [rad], and how far off a palm is at most [m], [rad].
+
+    Args:
+        robot: TEO.
+        joints: What the knots' columns are.
+        mirrored: What they are in the mirror.
+        knots: Shape (n, joints).
+    """
+    mirror = mirrored_positions(joints, knots)
+    errors = np.zeros(2)
+    for side, arm in _ARMS.items():
+        if not set(arm) <= set(mirrored):
+            continue
+        columns = [mirrored.index(name) for name in arm]
+        limits = joint_limits(arm)
+        for row in mirror:
+            within = np.clip(row[columns], limits.lower, limits.upper)
+            # An entry keeps six decimals: what is beyond by less is on the limit.
+            if np.abs(within - row[columns]).max() > LIMIT_TOLERANCE:
+                wanted = row[columns]
+                for near in _NEAR:
+                    row[columns], found = _nearest(robot, side, wanted, within, near)
+                    if _is_clear(robot, mirrored, row):
+                        break
+                errors = np.maximum(errors, found)
+    return mirror, errors
 
 
 def _is_clear(robot: Robot, joints: tuple[str, ...], row: Array) -> bool:

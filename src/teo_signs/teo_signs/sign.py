@@ -6,13 +6,27 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import description_hash
 from teo_signs.sign_schema import Handedness, Kind, Provenance
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Form:
+    """An inflected form of a sign: the same joints, moved otherwise.
+
+    Attributes:
+        times: Times of the knots [s], from 0, strictly increasing. Shape (n,), read-only.
+        knots: Positions [rad], a column for each of the sign's joints. Shape (n, joints), read-only.
+    """
+
+    times: NDArray[np.float64]
+    knots: NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -29,6 +43,8 @@ class Sign:
         knots: Positions [rad], a column for each of `joints`. Shape (n, len(joints)), read-only.
         provenance: Where the sign came from.
         quality: Figures of the capture, by name.
+        forms: Inflected forms by inflection: "2>1" from the addressee to the signer, "CABEZA" at the head.
+            What `times` and `knots` hold is the citation form.
     """
 
     gloss: str
@@ -40,6 +56,7 @@ class Sign:
     knots: NDArray[np.float64]
     provenance: Provenance
     quality: Mapping[str, float]
+    forms: Mapping[str, Form] = field(default_factory=lambda: MappingProxyType({}))
 
     @property
     def duration(self) -> float:
@@ -49,6 +66,11 @@ class Sign:
     def pose(self, knot: int) -> dict[str, float]:
         """Positions of one knot [rad], by joint name; -1 is the last knot."""
         return dict(zip(self.joints, self.knots[knot].tolist(), strict=True))
+
+    def inflected(self, inflection: str) -> Sign:
+        """The sign in one of its forms; as it is if it has no such form, or none is asked for ("")."""
+        form = self.forms.get(inflection)
+        return self if form is None else replace(self, times=form.times, knots=form.knots)
 
 
 def gloss_key(gloss: str) -> str:

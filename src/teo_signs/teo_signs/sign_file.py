@@ -18,8 +18,8 @@ from pydantic_core import ErrorDetails
 from teo_common.atomic_files import write_atomically
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_signs.errors import LutError
-from teo_signs.sign import Sign, gloss_key
-from teo_signs.sign_schema import SCHEMA_VERSION, Provenance, SignFile
+from teo_signs.sign import Form, Sign, gloss_key
+from teo_signs.sign_schema import SCHEMA_VERSION, FormFile, Provenance, SignFile
 
 # 28 joints at 25 frames a second for a minute are 0.8 MB of text; no sign is longer than that.
 MAX_FILE_BYTES = 1_000_000
@@ -44,20 +44,21 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         LutError: The entry is not a good one; the message names file, field, expected and got.
     """
     content = _Reader(Path(file)).read(text)
-    times = np.array(content.times, dtype=np.float64)
-    knots = np.array(content.knots, dtype=np.float64)
-    times.setflags(write=False)
-    knots.setflags(write=False)
+    forms = {
+        inflection: Form(times=_array(form.times), knots=_array(form.knots))
+        for inflection, form in content.forms.items()
+    }
     return Sign(
         gloss=content.gloss,
         language=content.language,
         kind=content.kind,
         handedness=content.handedness,
         joints=tuple(content.joints),
-        times=times,
-        knots=knots,
+        times=_array(content.times),
+        knots=_array(content.knots),
         provenance=content.provenance,
         quality=MappingProxyType(dict(content.quality)),
+        forms=MappingProxyType(forms),
     )
 
 
@@ -88,7 +89,14 @@ def format_sign(sign: Sign) -> str:
         "times": np.round(sign.times, _DECIMALS).tolist(),
     }
     lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
-    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign).tolist()]))
+    lines.append(
+        _block("knots", "[]", [_json(row) for row in _rounded_within(sign.joints, sign.knots).tolist()])
+    )
+    if sign.forms:
+        forms = [
+            f"{_json(inflection)}: {_form(sign.joints, form)}" for inflection, form in sign.forms.items()
+        ]
+        lines.append(_block("forms", "{}", forms))
     for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
     return "{\n" + ",\n".join(lines) + "\n}\n"
@@ -135,9 +143,14 @@ class _Reader:
         if content.gloss != self._stem:
             self._refuse("gloss_mismatch", "gloss", f"{self._stem!r}, the file's name", repr(content.gloss))
         self._check_joints(content.joints)
-        self._check_times(content.times)
-        self._check_knots(content)
+        self._check_motion(content.joints, content, "")
+        for inflection, form in content.forms.items():
+            self._check_motion(content.joints, form, f"forms.{inflection}.")
         return content
+
+    def _check_motion(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
+        self._check_times(motion.times, field)
+        self._check_knots(joints, motion, field)
 
     def _refuse(self, code: str, field: str, expected: str, got: str) -> NoReturn:
         place = f"{self._name}: {field}" if field else self._name
@@ -211,30 +224,32 @@ class _Reader:
                 self._refuse("duplicate_joint", f"joints[{index}]", "each joint once", f"{joint!r} again")
             seen.add(joint)
 
-    def _check_times(self, times: list[float]) -> None:
+    def _check_times(self, times: list[float], field: str) -> None:
         if times[0] != 0.0:
-            self._refuse("bad_start", "times[0]", "0 s", f"{times[0]:g} s")
+            self._refuse("bad_start", f"{field}times[0]", "0 s", f"{times[0]:g} s")
         for index in range(1, len(times)):
             if times[index] <= times[index - 1]:
                 expected = f"more than {times[index - 1]:g} s, the time before"
-                self._refuse("times_not_increasing", f"times[{index}]", expected, f"{times[index]:g} s")
+                self._refuse(
+                    "times_not_increasing", f"{field}times[{index}]", expected, f"{times[index]:g} s"
+                )
 
-    def _check_knots(self, content: SignFile) -> None:
-        rows, columns = len(content.times), len(content.joints)
-        if len(content.knots) != rows:
-            self._refuse("wrong_length", "knots", f"{rows} rows, one a time", f"{len(content.knots)}")
-        for index, row in enumerate(content.knots):
+    def _check_knots(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
+        rows, columns = len(motion.times), len(joints)
+        if len(motion.knots) != rows:
+            self._refuse("wrong_length", f"{field}knots", f"{rows} rows, one a time", f"{len(motion.knots)}")
+        for index, row in enumerate(motion.knots):
             if len(row) != columns:
                 expected = f"{columns} positions, one a joint"
-                self._refuse("wrong_length", f"knots[{index}]", expected, f"{len(row)}")
-        knots = np.array(content.knots, dtype=np.float64)
-        lower, upper = _bounds(content.joints)
+                self._refuse("wrong_length", f"{field}knots[{index}]", expected, f"{len(row)}")
+        knots = np.array(motion.knots, dtype=np.float64)
+        lower, upper = _bounds(joints)
         outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
         if outside.size:
             row_index, column = outside[0].tolist()
-            expected = f"{content.joints[column]} within {lower[column]:.6f} .. {upper[column]:.6f} rad"
+            expected = f"{joints[column]} within {lower[column]:.6f} .. {upper[column]:.6f} rad"
             got = f"{knots[row_index, column]:.6f} rad"
-            self._refuse("outside_limits", f"knots[{row_index}][{column}]", expected, got)
+            self._refuse("outside_limits", f"{field}knots[{row_index}][{column}]", expected, got)
 
 
 @functools.cache
@@ -249,17 +264,28 @@ def _bounds(joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]
     return lower, upper
 
 
-def _rounded_within(sign: Sign) -> NDArray[np.float64]:
+def _array(values: list[float] | list[list[float]]) -> NDArray[np.float64]:
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def _form(joints: tuple[str, ...], form: Form) -> str:
+    """The text of a form: its times, then a line for each knot."""
+    rows = ",\n".join(f"      {_json(row)}" for row in _rounded_within(joints, form.knots).tolist())
+    times = _json(np.round(form.times, _DECIMALS).tolist())
+    return f'{{\n      "times": {times},\n      "knots": [\n{rows}\n      ]\n    }}'
+
+
+def _rounded_within(joints: tuple[str, ...], knots: NDArray[np.float64]) -> NDArray[np.float64]:
     """Knots rounded for the file, inwards where the nearest digit lies beyond a limit that the knot keeps."""
-    rounded: NDArray[np.float64] = np.round(sign.knots, _DECIMALS)
-    if not set(sign.joints) <= set(_limits()) or rounded.ndim != 2 or not np.isfinite(rounded).all():
+    rounded: NDArray[np.float64] = np.round(knots, _DECIMALS)
+    if not set(joints) <= set(_limits()) or rounded.ndim != 2 or not np.isfinite(rounded).all():
         return rounded  # refused by name when it is read
-    lower, upper = _bounds(list(sign.joints))
+    lower, upper = _bounds(list(joints))
     step = 10.0**-_DECIMALS
-    rounded = np.where(
-        (rounded > upper) & (sign.knots <= upper), np.round(rounded - step, _DECIMALS), rounded
-    )
-    return np.where((rounded < lower) & (sign.knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
+    rounded = np.where((rounded > upper) & (knots <= upper), np.round(rounded - step, _DECIMALS), rounded)
+    return np.where((rounded < lower) & (knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
 
 
 def _short(value: object) -> str:

@@ -50,6 +50,12 @@ Date = Annotated[
 Text = Annotated[str, Field(min_length=1)]
 Gloss = Annotated[str, Field(min_length=1, max_length=MAX_GLOSS_LENGTH), AfterValidator(_gloss)]
 
+#: Longest name of an inflection; the message holds no longer one.
+MAX_INFLECTION_LENGTH = 16
+Inflection = Annotated[
+    str, Field(min_length=1, max_length=MAX_INFLECTION_LENGTH, pattern=r"^[0-9A-ZÁÉÍÓÚÜÑ_>]+$")
+]
+
 # How well founded a sign's form is, the best first.
 Standing = Literal["recorded", "measured", "described", "sketched"]
 STANDINGS: tuple[Standing, ...] = get_args(Standing)
@@ -75,6 +81,15 @@ class Provenance(BaseModel):
         description="SHA-256 of the URDF text that the joint angles were made for, lower-case hexadecimal.",
     )
     notes: str = Field(description="What a reader must know beside the numbers; may be empty.")
+
+
+class FormFile(BaseModel):
+    """An inflected form of a sign, on the joints of its citation form."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+
+    times: list[FiniteFloat] = Field(min_length=1, description="As of the sign [s].")
+    knots: list[list[FiniteFloat]] = Field(min_length=1, description="As of the sign [rad].")
 
 
 class SignFile(BaseModel):
@@ -105,6 +120,11 @@ class SignFile(BaseModel):
     knots: list[list[FiniteFloat]] = Field(
         min_length=1,
         description="A row for each time: the position [rad] of each of 'joints', in its order.",
+    )
+    forms: dict[Inflection, FormFile] = Field(
+        default={},
+        description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee "
+        "to the signer, 'CABEZA' at the head. May be left out.",
     )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import enum
+import re
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,6 +17,9 @@ PRINTED_PAUSE = "_"
 
 # Least and greatest duration scale: beyond, a sign of half a second takes no time or a minute.
 SCALES = (0.001, 100.0)
+
+# A gloss and its inflection in the printed form.
+_INFLECTED = re.compile(r"([^\[\]]+)\[([^\[\]]+)\]")
 
 # Letters of the Spanish manual alphabet are one or two characters long (CH, LL, RR).
 _LONGEST_LETTER = 2
@@ -41,6 +45,8 @@ class Token:
         duration_scale: Times the sign's recorded duration: 2.0 is half as fast.
         word_index: Counts the words of the sentence; letters of one spelled word share it.
         source_words: Words of the text that this token stands for.
+        inflection: Form of the sign: "2>1" from the addressee to the signer, "CABEZA" at the head; empty for
+            the citation form, which is also made where the entry has no such form.
     """
 
     gloss: str
@@ -49,6 +55,7 @@ class Token:
     duration_scale: float = 1.0
     word_index: int = 0
     source_words: tuple[str, ...] = ()
+    inflection: str = ""
 
     @property
     def spelled(self) -> bool:
@@ -82,8 +89,9 @@ def check_tokens(tokens: Sequence[Token]) -> None:
 def parse_printed(text: str) -> tuple[Token, ...]:
     """Read a sentence in the printed form: glosses by spaces, a spelled word as `A-N-A`, digits as numbers.
 
-    A word of one or two characters between hyphens is a letter or, of digits, a number; a word of digits is
-    one number token for each digit; `_` alone is a pause. Anything else is a gloss, hyphens included.
+    A word of one or two characters between hyphens is a letter or, of digits, a number; a word of digits is a
+    number; `_` alone is a pause. Anything else is a gloss, hyphens included, behind which an inflection may
+    stand: `AYUDAR[2>1]`.
 
     Raises:
         PlanError: Nothing to sign ("empty_sentence"), or a spelled word with a letter missing ("bad_gloss").
@@ -94,14 +102,16 @@ def parse_printed(text: str) -> tuple[Token, ...]:
         if word == PRINTED_PAUSE:
             tokens.append(Token(gloss="", kind=Kind.PAUSE, word_index=word_index))
         elif word.isdecimal():
-            tokens += [Token(gloss=digit, kind=Kind.NUMBER, word_index=word_index) for digit in word]
+            tokens.append(Token(gloss=word, kind=Kind.NUMBER, word_index=word_index))
         elif len(parts) > 1 and all(len(part) <= _LONGEST_LETTER for part in parts):
             if not all(parts):
                 message = f"{word!r}: expected a letter on either side of each hyphen, got nothing there"
                 raise PlanError("bad_gloss", message)
             tokens += [_spelled(part, word_index) for part in parts]
         else:
-            tokens.append(Token(gloss=word, word_index=word_index))
+            inflected = _INFLECTED.fullmatch(word)
+            gloss, inflection = inflected.groups() if inflected else (word, "")
+            tokens.append(Token(gloss=gloss, word_index=word_index, inflection=inflection))
     check_tokens(tokens)
     return tuple(tokens)
 

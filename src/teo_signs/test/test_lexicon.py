@@ -10,7 +10,7 @@ import pytest
 from teo_signs.errors import LutError, PlanError
 from teo_signs.lexicon import Lexicon
 from teo_signs.look_up_table import Lut
-from teo_signs.sign import Sign
+from teo_signs.sign import Form, Sign
 from teo_signs.tokens import Kind, Token
 
 MakeSign = Callable[..., Sign]
@@ -93,12 +93,39 @@ def test_a_number_of_too_low_a_standing_is_signed_in_digits_which_are_always_use
     assert whole.token.gloss == "11"
 
 
-def test_the_package_signs_11_to_14_as_one_and_other_numbers_in_digits() -> None:
+def test_the_package_composes_numbers_of_what_its_table_holds() -> None:
     lut = Lut.open()
-    for number in ("11", "12", "13", "14"):
-        assert resolved(lut, *digits(number)) == [(number, number)]
-    for number in ("15", "20", "21", "85", "100", "1112", "1999"):
-        assert resolved(lut, *digits(number)) == [(digit, digit) for digit in number]
+    for number, signs in {
+        "7": "7",
+        "15": "15",
+        "21": "2 1",
+        "40": "40",
+        "85": "8 5",
+        "100": "100",
+        "352": "3 100 5 2",
+        "1999": "1000 9 100 9 9",
+        "20015": "20 1000 15",
+        "100000": "100 1000",
+        "007": "0 0 7",
+        "612345678": "6 1 2 3 4 5 6 7 8",
+    }.items():
+        expected = [(gloss, gloss) for gloss in signs.split()]
+        assert resolved(lut, Token(gloss=number, kind=Kind.NUMBER)) == expected
+        assert resolved(lut, *digits(number)) == expected  # sent digit by digit, as others may
+
+
+def test_a_token_is_made_in_the_form_that_it_asks_for_if_the_sign_has_it(table: Mapping[str, Sign]) -> None:
+    you = table["TÚ"]
+    moved = Form(times=you.times, knots=you.knots + 0.01)
+    signs = {**table, "TÚ": replace(you, forms={"2>1": moved})}
+    form, other, citation = (
+        item.sign
+        for item in Lexicon(signs).resolve(
+            [Token(gloss="TÚ", inflection=inflection) for inflection in ("2>1", "1>3", "")]
+        )
+    )
+    assert form is not None and form.knots is moved.knots
+    assert other is signs["TÚ"] and citation is signs["TÚ"]
 
 
 def test_a_letter_is_not_taken_for_a_sign_of_the_same_name(table: Mapping[str, Sign]) -> None:

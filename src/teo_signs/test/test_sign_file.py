@@ -263,3 +263,59 @@ def test_a_failed_write_leaves_the_old_entry(tmp_path: Path, monkeypatch: pytest
 def test_the_published_schema_is_the_one_in_use() -> None:
     published = json.loads((PACKAGE / "lut" / "sign.schema.json").read_text(encoding="utf-8"))
     assert published == sign_json_schema(), "write it anew: ros2 run teo_lut_executor lut schema"
+
+
+def with_forms() -> dict[str, Any]:
+    content = entry()
+    content["forms"] = {
+        "2>1": {"times": [0.0, 0.4, 0.6], "knots": [[-0.6, 0.2], [-1.0, 0.2], [-1.2, 0.2]]},
+        "CABEZA": {"times": [0.0], "knots": [[-0.7, 0.2]]},
+    }
+    return content
+
+
+def test_forms_are_read_and_written_again() -> None:
+    sign = parse_sign(json.dumps(with_forms()), file="TÚ.json")
+    assert sign.inflected("2>1").times.tolist() == [0.0, 0.4, 0.6]
+    assert sign.inflected("2>1").knots[-1].tolist() == [-1.2, 0.2]
+    assert sign.inflected("") is sign and sign.inflected("1>2") is sign
+    again = parse_sign(format_sign(sign), file="TÚ.json")
+    assert list(again.forms) == ["2>1", "CABEZA"]
+    np.testing.assert_array_equal(again.forms["2>1"].knots, sign.forms["2>1"].knots)
+    assert format_sign(again) == format_sign(sign)
+    assert not again.forms["CABEZA"].knots.flags.writeable
+
+
+def test_an_entry_without_forms_has_none_and_is_written_without() -> None:
+    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
+    assert not sign.forms
+    assert "forms" not in format_sign(sign)
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "field"),
+    [
+        (lambda forms: forms["2>1"]["times"].__setitem__(0, 0.1), "bad_start", "forms.2>1.times[0]"),
+        (
+            lambda forms: forms["2>1"]["times"].__setitem__(2, 0.4),
+            "times_not_increasing",
+            "forms.2>1.times[2]",
+        ),
+        (lambda forms: forms["2>1"]["knots"].pop(), "wrong_length", "forms.2>1.knots"),
+        (lambda forms: forms["CABEZA"]["knots"][0].pop(), "wrong_length", "forms.CABEZA.knots[0]"),
+        (
+            lambda forms: forms["CABEZA"]["knots"][0].__setitem__(0, 9.0),
+            "outside_limits",
+            "forms.CABEZA.knots[0][0]",
+        ),
+        (lambda forms: forms.__setitem__("to me", forms.pop("2>1")), "bad_value", "forms"),
+        (lambda forms: forms.__setitem__("A" * 17, forms.pop("2>1")), "bad_value", "forms"),
+        (lambda forms: forms["2>1"].pop("times"), "missing_field", "forms.2>1.times"),
+    ],
+)
+def test_a_bad_form_is_refused_by_its_name(change: Callable[[Any], object], code: str, field: str) -> None:
+    content = with_forms()
+    change(content["forms"])
+    error = refusal(content)
+    assert error.code == code
+    assert field in str(error)

@@ -32,12 +32,17 @@ def test_digraphs_digits_and_pauses_are_read() -> None:
         ("U", "LETTER", 0),
         ("CH", "LETTER", 0),
         ("A", "LETTER", 0),
-        ("2", "NUMBER", 1),
-        ("7", "NUMBER", 1),
+        ("27", "NUMBER", 1),
         ("", "PAUSE", 2),
         ("E", "LETTER", 3),
         ("1", "NUMBER", 3),
     ]
+
+
+def test_an_inflection_stands_in_brackets_behind_its_gloss() -> None:
+    (help_me, plain) = parse_printed("AYUDAR[2>1] DOLER")
+    assert (help_me.gloss, help_me.inflection) == ("AYUDAR", "2>1")
+    assert (plain.gloss, plain.inflection) == ("DOLER", "")
 
 
 def test_a_gloss_may_hold_hyphens() -> None:

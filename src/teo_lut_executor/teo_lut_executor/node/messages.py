@@ -124,6 +124,7 @@ def _to_token(message: SignToken) -> Token:
         duration_scale=message.duration_scale,
         word_index=message.word_index,
         source_words=tuple(message.source_words),
+        inflection=message.inflection,
     )
 
 
@@ -135,4 +136,5 @@ def _from_token(token: Token) -> SignToken:
         duration_scale=token.duration_scale,
         word_index=token.word_index,
         source_words=list(token.source_words),
+        inflection=token.inflection,
     )

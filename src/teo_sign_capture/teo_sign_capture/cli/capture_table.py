@@ -48,14 +48,16 @@ def capture_letters(
 
 
 def capture_numbers(out: Out, replace: Replace = False) -> None:
-    """Write the numbers 0 to 10 from measured handshapes, and from them 11 to 20, the tens and 100."""
-    from teo_sign_capture.alphabet.higher_numbers import higher_number_signs
-    from teo_sign_capture.alphabet.numbers import digit_signs
+    """Bring the scores of numbers onto TEO; `capture_scores` does so with all."""
+    from teo_sign_capture.notation.score_file import default_scores_directory, read_scores
+    from teo_sign_capture.notation.score_retarget import score_sign
 
     robot = Robot.load()
-    digits = digit_signs(robot)
-    higher = higher_number_signs(robot, {sign.gloss: sign for sign in digits})
-    _save([*digits, *higher], out, replace=replace)
+    try:
+        numbers = [score for score in read_scores(default_scores_directory()) if score.kind == "number"]
+        _save((score_sign(robot, score) for score in numbers), out, replace=replace)
+    except LutError as error:
+        _fail(error)
 
 
 def capture_demonstration(out: Out, replace: Replace = False) -> None:

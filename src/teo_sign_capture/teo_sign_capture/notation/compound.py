@@ -46,10 +46,12 @@ def performed(compound: Compound, parts: Sequence[Score]) -> Score:
         steps[0] = steps[0].model_copy(update={"left": _WAITING})
     return Score(
         gloss=compound.gloss,
+        kind=compound.kind,
         standing=compound.standing,
         source=compound.source,
         hands=hands,
         face=compound.face or ", then ".join(dict.fromkeys(part.face for part in parts if part.face)),
+        forms=None,
         notes=" ".join(filter(None, (compound.notes, *(part.notes for part in parts)))),
         steps=list(steps),
     )

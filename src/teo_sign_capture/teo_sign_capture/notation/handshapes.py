@@ -41,6 +41,7 @@ _SHAPES: dict[str, tuple[float, float, float, float, float, float]] = {
     "ring": (62, -66, 44, 14, 8, 7),  # thumb on the index, the others straight
     "middle_flick": (80, -60, 7, 42, 7, 7),  # middle finger on the thumb, the others straight
     "two_flick": (80, -60, 44, 44, 80, 80),  # index and middle on the thumb, the others folded
+    "three_flick": (80, -60, 44, 44, 44, 80),  # index, middle, ring finger on the thumb
 }
 
 NAMES = tuple(_SHAPES)

@@ -12,10 +12,14 @@ from pydantic import ValidationError
 
 from teo_common.package_files import package_path
 from teo_sign_capture.notation.compound import performed
+from teo_sign_capture.notation.inflection import inflected_scores
 from teo_sign_capture.notation.score_schema import Compound, Score
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import LANGUAGE
 from teo_signs.sign import gloss_key
+
+# Names of models that pydantic puts into the place of an error, where a field may be one of two.
+_UNION_NAMES = ("Step", "Repeat", "FormStep", "FormRepeat")
 
 # A score of a dozen steps is 2 kB; this is no score.
 _MOST_BYTES = 100_000
@@ -72,7 +76,7 @@ def _read(path: Path, within: tuple[str, ...]) -> Score:
         score = (Compound if compound else Score).model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
-        where = [part for part in first["loc"] if not (isinstance(part, str) and part in ("Step", "Repeat"))]
+        where = [part for part in first["loc"] if not (isinstance(part, str) and part in _UNION_NAMES)]
         field = ".".join(map(str, where)) or "score"
         expected = first["msg"].removeprefix("Value error, ")
         raise LutError("bad_score", f"{path.name}:{_line(root, where)}: {field}: {expected}") from error
@@ -80,8 +84,20 @@ def _read(path: Path, within: tuple[str, ...]) -> Score:
         message = f"{path.name}:1: gloss: expected {path.stem!r}, the file's name, got {score.gloss!r}"
         raise LutError("gloss_mismatch", message)
     if isinstance(score, Score):
+        _check_forms(path, root, score)
         return score
     return performed(score, [_part(path, root, score, index, within) for index in range(len(score.signs))])
+
+
+def _check_forms(path: Path, root: yaml.Node, score: Score) -> None:
+    """Refuse forms whose words mean nothing: they are filled in for each person or place."""
+    try:
+        for form in inflected_scores(score).values():
+            Score.model_validate(form.model_dump(exclude_unset=True))
+    except ValidationError as error:
+        expected = error.errors()[0]["msg"].removeprefix("Value error, ")
+        line = _line(root, ["forms"])
+        raise LutError("bad_score", f"{path.name}:{line}: forms: {expected}") from error
 
 
 def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
@@ -93,7 +109,16 @@ def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: t
         raise LutError("bad_score", f"{where}: expected a sign that is not made of itself, got {gloss!r}")
     if not beside.is_file():
         raise LutError("bad_score", f"{where}: expected a sign with a score beside this one, got {gloss!r}")
-    return _read(beside, within)
+    part = _read(beside, within)
+    if not compound.inflection:
+        return part
+    forms = inflected_scores(part)
+    if compound.inflection not in forms:
+        there = ", ".join(forms) or "none"
+        raise LutError(
+            "bad_score", f"{where}: expected a form of {gloss} ({there}), got {compound.inflection!r}"
+        )
+    return forms[compound.inflection]
 
 
 def read_scores(directory: Path) -> Iterator[Score]:

@@ -5,16 +5,17 @@
 from __future__ import annotations
 
 import datetime
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description import HOME, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
 from teo_sign_capture.notation.arm_solver import ArmCandidate, ArmSolver, cheapest_sequence
+from teo_sign_capture.notation.inflection import inflected_scores
 from teo_sign_capture.notation.score_knots import knots_of
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
@@ -22,7 +23,7 @@ from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored
 from teo_sign_capture.retarget.quality_figures import clearance_mm, least_clearance, limit_margin_deg
 from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_signs.errors import LutError
-from teo_signs.sign import Sign
+from teo_signs.sign import Form, Sign
 from teo_signs.sign_schema import Provenance
 
 # [m] Least distance of parts of the robot in a sign: a touch is shown by a gap that nobody sees, and that the
@@ -45,34 +46,79 @@ def score_sign(robot: Robot, score: Score) -> Sign:
     Raises:
         LutError: "self_collision" if TEO cannot make the sign without touching itself.
     """
+    citation = _motion(robot, score)
+    inflected = {inflection: _motion(robot, form) for inflection, form in inflected_scores(score).items()}
+    joints = citation.joints
+    every = (citation, *inflected.values())
+    return Sign(
+        gloss=score.gloss,
+        language="lse",
+        kind=score.kind,
+        handedness="right" if score.hands == "right" else "both",
+        joints=joints,
+        times=citation.times,
+        knots=citation.knots,
+        forms={
+            inflection: Form(times=motion.times, knots=motion.on(joints))
+            for inflection, motion in inflected.items()
+        },
+        provenance=_provenance(score),
+        # The worst of all forms.
+        quality={
+            "place_error_mm": round(1000.0 * max(motion.place_error for motion in every), 1),
+            "palm_angle_error_deg": round(float(np.degrees(max(motion.palm_error for motion in every))), 1),
+            "finger_angle_error_deg": round(
+                float(np.degrees(max(motion.finger_error for motion in every))), 1
+            ),
+            "clearance_mm": min(clearance_mm(robot, motion.joints, motion.knots) for motion in every),
+            "limit_margin_deg": min(limit_margin_deg(motion.joints, motion.knots) for motion in every),
+        },
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Motion:
+    """How TEO makes one form of a score.
+
+    Attributes:
+        joints: That it moves.
+        times: Of the knots [s]. Shape (n,).
+        knots: Positions [rad]. Shape (n, joints).
+        place_error: Largest distance of a hand from its place [m].
+        palm_error: Largest angle between a palm and the way it should face [rad].
+        finger_error: The same of the way the fingers point [rad].
+    """
+
+    joints: tuple[str, ...]
+    times: Array
+    knots: Array
+    place_error: float
+    palm_error: float
+    finger_error: float
+
+    def on(self, joints: tuple[str, ...]) -> Array:
+        """The knots on the joints of the citation form, at home where this form moves none [rad]."""
+        home = np.array([HOME[joint] for joint in joints])
+        rows = np.tile(home, (len(self.knots), 1))
+        rows[:, [joints.index(joint) for joint in self.joints]] = self.knots
+        return rows
+
+
+def _motion(robot: Robot, score: Score) -> _Motion:
     moments = postures(score)
     performance = _Performance(robot, score, moments)
     rights, lefts = performance.solve()
-    place_errors = performance.place_errors(rights, lefts)
     joints, knots = knots_of(score, moments, rights, lefts)
     times = np.array([moment.time for moment in moments])
     times, knots = _round_obstacles(robot, score.gloss, joints, times, knots)
     reached = (*rights, *lefts)
-    return Sign(
-        gloss=score.gloss,
-        language="lse",
-        kind="lexical",
-        handedness="right" if score.hands == "right" else "both",
+    return _Motion(
         joints=joints,
         times=times,
         knots=knots,
-        provenance=_provenance(score),
-        quality={
-            "place_error_mm": round(1000.0 * max(place_errors), 1),
-            "palm_angle_error_deg": round(
-                float(np.degrees(max(candidate.palm_error for candidate in reached))), 1
-            ),
-            "finger_angle_error_deg": round(
-                float(np.degrees(max(candidate.finger_error for candidate in reached))), 1
-            ),
-            "clearance_mm": clearance_mm(robot, joints, knots),
-            "limit_margin_deg": limit_margin_deg(joints, knots),
-        },
+        place_error=max(performance.place_errors(rights, lefts)),
+        palm_error=max(candidate.palm_error for candidate in reached),
+        finger_error=max(candidate.finger_error for candidate in reached),
     )
 
 

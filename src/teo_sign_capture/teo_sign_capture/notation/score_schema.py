@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
@@ -129,6 +130,7 @@ class _Heading(BaseModel):
     model_config = _STRICT
 
     gloss: Gloss = Field(description="Name of the sign; equal to the file's name.")
+    kind: Literal["lexical", "number"] = Field("lexical", description="A sign of its own, or a number.")
     standing: Standing = Field(description=STANDING_MEANING)
     source: Text = Field(description="What the form was taken from.")
     face: str = Field(
@@ -141,6 +143,56 @@ class Compound(_Heading):
     """A sign that is made of others, or that is another under a second name."""
 
     signs: list[Gloss] = Field(min_length=1, max_length=4, description="Scores it is made of, in order.")
+    inflection: str = Field("", description="Form of its one sign, e.g. '2>1'; the citation form without it.")
+
+    @model_validator(mode="after")
+    def _one_is_inflected(self) -> Compound:
+        if self.inflection and len(self.signs) > 1:
+            raise ValueError("an inflection of one sign, not of several")
+        return self
+
+
+class FormHand(HandScore):
+    """What one hand does in a step of the forms; checked when persons and places are filled in."""
+
+    place: str | None = Field(None, description="As of a hand; also 'giver', 'receiver', or 'there'.")
+    palm: str | None = Field(None, description="As of a hand; also 'onward', 'homeward'.")
+    fingers: str | None = Field(None, description="As of a hand; also 'onward', 'homeward'.")
+
+
+class FormStep(Step):
+    """A step of the forms."""
+
+    right: FormHand | None = None
+    left: FormHand | None = None
+    arc: str | None = Field(None, description="As of a step; also 'onward', 'homeward'.")
+
+
+class FormRepeat(BaseModel):
+    """Steps of the forms that are made again."""
+
+    model_config = _STRICT
+
+    times: int = Field(ge=2, le=6, description="How often in all.")
+    steps: list[FormStep] = Field(min_length=1)
+
+
+class Forms(BaseModel):
+    """Inflected forms: the steps of all of them, said once."""
+
+    model_config = _STRICT
+
+    along: Literal["persons", "body"] = Field(
+        description="What the sign agrees with: who acts on whom, or the place of the body that is meant."
+    )
+    only: list[Literal["1>2", "1>3", "2>1", "2>3", "3>1", "3>2"]] | None = Field(
+        None, description="Forms along persons that TEO can make; all without it."
+    )
+    hands: Literal["right", "both"] | None = Field(
+        None,
+        description="Hands of the forms, if the score mirrors them: two that go to one side are both.",
+    )
+    steps: list[FormStep | FormRepeat] = Field(min_length=1)
 
 
 class Score(_Heading):
@@ -150,6 +202,7 @@ class Score(_Heading):
         description="One hand; both, each written; or the left as the mirror of the right."
     )
     steps: list[Step | Repeat] = Field(min_length=1)
+    forms: Forms | None = Field(None, description="Inflected forms beside these steps, the citation form.")
 
     @model_validator(mode="after")
     def _hands_are_written(self) -> Score:
@@ -183,9 +236,9 @@ class Score(_Heading):
         return self
 
 
-def flattened(steps: list[Step | Repeat]) -> list[Step]:
+def flattened(steps: Sequence[Step | Repeat | FormRepeat]) -> list[Step]:
     """All steps in the order in which they are made."""
     made: list[Step] = []
     for step in steps:
-        made += step.steps * step.times if isinstance(step, Repeat) else [step]
+        made += step.steps * step.times if isinstance(step, Repeat | FormRepeat) else [step]
     return made

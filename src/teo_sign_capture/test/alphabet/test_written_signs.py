@@ -9,10 +9,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from teo_description import LEFT_ARM, RIGHT_ARM, RIGHT_HAND
+from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import demonstrated_signs, flexions
-from teo_sign_capture.alphabet.numbers import digit_signs
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory
 
 TABLE = default_lut_directory()
@@ -50,20 +49,68 @@ def test_only_six_and_above_take_two_hands() -> None:
     ]
 
 
-def test_one_and_five_show_the_palm_and_two_to_four_the_back(robot: Robot) -> None:
+def test_counting_shows_the_back_of_the_hand(robot: Robot) -> None:
     for digit in map(str, range(1, 11)):
-        out = robot.placement(robot.configuration(sign(digit).pose(0)), "right_palm")[0, 2]
-        assert out > 0.7 if digit in ("1", "5") else out < -0.7, digit
+        away = robot.placement(robot.configuration(sign(digit).pose(0)), "right_palm")[0, 2]
+        assert away < -0.7, digit
 
 
 def test_two_handed_numbers_hold_the_left_hand_open_beside_the_right(robot: Robot) -> None:
     for digit in ("6", "7", "8", "9", "10"):
         q = robot.configuration(sign(digit).pose(0))
         right, left = robot.placement(q, "right_palm"), robot.placement(q, "left_palm")
-        np.testing.assert_allclose(right[:3, 3] * [1, -1, 1], left[:3, 3], atol=1e-6)
         assert left[0, 2] < -0.7
         assert 0.2 < left[1, 3] - right[1, 3] < 0.5
         assert robot.clearance(q).distance > 0.02
+        fingers = column(digit, LEFT_HAND)[0, 2:]
+        assert (fingers < 10.0).all()
+
+
+# What DILSE's clips show: the fingers that are straight at the beginning and at the end.
+@pytest.mark.parametrize(
+    ("number", "begins", "ends"),
+    [
+        ("11", "1000", "1000"),
+        ("12", "0000", "1100"),
+        ("13", "0000", "1110"),
+        ("14", "1011", "1111"),
+        ("15", "1011", "1111"),
+        ("16", "1111", "1000"),
+        ("17", "1111", "1100"),
+        ("18", "1111", "1110"),
+        ("19", "1111", "1111"),
+        ("20", "1100", "0000"),
+        ("30", "1110", "0111"),
+        ("40", "1111", "0111"),
+        ("50", "1111", "0111"),
+        ("100", "1000", "0000"),
+    ],
+)
+def test_larger_numbers_open_and_close_the_fingers_that_the_dictionary_shows(
+    number: str, begins: str, ends: str
+) -> None:
+    fingers = column(number, RIGHT_HAND)[:, 2:]
+    for row, expected in ((fingers[0], begins), (fingers[-1], ends)):
+        assert "".join("1" if bend < 20.0 else "0" for bend in row) == expected
+
+
+def test_sixteen_to_nineteen_begin_as_ten_and_part_into_the_unit(robot: Robot) -> None:
+    for number in ("16", "17", "18", "19"):
+        apart = []
+        for knot in (0, -1):
+            q = robot.configuration(sign(number).pose(knot))
+            apart.append(robot.placement(q, "left_palm")[1, 3] - robot.placement(q, "right_palm")[1, 3])
+        assert apart[1] - apart[0] > 0.08
+
+
+def test_tens_turn_the_palm_from_the_signer_to_the_side(robot: Robot) -> None:
+    for number in ("20", "30", "40", "50"):
+        first, last = (
+            robot.placement(robot.configuration(sign(number).pose(knot)), "right_palm")[:3, 2]
+            for knot in (0, -1)
+        )
+        assert first[0] < -0.7
+        assert last[1] > 0.7
 
 
 def test_numbers_are_held() -> None:
@@ -95,7 +142,7 @@ def test_hand_motors_become_flexions_by_the_documented_line() -> None:
 
 
 def test_nothing_touches_in_any_of_them(robot: Robot) -> None:
-    for gloss in ("HOLA", "MI", "NOMBRE", *map(str, range(11))):
+    for gloss in ("HOLA", "MI", "NOMBRE", *map(str, range(21)), "30", "40", "50", "100", "1000"):
         one = sign(gloss)
         for moment in np.linspace(0.0, one.duration, 12):
             pose = {
@@ -107,7 +154,7 @@ def test_nothing_touches_in_any_of_them(robot: Robot) -> None:
 
 
 def test_making_them_again_gives_the_same_entries(robot: Robot) -> None:
-    for again in (*digit_signs(robot), *demonstrated_signs(robot)):
+    for again in demonstrated_signs(robot):
         kept = sign(again.gloss)
         assert again.joints == kept.joints
         np.testing.assert_allclose(again.knots, kept.knots, atol=0.01)

@@ -39,6 +39,7 @@ def to_messages(translation: Translation, *, stamp: Time, utterance_id: str) -> 
                 word_index=token.word_index,
                 source_words=list(token.source_words),
                 origin=int(token.origin),
+                inflection=token.inflection,
             )
             for token in sentence.tokens
         ]

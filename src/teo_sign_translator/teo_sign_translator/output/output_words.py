@@ -17,6 +17,9 @@ SPELLED_CONFIDENCE = 0.3
 # Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
 _DECIMAL_GLOSS = "COMA"
 
+# Digits of the largest number that is one token: 999,999.
+_LONGEST_NUMBER = 6
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OutputWord:
@@ -30,6 +33,7 @@ class OutputWord:
         words: Words of the text, as typed, that it stands for.
         origin: Where it comes from.
         is_name: Whether its one gloss is somebody's name, spelled unless it has a sign.
+        inflection: Form of its one sign: "2>1" from the addressee to the signer; empty for the citation form.
         said: What a word without a sign of its own says; spelled if nothing else of its sentence is signed.
     """
 
@@ -39,6 +43,7 @@ class OutputWord:
     words: tuple[str, ...]
     origin: Origin
     is_name: bool = False
+    inflection: str = ""
     said: str = ""
 
 
@@ -74,7 +79,7 @@ def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[Output
 
 
 def number(value: str, typed: tuple[str, ...], confidence: float) -> list[OutputWord]:
-    """A number as the signs of its digits; a decimal comma is a word between them.
+    """A number as one token, which the executor composes signs for; a decimal comma is a word between two.
 
     Hours and minutes of a time of day are two numbers; no minutes are not said.
 
@@ -95,9 +100,9 @@ def number(value: str, typed: tuple[str, ...], confidence: float) -> list[Output
 
 
 def _digits(digits: str, typed: tuple[str, ...], confidence: float) -> OutputWord:
-    return OutputWord(
-        signs=tuple(digits), kind=Kind.NUMBER, confidence=confidence, words=typed, origin=Origin.NUMBER
-    )
+    # Longer numbers have no name: they are read out digit by digit, and may be parted anywhere.
+    signs = (digits,) if len(digits) <= _LONGEST_NUMBER else tuple(digits)
+    return OutputWord(signs=signs, kind=Kind.NUMBER, confidence=confidence, words=typed, origin=Origin.NUMBER)
 
 
 def lexical(
@@ -173,6 +178,7 @@ def number_tokens(output_words: Iterable[OutputWord]) -> tuple[Token, ...]:
             word_index=index,
             source_words=output_word.words,
             origin=output_word.origin,
+            inflection=output_word.inflection,
         )
         for index, output_word in enumerate(output_words)
         for sign in output_word.signs

@@ -40,14 +40,15 @@ class Token:
     """One sign to be made.
 
     Attributes:
-        gloss: Upper-case Spanish with accents, `_` for spaces; a letter; a digit; empty for a pause.
+        gloss: Upper-case Spanish with accents, `_` for spaces; a letter; digits; empty for a pause.
         kind: Sign of its own, letter, number or pause.
         confidence: How sure the translator is, 0 (guess) to 1 (certain).
         duration_scale: Times the sign's recorded duration.
-        word_index: Counts the words of the sentence's output from 0; letters of a spelled word and digits
-            share it.
+        word_index: Counts the words of the sentence's output from 0; letters of a spelled word and
+            digits of a number of more than six share it.
         source_words: Words of the text, as typed, that the token stands for.
         origin: How it came about.
+        inflection: Form of the sign: "2>1" from the addressee to the signer; empty for the citation form.
     """
 
     gloss: str
@@ -57,6 +58,7 @@ class Token:
     source_words: tuple[str, ...]
     origin: Origin
     duration_scale: float = 1.0
+    inflection: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,6 +129,7 @@ class Translation:
                             "word_index": token.word_index,
                             "source_words": list(token.source_words),
                             "origin": token.origin.name.lower(),
+                            "inflection": token.inflection,
                         }
                         for token in sentence.tokens
                     ],

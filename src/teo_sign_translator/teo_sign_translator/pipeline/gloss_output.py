@@ -10,6 +10,7 @@ from dataclasses import replace
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord, lexical, number, unclaimed
 from teo_sign_translator.output.translation import Origin
+from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.hypothesis_repair import Repaired
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -18,12 +19,16 @@ from teo_sign_translator.text.source_words import SourceWord
 # Tags of people's names; names of places have signs, or are spelled like any other word.
 _PEOPLE = ("NAME", "NAME:m", "NAME:f")
 
+# Beside them a number with decimals is a price: "12,50 €" is said "doce cincuenta".
+_CURRENCIES = frozenset({"EURO", "DÓLAR", "LIBRA"})
+_CENT_DIGITS = 2
+
 # Behind it stands a name: "me llamo rosa" is MI NOMBRE R-O-S-A.
 _NAME_GLOSS = "NOMBRE"
 
 
 def gloss_output_words(
-    words: Sequence[SourceWord], said: Repaired, signed: Collection[str]
+    words: Sequence[SourceWord], said: Repaired, signed: Collection[str], agreement: Agreement
 ) -> list[OutputWord]:
     """Glosses as output words; words that none says go with the next one, marks between them are pauses.
 
@@ -31,6 +36,7 @@ def gloss_output_words(
         words: Of the sentence.
         said: Its translation.
         signed: Glosses that are no names whatever their words.
+        agreement: Gives the form of signs that agree.
     """
     typed = _typed(words, [gloss.sources for gloss in said.glosses])
     pauses = _pauses(words, said.glosses)
@@ -38,11 +44,25 @@ def gloss_output_words(
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
         named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
         origin = Origin.REPAIRED if repaired else Origin.MODEL
-        own_words = _output_words(words, gloss, origin, own, named=named)
+        neighbours = {each.gloss for each in said.glosses[max(0, place - 1) : place + 2]}
+        if neighbours & _CURRENCIES:
+            gloss = replace(gloss, gloss=_price(gloss.gloss))
+        form = agreement.inflection(gloss.gloss, gloss.sources, words)
+        own_words = [
+            replace(each, inflection=form) for each in _output_words(words, gloss, origin, own, named=named)
+        ]
         result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
         if place in pauses:
             result.append(PAUSE)
     return result
+
+
+def _price(gloss: str) -> str:
+    """A price as its two numbers, written as hours and minutes are: 12,50 euros are 12 and 50, 12,5 too."""
+    whole, comma, cents = gloss.partition(",")
+    if not comma or not whole.isdecimal() or not 0 < len(cents) <= _CENT_DIGITS:
+        return gloss
+    return f"{whole}:{cents.ljust(_CENT_DIGITS, '0').removeprefix('0') or '0'}" if int(cents) else whole
 
 
 def _output_words(

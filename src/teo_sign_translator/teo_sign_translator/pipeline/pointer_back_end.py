@@ -12,6 +12,7 @@ from teo_sign_translator.corpus.paper_pairs import NAME, SLOTS
 from teo_sign_translator.lstm256.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
+from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.gloss_output import gloss_output_words
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair, Repaired, as_said
@@ -58,6 +59,7 @@ class PointerBackEnd:
         morphology: Morphology,
         repair: HypothesisRepair,
         taught: Phrasebook,
+        agreement: Agreement,
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
     ) -> None:
@@ -69,12 +71,14 @@ class PointerBackEnd:
             repair: Chooses among the model's translations and mends the one it chooses.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
+            agreement: Gives the form of signs that agree.
             beam_width: Translations that the model weighs against each other, at least 1.
         """
         self._model = model
         self._morphology = morphology
         self._repair = repair
         self._taught = taught
+        self._agreement = agreement
         self._beam_width = beam_width
 
     @property
@@ -93,7 +97,7 @@ class PointerBackEnd:
         ]
         said = iter(self._say(every))
         return [
-            [_assembled(sentence, [next(said) for _ in sentence.parts]) for sentence in text]
+            [_assembled(sentence, [next(said) for _ in sentence.parts], self._agreement) for sentence in text]
             for text in sentences
         ]
 
@@ -151,14 +155,17 @@ class PointerBackEnd:
         )
 
 
-def _assembled(sentence: _Sentence, translated: Sequence[Repaired]) -> TranslatedSentence:
+def _assembled(
+    sentence: _Sentence, translated: Sequence[Repaired], agreement: Agreement
+) -> TranslatedSentence:
     """A sentence from the translations of its parts."""
     output_words: list[OutputWord] = []
     recognised = sentence.taught.type if sentence.taught else None
     for words, said in zip(sentence.parts, translated, strict=True):
         if output_words:
             output_words.append(PAUSE)
-        output_words += gloss_output_words(words, said, sentence.taught.glosses if sentence.taught else ())
+        signed = sentence.taught.glosses if sentence.taught else ()
+        output_words += gloss_output_words(words, said, signed, agreement)
         if not sentence.taught and _asks(words, said.glosses):
             recognised = SentenceType.WH_QUESTION
     return TranslatedSentence(sentence.clauses, output_words, recognised)

@@ -16,10 +16,12 @@ from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.store import load_model
 from teo_sign_translator.model_files import card_schema
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.output.incorporation import with_numbers_incorporated
 from teo_sign_translator.output.output_words import attach_carried, divide, number_tokens
 from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
 from teo_sign_translator.output.spelling import unsignable
 from teo_sign_translator.output.translation import Sentence, Translation
+from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
@@ -104,7 +106,12 @@ class Translator:
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
-                model, morphology, HypothesisRepair.load(), taught, beam_width=beam_width
+                model,
+                morphology,
+                HypothesisRepair.load(),
+                taught,
+                Agreement.load(),
+                beam_width=beam_width,
             )
             return cls(back_end, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
         back_end = LstmBackEnd(load_model(name, directory), taught, glosses, name=name)
@@ -171,7 +178,8 @@ class Translator:
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
-        output_words = self._chooser.choose(attach_carried(translated_sentence.output_words), signs)
+        chosen = self._chooser.choose(attach_carried(translated_sentence.output_words), signs)
+        output_words = with_numbers_incorporated(chosen, signs)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(

@@ -47,7 +47,8 @@ _BEFORE_DATES = frozenset(
 
 _DIGITS = re.compile(r"\d+(?:[.,]\d+)*")
 _THOUSANDS = re.compile(r"[1-9]\d{0,2}(?:\.\d{3})+(?:,\d+)?")
-_SPACED_THOUSANDS = re.compile(r"[1-9]\d{0,2}(?: \d{3})+(?![\d.,]*\d)")
+# More digits behind a space are a telephone number in groups: "91 624 99 99".
+_SPACED_THOUSANDS = re.compile(r"[1-9]\d{0,2}(?: \d{3})+(?![\d.,]*\d| \d)")
 _ORDINAL = re.compile(r"(\d+)(?:\.?[ºª](?! ?[cC]\b)|\.er\b|(?:er|ro|do|to|mo|vo|no|ra|da|ta)\b)")
 _TIME = re.compile(r"([01]?\d|2[0-3])(?:[:h]([0-5]\d)(?![\d:])|\.([0-5]\d)(?= ?h\b))")
 _DATE = re.compile(r"(0?[1-9]|[12]\d|3[01])([/.-])(0?[1-9]|1[0-2])(?:\2(\d{4}|\d\d))?(?![/\d]|[.,]\d)")

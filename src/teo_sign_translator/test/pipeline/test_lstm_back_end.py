@@ -67,12 +67,11 @@ def test_letters_of_one_name_share_their_word(translator: Translator) -> None:
     assert all(token.source_words == ("Ana",) for token in tokens[2:])
 
 
-def test_digits_of_one_number_share_their_word(translator: Translator) -> None:
+def test_a_number_is_one_token_and_a_longer_one_a_token_for_each_digit(translator: Translator) -> None:
     tokens = _only(translator, "Yo tengo 12 años").tokens
-    assert [(token.gloss, token.kind, token.word_index) for token in tokens[2:]] == [
-        ("1", Kind.NUMBER, 2),
-        ("2", Kind.NUMBER, 2),
-    ]
+    assert [(token.gloss, token.kind, token.word_index) for token in tokens[2:]] == [("12", Kind.NUMBER, 2)]
+    tokens = _only(translator, "Yo tengo 1234567 años").tokens
+    assert [(token.gloss, token.word_index) for token in tokens[2:]] == [(digit, 2) for digit in "1234567"]
 
 
 def test_a_comma_that_parts_clauses_is_a_pause(translator: Translator) -> None:
@@ -287,4 +286,5 @@ def test_the_translation_can_be_written_as_json(translator: Translator) -> None:
         "word_index": 2,
         "source_words": ["Ana"],
         "origin": "spelled",
+        "inflection": "",
     }

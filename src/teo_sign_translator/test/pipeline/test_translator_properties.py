@@ -126,7 +126,7 @@ def _assert_well_formed(translation: Translation) -> None:
             if token.kind is Kind.LETTER:
                 assert token.gloss in ALPHABET
             elif token.kind is Kind.NUMBER:
-                assert re.fullmatch("[0-9]", token.gloss)
+                assert re.fullmatch("[0-9]{1,6}", token.gloss)
             elif token.kind is Kind.PAUSE:
                 assert token.gloss == ""
             else:

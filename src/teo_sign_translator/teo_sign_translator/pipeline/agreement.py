@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Which form a sign takes that agrees: who acts on whom, or where it hurts, from the words of its clause.
+
+The form is a token's inflection: "2>1" is from the addressee to the signer (`¿Me ayudas?`), "CABEZA" at the
+head (`Me duele la cabeza`). It is empty where the clause does not say both persons, or says two places:
+then the citation form is signed, which says less but nothing false.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
+from teo_sign_translator.morphology import Reading
+from teo_sign_translator.text.source_words import SourceWord
+
+_DATIVE, _PERSON, _BODY = "dative", "person", "body"
+_NONE = "-"
+
+#: Person of an object pronoun, before the verb or at its end; of third persons whether it may be a thing.
+_OBJECTS = {"me": "1", "nos": "1", "te": "2", "os": "2", "le": "3", "les": "3"}
+_THINGS = ("lo", "la", "los", "las")
+_SUBJECTS = {"yo": "1", "nosotros": "1", "tú": "2", "vosotros": "2", "usted": "2", "ustedes": "2"}
+_ENDS = (".", "?", "!")
+_FINITE = ("V:ind", "V:cond", "V:sub", "V:imp")
+# Whom these verbs please is who acts: "me gustaría ayudarte" is from me to you.
+_EXPERIENCER_VERBS = frozenset({"gustar", "encantar", "apetecer", "costar", "importar", "interesar", "tocar"})
+
+
+@dataclass(frozen=True, slots=True)
+class _Rule:
+    """How one sign agrees: its verb, with what, and the places of the body that it may be made at."""
+
+    lemma: str
+    kind: str
+    places: frozenset[str]
+
+
+class Agreement:
+    """Finds inflections."""
+
+    def __init__(self, rules: dict[str, _Rule]) -> None:
+        """Take the signs that agree, by gloss; `load` reads them."""
+        self._rules = rules
+
+    @classmethod
+    def load(cls, path: Path | None = None) -> Agreement:
+        """Read the list.
+
+        Args:
+            path: The file; by default the package's `data/agreement.tsv`, which explains its columns.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        path = path or data_file("agreement.tsv")
+        rules: dict[str, _Rule] = {}
+        for number, (gloss, lemma, kind, places) in read_rows(path, columns=4):
+            listed = frozenset(each.strip() for each in places.split(",")) - {_NONE}
+            if gloss in rules or kind not in (_DATIVE, _PERSON, _BODY) or (kind == _BODY) != bool(listed):
+                expected = "a gloss once, its verb, dative, person or body, and places for body alone"
+                raise invalid_line(path, number, expected, f"'{gloss} {lemma} {kind} {places}'")
+            rules[gloss] = _Rule(lemma, kind, listed)
+        return cls(rules)
+
+    def inflection(self, gloss: str, sources: Iterable[int], words: Sequence[SourceWord]) -> str:
+        """The form that a gloss takes; empty for the citation form.
+
+        Args:
+            gloss: What is signed.
+            sources: Places of the words that it stands for.
+            words: Of the sentence.
+        """
+        rule = self._rules.get(gloss)
+        if rule is None:
+            return ""
+        for place in sources:
+            verbs = [reading for reading in words[place].readings if reading.lemma == rule.lemma]
+            if verbs:
+                start, stop = _clause(words, place)
+                ends = next((word.form for word in words[place:] if word.form in _ENDS), "")
+                clause = _Clause(words[start:stop], place - start, verbs, asks=ends == "?")
+                return clause.place(rule.places) if rule.kind == _BODY else clause.persons(rule.kind)
+        return ""
+
+
+def _clause(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
+    """Where the words between two marks begin and end."""
+    start = max((index + 1 for index in range(place) if words[index].is_mark), default=0)
+    stop = next((index for index in range(place, len(words)) if words[index].is_mark), len(words))
+    return start, stop
+
+
+class _Clause:
+    """The words around a verb that agrees."""
+
+    def __init__(
+        self, words: Sequence[SourceWord], verb: int, readings: Sequence[Reading], *, asks: bool
+    ) -> None:
+        """Take a clause.
+
+        Args:
+            words: Of the clause, without marks.
+            verb: Place of the verb.
+            readings: Those of the verb's word that are this verb.
+            asks: Whether its sentence is a question.
+        """
+        self._asks = asks
+        self._words = words
+        self._verb = verb
+        exact = [reading for reading in readings if reading.exact]
+        self._readings = exact or list(readings)
+
+    def place(self, places: frozenset[str]) -> str:
+        """The one place of the body that the clause names; empty if it names none or several."""
+        named = {
+            reading.lemma.upper()
+            for word in self._words
+            for reading in word.readings
+            if reading.tag.startswith("N:") and reading.lemma.upper() in places
+        }
+        return named.pop() if len(named) == 1 else ""
+
+    def persons(self, kind: str) -> str:
+        """Who acts on whom, e.g. "2>1"; empty if the clause does not say both."""
+        finite = self._finite()
+        receiver = self._object(finite, kind)
+        giver = self._subject(finite, receiver)
+        return f"{giver}>{receiver}" if giver and receiver and giver != receiver else ""
+
+    def _finite(self) -> int | None:
+        """Place of the verb that has a person: this one, or the last before it that governs it."""
+        if any(reading.tag.startswith(_FINITE) for reading in self._readings):
+            return self._verb
+        before = range(self._verb - 1, -1, -1)
+        return next((place for place in before if self._finite_readings(place)), None)
+
+    def _finite_readings(self, place: int) -> list[Reading]:
+        if place == self._verb:
+            return [reading for reading in self._readings if reading.tag.startswith(_FINITE)]
+        likeliest = self._words[place].readings[0]
+        return [likeliest] if likeliest.tag.startswith(_FINITE) else []
+
+    def _clitics(self, finite: int | None) -> tuple[list[str], bool]:
+        """Pronouns of the verb, and whether they stand before it."""
+        at_end = [clitic for reading in self._readings for clitic in reading.clitics][:2]
+        if at_end or finite is None:
+            return at_end, False
+        before: list[str] = []
+        for place in range(finite - 1, -1, -1):
+            word = self._words[place]
+            if not any(reading.tag.startswith(("PRON:obj", "PRON:refl")) for reading in word.readings):
+                break
+            before.insert(0, word.form)
+        return before, bool(before)
+
+    def _object(self, finite: int | None, kind: str) -> str:
+        clitics, _ = self._clitics(finite)
+        if self._experiences(finite) and not any(reading.clitics for reading in self._readings):
+            clitics = []
+        for clitic in clitics:
+            if clitic in _OBJECTS:
+                return _OBJECTS[clitic]
+        if "se" in clitics:  # se lo doy: to him
+            return "3" if any(clitic in _THINGS for clitic in clitics) else ""
+        if kind == _PERSON and any(clitic in _THINGS for clitic in clitics):
+            return "3"
+        return self._prepositional_object()
+
+    def _prepositional_object(self) -> str:
+        """Person behind "a": `ayudo a Ana`, `se lo doy a él`."""
+        for place in range(self._verb + 1, len(self._words)):
+            if not self._words[place].readings[0].tag.startswith("PREP") or self._words[place].form not in (
+                "a",
+                "al",
+            ):
+                continue
+            for word in self._words[place + 1 : place + 3]:
+                tag = word.readings[0].tag
+                if tag.startswith("PRON:prep:"):
+                    return tag.removeprefix("PRON:prep:")[0]
+                if word.readings[0].lemma in _SUBJECTS:
+                    return _SUBJECTS[word.readings[0].lemma]
+                if tag.startswith(("NAME", "N:", "PRON:3")) and tag != "NAME:place":
+                    return "3"
+                if not tag.startswith("DET"):
+                    break
+        return ""
+
+    def _experiences(self, finite: int | None) -> bool:
+        return (
+            finite is not None
+            and finite != self._verb
+            and any(reading.lemma in _EXPERIENCER_VERBS for reading in self._finite_readings(finite))
+        )
+
+    def _subject(self, finite: int | None, receiver: str) -> str:
+        if finite is None:
+            return ""
+        if self._experiences(finite):
+            before = self._words[finite - 1].form if finite else ""
+            return _OBJECTS.get(before, "")
+        readings = self._finite_readings(finite)
+        if self._clitics(finite)[1]:  # a pronoun before it is never an imperative's
+            readings = [reading for reading in readings if not reading.tag.startswith("V:imp")]
+        persons = [self._person(reading) for reading in readings]
+        said = {reading.lemma: reading for word in self._words for reading in word.readings[:1]}
+        explicit = {
+            _SUBJECTS[lemma] for lemma in said if lemma in _SUBJECTS and said[lemma].tag.startswith("PRON")
+        }
+        possible = [person for person in dict.fromkeys(persons) if person != receiver]
+        for person in possible:
+            if person in explicit:
+                return person
+        if "3" in possible and "2" in explicit and any(lemma in said for lemma in ("usted", "ustedes")):
+            return "2"
+        if possible[:1] == ["3"] and receiver == "1" and self._asks_politely():
+            return "2"
+        return possible[0] if possible else ""
+
+    @staticmethod
+    def _person(reading: Reading) -> str:
+        # The imperative of the third person is usted's.
+        return "2" if reading.tag.startswith("V:imp") else reading.tag.rsplit(":", 1)[-1][0]
+
+    def _asks_politely(self) -> bool:
+        """Whether `¿Me ayuda?` is asked of the addressee: a question that names no third person."""
+        tags = [word.readings[0].tag for word in self._words]
+        return self._asks and not any(
+            tag.startswith(("NAME", "PRON:3")) and tag != "NAME:place" for tag in tags
+        )

@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Who acts on whom, as a speaker of Spanish reads the sentence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.pipeline.agreement import Agreement
+from teo_sign_translator.text.source_words import source_words
+
+MORPHOLOGY = Morphology.load()
+AGREEMENT = Agreement.load()
+
+
+def inflection(sentence: str, gloss: str) -> str:
+    words = source_words(sentence, MORPHOLOGY)
+    (verb,) = (
+        place
+        for place, word in enumerate(words)
+        if any(reading.lemma.upper() == gloss and reading.tag.startswith("V") for reading in word.readings)
+    )
+    return AGREEMENT.inflection(gloss, [verb], words)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "gloss", "expected"),
+    [
+        ("¿Me ayudas?", "AYUDAR", "2>1"),
+        ("¿Puedes ayudarme?", "AYUDAR", "2>1"),
+        ("¿Me puedes ayudar?", "AYUDAR", "2>1"),
+        ("Ayúdame.", "AYUDAR", "2>1"),
+        ("No me ayudes.", "AYUDAR", "2>1"),
+        ("¿Me ayuda, por favor?", "AYUDAR", "2>1"),
+        ("¿Usted me ayuda?", "AYUDAR", "2>1"),
+        ("¿Me ayuda Ana?", "AYUDAR", "3>1"),
+        ("Ana me ayuda.", "AYUDAR", "3>1"),
+        ("Me han ayudado.", "AYUDAR", "3>1"),
+        ("Yo te ayudo.", "AYUDAR", "1>2"),
+        ("Te ayudo.", "AYUDAR", "1>2"),
+        ("Os ayudamos.", "AYUDAR", "1>2"),
+        ("Quiero ayudarte.", "AYUDAR", "1>2"),
+        ("Me gustaría ayudarte.", "AYUDAR", "1>2"),
+        ("Te estoy ayudando.", "AYUDAR", "1>2"),
+        ("Ana te ayuda.", "AYUDAR", "3>2"),
+        ("Lo ayudo.", "AYUDAR", "1>3"),
+        ("Ayudo a Ana.", "AYUDAR", "1>3"),
+        ("Ayudo a mi hermano.", "AYUDAR", "1>3"),
+        ("¿Ayudas a Ana?", "AYUDAR", "2>3"),
+        ("Dame el libro.", "DAR", "2>1"),
+        ("Dámelo.", "DAR", "2>1"),
+        ("Te lo doy.", "DAR", "1>2"),
+        ("Se lo doy mañana.", "DAR", "1>3"),
+        ("Dale el libro.", "DAR", "2>3"),
+        ("Le pregunto a mi madre.", "PREGUNTAR", "1>3"),
+        ("Nos preguntó la edad.", "PREGUNTAR", "3>1"),
+        ("Le voy a pedir dinero.", "PEDIR", "1>3"),
+        ("Te invito a comer.", "INVITAR", "1>2"),
+        # What is given is no person, and nobody is named.
+        ("Lo doy.", "DAR", ""),
+        ("Doy dinero.", "DAR", ""),
+        ("Quiero ayudar.", "AYUDAR", ""),
+        ("Pido perdón.", "PEDIR", ""),
+        # Oneself: no way from one to another.
+        ("Me pregunto dónde está.", "PREGUNTAR", ""),
+        # Another clause says another verb's persons.
+        ("Si me llamas, pregunto.", "PREGUNTAR", ""),
+    ],
+)
+def test_persons_are_those_that_the_clause_says(sentence: str, gloss: str, expected: str) -> None:
+    assert inflection(sentence, gloss) == expected
+
+
+@pytest.mark.parametrize(
+    ("sentence", "expected"),
+    [
+        ("Me duele la cabeza.", "CABEZA"),
+        ("¿Te duele el estómago?", "ESTÓMAGO"),
+        ("Me duelen mucho las muelas.", "MUELA"),
+        ("Ya no me duele la garganta.", "GARGANTA"),
+        ("Me duele.", ""),
+        ("Me duele la cabeza y el cuello.", ""),
+        ("Me duele el alma.", ""),
+    ],
+)
+def test_pain_is_signed_where_it_is_if_one_place_is_named(sentence: str, expected: str) -> None:
+    assert inflection(sentence, "DOLER") == expected
+
+
+def test_other_signs_have_no_inflection() -> None:
+    words = source_words("Te quiero.", MORPHOLOGY)
+    assert AGREEMENT.inflection("QUERER", [1], words) == ""
+    assert AGREEMENT.inflection("AYUDAR", [], words) == ""
+    assert AGREEMENT.inflection("AYUDAR", [0, 1], words) == ""
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "DAR\tdar\tgives\t-",
+        "DAR\tdar\tdative\tCABEZA",
+        "DOLER\tdoler\tbody\t-",
+        "DAR\tdar\tdative\t-\nDAR\tdar\tdative\t-",
+    ],
+)
+def test_a_list_that_is_not_right_is_refused_with_its_line(tmp_path: Path, line: str) -> None:
+    file = tmp_path / "agreement.tsv"
+    file.write_text(line + "\n", encoding="utf-8")
+    with pytest.raises(TranslationError) as refusal:
+        Agreement.load(file)
+    assert refusal.value.code == "invalid_data"
+    assert "agreement.tsv" in str(refusal.value)
