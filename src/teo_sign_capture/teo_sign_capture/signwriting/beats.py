@@ -16,7 +16,15 @@ from teo_sign_capture.signing_space.places import find_place, split_place
 from teo_sign_capture.signwriting.hands import WrittenHand
 from teo_sign_capture.signwriting.handshapes import closed, opened
 from teo_sign_capture.signwriting.losses import UnreadableError
-from teo_sign_capture.signwriting.movement import Circling, Closing, Movement, Path, Segment, Swinging, Turning
+from teo_sign_capture.signwriting.movement import (
+    Circling,
+    Closing,
+    Movement,
+    Path,
+    Segment,
+    Swinging,
+    Turning,
+)
 from teo_sign_capture.signwriting.orientation import Orientation
 from teo_sign_capture.signwriting.page import Side, displacement_words, for_hand
 
@@ -26,6 +34,8 @@ APPROACH = 6.0
 _WRIST_WAY = 5.0
 # [px] Arrows of one hand that are about as far from it have no order.
 _ORDER = 4.0
+# [cm] A hand that goes aside from what it touched also goes off it.
+_LEAVES = 3.0
 # Cosine between a way and the way to what is touched from which on the hand comes to it.
 _COMES = 0.3
 _EIGHTHS = 8
@@ -189,7 +199,9 @@ def _same(one: Movement, other: Movement) -> bool:
     return False
 
 
-def beats_of(stances: tuple[Stance, ...], moves: HandMovements, side: Side, *, opposite: bool = False) -> list[Beat]:
+def beats_of(
+    stances: tuple[Stance, ...], moves: HandMovements, side: Side, *, opposite: bool = False
+) -> list[Beat]:
     """The postures of one hand.
 
     Args:
@@ -221,7 +233,9 @@ def _ways(stances: tuple[Stance, ...], moves: HandMovements, side: Side, opposit
             before = None if index == 0 else yielded
             circle = _for_hand_circle(movement.kind, side, opposite)
             middle = first.spot if before is None else before.spot.moved(-circle.first)
-            yielded = replace(last.beat(middle.moved(circle.first)), circle=circle, touches=first.towards is not None)
+            yielded = replace(
+                last.beat(middle.moved(circle.first)), circle=circle, touches=first.towards is not None
+            )
             yield yielded
             continue
         path = _for_hand(movement.kind, side)
@@ -254,7 +268,7 @@ def _start(first: Stance, last: Stance, path: Path) -> Spot:
     way = path.way
     if last is not first and last.towards is not None and first.towards is None:
         return last.spot.moved(-way)
-    if first.towards is not None and not first.slides and last is first:
+    if first.towards is not None and last is first:
         length = float(np.linalg.norm(way))
         if length > 0.0 and float(way @ first.towards) / length > _COMES:
             return first.spot.moved(-way)
@@ -269,9 +283,11 @@ def _path_beats(
     first, last = stances[0], stances[-1]
     way = path.way
     end = start.moved(way)
-    if len(stances) == 2 and first.towards is not None and last.towards is not None:
-        end = last.spot
-    elif last.towards is not None and last is not first:
+    if first.towards is not None and not first.slides and start is first.spot:
+        end = end.moved(-_LEAVES * first.towards)
+    if (len(stances) == 2 and first.towards is not None and last.towards is not None) or (
+        last.towards is not None and last is not first
+    ):
         end = last.spot
     there = [
         last.beat(spot, arc=segment.bulge if segment.bulge.any() else None)
@@ -318,9 +334,7 @@ def _for_hand(path: Path, side: Side) -> Path:
 
 def _for_hand_circle(circle: Circling, side: Side, opposite: bool) -> Circling:
     sign = -1.0 if opposite else 1.0
-    return replace(
-        circle, first=sign * for_hand(circle.first, side), then=sign * for_hand(circle.then, side)
-    )
+    return replace(circle, first=sign * for_hand(circle.first, side), then=sign * for_hand(circle.then, side))
 
 
 def circle_spots(beat: Beat) -> list[Spot]:
@@ -329,7 +343,9 @@ def circle_spots(beat: Beat) -> list[Spot]:
     middle = beat.spot.moved(-beat.circle.first)
     count = round(_EIGHTHS * beat.circle.turns)
     angles = 2.0 * np.pi * np.arange(1, count + 1) / _EIGHTHS
-    return [middle.moved(np.cos(angle) * beat.circle.first + np.sin(angle) * beat.circle.then) for angle in angles]
+    return [
+        middle.moved(np.cos(angle) * beat.circle.first + np.sin(angle) * beat.circle.then) for angle in angles
+    ]
 
 
 def _with_closing(beats: list[Beat], closing: Closing) -> list[Beat]:

@@ -42,6 +42,8 @@ _TOUCH_HOLD, _LAST_HOLD = 0.1, 0.25
 _SWING_TIME, _SWINGS = 0.35, {"fingers": 30.0, "wrist": 25.0, "forearm": 40.0}
 # [s] A round of a circle.
 _ROUND_TIME = 0.6
+# [cm] Shapes of robot and hand are that rough: nearer hands would go into what they touch.
+TOUCHING = 1.0
 # [cm] Hands are as mirrors at one place if they are nearer.
 _SAME_PLACE = 5.0
 
@@ -59,13 +61,14 @@ class Compilation:
     losses: tuple[str, ...]
 
 
-def compile_fsw(gloss: str, fsw: str, *, source: str) -> Compilation:
+def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> Compilation:
     """Compile a sign.
 
     Args:
         gloss: Its name.
         fsw: The sign in Formal SignWriting.
         source: What the score names as its source.
+        gap: How far a hand stays off what it touches [cm].
 
     Raises:
         LutError: "bad_fsw", "unknown_symbol".
@@ -82,7 +85,7 @@ def compile_fsw(gloss: str, fsw: str, *, source: str) -> Compilation:
     losses += (*_handshape_losses(symbols), *_limb_losses(symbols, hands), *head_losses)
     if face:
         losses += (f"TEO has no face: {face}",)
-    stances = read_stances(hands, contacts, landmarks)
+    stances = read_stances(hands, contacts, landmarks, gap)
     alternating = any(symbol.base in (groups.ALTERNATING, groups.EVERY_OTHER_TIME) for symbol in symbols)
     main: Side = "right" if hands.right else "left"
     moves = {side: _moves_of(side, hands, movements) for side in ("right", "left") if hands.of(side)}  # type: ignore[arg-type]
@@ -94,6 +97,8 @@ def compile_fsw(gloss: str, fsw: str, *, source: str) -> Compilation:
         opposite = alternating and moves["left"].ways != ()
         lefts = beats_of(stances[1], moves["left"], "left", opposite=opposite)
     losses += _spot_losses(rights, lefts, stances[0])
+    if gap > TOUCHING:
+        losses += (f"TEO's hands stay {gap:g} cm off what they touch: they would go into it",)
     pace = _pace(symbols)
     mirrored = bool(lefts) and are_mirrored(hands) and not alternating and _alike(rights, lefts)
     steps = _steps(rights, [] if mirrored else lefts, pace)
@@ -205,7 +210,10 @@ def _steps(rights: list[Beat], lefts: list[Beat], pace: float) -> list[Step]:
     for right, left in zip_longest(rights, lefts):
         right, left = right or before[0], left or before[1]
         assert right is not None
-        time = max((_time(old, new) for old, new in ((before[0], right), (before[1], left)) if old and new), default=0.3)
+        time = max(
+            (_time(old, new) for old, new in ((before[0], right), (before[1], left)) if old and new),
+            default=0.3,
+        )
         arc = None if lefts or right.arc is None else displacement_words(right.arc) or None
         touches = right.touches or (left is not None and left.touches)
         swing = right.swing or (left.swing if left else None)

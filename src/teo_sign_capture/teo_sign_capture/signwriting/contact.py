@@ -180,7 +180,9 @@ def _ways_between(right: WrittenHand, left: WrittenHand) -> list[Array]:
     floor = "floor" in (plane_of(right.symbol), plane_of(left.symbol))
     if distance < _OVER:
         # Drawn over each other: the right one is nearer to who looks, from above or from behind.
-        return [np.array([0.0, 0.0, 1.0])] if floor else [np.array([-1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])]
+        return (
+            [np.array([0.0, 0.0, 1.0])] if floor else [np.array([-1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])]
+        )
     ways = [in_space(between / distance, "wall")]
     if floor:
         ways.append(in_space(between / distance, "floor"))

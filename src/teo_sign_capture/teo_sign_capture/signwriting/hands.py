@@ -12,7 +12,7 @@ from teo_common.arrays import Array
 from teo_sign_capture.signwriting.handshapes import handshape_of
 from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_sign_capture.signwriting.movement import Closing, Movement, Path
-from teo_sign_capture.signwriting.orientation import Orientation, orientation_of, written_side
+from teo_sign_capture.signwriting.orientation import EDGE_SHOWN, Orientation, orientation_of, written_side
 from teo_sign_capture.signwriting.page import Side
 from teo_sign_capture.signwriting.written_sign import Symbol, looks_like_other_side
 
@@ -71,9 +71,51 @@ def read_hands(symbols: tuple[Symbol, ...], movements: tuple[Movement, ...]) -> 
     for side, other in _SIDES:
         if not by_side[other] and len(by_side[side]) == 2:
             by_side[side], by_side[other] = _two_of_one_side(by_side[side], side, movements)
+    if len(by_side["right"]) == len(by_side["left"]):
+        _exchange_sides(by_side)
+    elif len(symbols) == 1:
+        by_side = _comfortable_side(symbols[0])
     return WrittenHands(
-        right=_in_order(by_side["right"], "right", movements), left=_in_order(by_side["left"], "left", movements)
+        right=_in_order(by_side["right"], "right", movements),
+        left=_in_order(by_side["left"], "left", movements),
     )
+
+
+def _can_be_either(symbol: Symbol) -> bool:
+    """Whether a drawing may be either hand: one seen on its edge, or one that looks the same mirrored."""
+    return symbol.fill in EDGE_SHOWN or looks_like_other_side(symbol)
+
+
+def _exchange_sides(by_side: dict[Side, list[Symbol]]) -> None:
+    """Give drawings to the other hand where they stand on its side of the page.
+
+    A right hand whose palm faces out is drawn as a left hand whose palm faces in.
+    """
+    for index, (right, left) in enumerate(zip(by_side["right"], by_side["left"], strict=True)):
+        crossed = float(left.middle[0] - right.middle[0]) >= _APART
+        if crossed and _can_be_either(right) and _can_be_either(left):
+            by_side["right"][index], by_side["left"][index] = left, right
+
+
+def _comfortable_side(symbol: Symbol) -> dict[Side, list[Symbol]]:
+    """The hand that a lone drawing is more easily made with."""
+    written = written_side(symbol)
+    if written == "left" and _can_be_either(symbol) and _strain(symbol, "right") < _strain(symbol, "left"):
+        written = "right"
+    elif (
+        written == "right"
+        and _can_be_either(symbol)
+        and _strain(symbol, "left") < _strain(symbol, "right") - 1.0
+    ):
+        written = "left"
+    return {"right": [symbol] if written == "right" else [], "left": [symbol] if written == "left" else []}
+
+
+def _strain(symbol: Symbol, side: Side) -> float:
+    """How far a hand is from how arms hold it easily: fingers not out or back, thumb not below."""
+    held = orientation_of(symbol, side)
+    back, out = max(0.0, -float(held.fingers[0])), max(0.0, -float(held.fingers[1]))
+    return back + out + max(0.0, -float(held.thumb_side[2]))
 
 
 def _two_of_one_side(
@@ -105,7 +147,9 @@ def _are_two(pair: list[Symbol], movements: tuple[Movement, ...]) -> bool:
     first, second = pair
     apart = np.abs(first.middle - second.middle)
     alike = first.base == second.base
-    return bool(alike and apart[1] <= _LEVEL and apart[0] >= _APART and not _arrow_along(first, second, movements))
+    return bool(
+        alike and apart[1] <= _LEVEL and apart[0] >= _APART and not _arrow_along(first, second, movements)
+    )
 
 
 def _is_of_fingers(movement: Movement) -> bool:
@@ -114,7 +158,9 @@ def _is_of_fingers(movement: Movement) -> bool:
 
 def _in_order(symbols: list[Symbol], side: Side, movements: tuple[Movement, ...]) -> tuple[WrittenHand, ...]:
     if len(symbols) > 2:
-        raise UnreadableError("too_many_hands", f"{len(symbols)} drawings of the {side} hand: expected at most two")
+        raise UnreadableError(
+            "too_many_hands", f"{len(symbols)} drawings of the {side} hand: expected at most two"
+        )
     if len(symbols) == 2 and _comes_later(*symbols, side, movements):
         symbols = [symbols[1], symbols[0]]
     return tuple(_hand(symbol, side) for symbol in symbols)
@@ -146,7 +192,17 @@ def _comes_later(first: Symbol, second: Symbol, side: Side, movements: tuple[Mov
 def _openness(base: int) -> int:
     """How many fingers are stretched, roughly, of a hand."""
     shape = handshape_of(base)
-    stretched = {"open": 5, "flat": 5, "relaxed": 5, "four": 4, "bent": 3, "three": 3, "l": 2, "two": 2, "cupped": 3}
+    stretched = {
+        "open": 5,
+        "flat": 5,
+        "relaxed": 5,
+        "four": 4,
+        "bent": 3,
+        "three": 3,
+        "l": 2,
+        "two": 2,
+        "cupped": 3,
+    }
     return 0 if shape is None else stretched.get(shape.name, 1)
 
 

@@ -169,7 +169,10 @@ def _arrows() -> dict[int, _Arrow]:
         put(range(first, first + 4), straight)
         put(range(first + 4, first + 5), wrist)
         for offset, times, to_and_fro in ((5, 2, False), (7, 2, True), (10, 3, False), (12, 3, True)):
-            put(range(first + offset, first + offset + 1), replace(straight, times=times, to_and_fro=to_and_fro))
+            put(
+                range(first + offset, first + offset + 1),
+                replace(straight, times=times, to_and_fro=to_and_fro),
+            )
             bent = replace(wrist, times=times, to_and_fro=to_and_fro)
             put(range(first + offset + 1, first + offset + 2), bent)
     for first, plane in ((0x23B, "wall"), (0x274, "floor")):

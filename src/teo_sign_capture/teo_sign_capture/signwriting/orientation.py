@@ -20,7 +20,8 @@ from teo_sign_capture.signwriting.page import Plane, Side, for_hand, in_space, t
 from teo_sign_capture.signwriting.written_sign import Symbol
 
 _PAGE_UP, _PAGE_LEFT = np.array([0.0, 1.0]), np.array([-1.0, 0.0])
-_PALM_SHOWN, _EDGE_SHOWN = (0, 3), (1, 4)
+# Fills that show the palm, and the edge of the hand.
+_PALM_SHOWN, EDGE_SHOWN = (0, 3), (1, 4)
 
 
 class Orientation(NamedTuple):
@@ -62,7 +63,7 @@ def orientation_of(symbol: Symbol, side: Side) -> Orientation:
     to_palm_side = in_space(turned(_PAGE_LEFT, symbol.rotation), plane)
     towards_reader = np.array([-1.0, 0.0, 0.0]) if plane == "wall" else np.array([0.0, 0.0, 1.0])
     fingers = upright
-    if symbol.fill in _EDGE_SHOWN:
+    if symbol.fill in EDGE_SHOWN:
         palm = to_palm_side
     else:
         palm = towards_reader if symbol.fill in _PALM_SHOWN else -towards_reader

@@ -25,7 +25,7 @@ from teo_sign_capture.signwriting.written_sign import Symbol
 _HEAD_RADIUS = 18.0  # [px]
 _PAGE_MIDDLE = np.array([500.0, 500.0])
 # [px] From the shoulders' bar down: what is written on the chest, and below it on the belly.
-_CHEST_BELOW, _BELLY_BELOW = 14.0, 34.0
+_CHEST_BELOW, _BELLY_BELOW = 16.0, 52.0
 # [px] Aside on the trunk: beyond the first beside the middle, beyond the second at the shoulder.
 _ASIDE, _AT_SHOULDER = 7.0, 15.0
 # [px] A box that is so near to the head's circle overlaps it or is drawn against it.
@@ -57,7 +57,9 @@ class Landmarks:
 
 def read_landmarks(symbols: tuple[Symbol, ...]) -> Landmarks:
     """What of the body a sign shows."""
-    heads = [symbol for symbol in groups.of(symbols, groups.HEADS) if symbol.size.min() >= 2.0 * _HEAD_RADIUS - 4.0]
+    heads = [
+        symbol for symbol in groups.of(symbols, groups.HEADS) if symbol.size.min() >= 2.0 * _HEAD_RADIUS - 4.0
+    ]
     bars = groups.of(symbols, groups.SHOULDERS)
     rims = [symbol.rotation for symbol in symbols if symbol.base == groups.HEAD_RIM]
     bases = {symbol.base for symbol in symbols}
@@ -197,7 +199,11 @@ def point_in_air(point: Array, side: Side, landmarks: Landmarks, alone: bool) ->
             front = _BEFORE_CHEST
     elif landmarks.bar is not None:
         offset = point - landmarks.bar
-        height, out, front = _SHOULDER_HEIGHT - scale * float(offset[1]), sign * scale * float(offset[0]), _BEFORE_CHEST
+        height, out, front = (
+            _SHOULDER_HEIGHT - scale * float(offset[1]),
+            sign * scale * float(offset[0]),
+            _BEFORE_CHEST,
+        )
     else:
         offset = point - _PAGE_MIDDLE
         front, height = _BEFORE_CHEST, _CHEST_HEIGHT - scale * float(offset[1])

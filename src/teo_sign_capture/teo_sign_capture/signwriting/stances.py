@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from teo_sign_capture.notation.score_schema import Part
 from teo_sign_capture.signwriting.beats import Spot, Stance
 from teo_sign_capture.signwriting.contact import Contact, hand_meeting, meeting_part, towards_body
 from teo_sign_capture.signwriting.hands import WrittenHand, WrittenHands
+from teo_sign_capture.signwriting.page import Side
 from teo_sign_capture.signwriting.place import (
     Landmarks,
     air_words,
@@ -28,13 +31,29 @@ _MIRRORED = 0.9
 
 
 def read_stances(
-    hands: WrittenHands, contacts: tuple[Contact, ...], landmarks: Landmarks
+    hands: WrittenHands, contacts: tuple[Contact, ...], landmarks: Landmarks, gap: float
 ) -> tuple[tuple[Stance, ...], tuple[Stance, ...]]:
-    """The right and the left hand's stances, one for each drawing."""
-    return (
-        tuple(_stance(hand, index, hands, contacts, landmarks) for index, hand in enumerate(hands.right)),
-        tuple(_stance(hand, index, hands, contacts, landmarks) for index, hand in enumerate(hands.left)),
-    )
+    """The right and the left hand's stances, one for each drawing.
+
+    Args:
+        hands: The hands.
+        contacts: What touches what.
+        landmarks: What of the body is drawn.
+        gap: How far a hand stays off what it touches [cm].
+    """
+
+    def read(side: Side) -> tuple[Stance, ...]:
+        found = (
+            _stance(hand, index, hands, contacts, landmarks) for index, hand in enumerate(hands.of(side))
+        )
+        return tuple(
+            stance
+            if stance.towards is None
+            else replace(stance, spot=stance.spot.moved(-gap * stance.towards))
+            for stance in found
+        )
+
+    return read("right"), read("left")
 
 
 def are_mirrored(hands: WrittenHands) -> bool:
@@ -57,10 +76,18 @@ def _stance(
         stance = _on_other_hand(hand, index, hands, meeting, landmarks)
         if stance is not None:
             return stance
-    own = [each for each in contacts if (each.side, each.drawing) == (hand.side, index) and each.touched != "hand"]
+    own = [
+        each
+        for each in contacts
+        if (each.side, each.drawing) == (hand.side, index) and each.touched != "hand"
+    ]
     if own:
         return _on_body(hand, own, landmarks)
-    mirror = [each for each in contacts if each.touched != "hand" and each.side != hand.side and each.drawing == index]
+    mirror = [
+        each
+        for each in contacts
+        if each.touched != "hand" and each.side != hand.side and each.drawing == index
+    ]
     if mirror and are_mirrored(hands) and _drawn_as_mirrors(hands, index):
         return _on_body(hand, mirror, landmarks)
     if landmarks.head is not None and is_before_head(hand, landmarks):

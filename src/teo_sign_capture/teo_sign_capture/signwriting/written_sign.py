@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 from signwriting.formats.fsw_to_sign import fsw_to_sign
@@ -87,7 +87,9 @@ def read_fsw(text: str) -> tuple[Symbol, ...]:
     """
     if not _SIGN.fullmatch(text):
         got = repr(text[:60]) if text else "nothing"
-        raise LutError("bad_fsw", f"expected one sign in Formal SignWriting, M518x533S1870a489x515; got {got}")
+        raise LutError(
+            "bad_fsw", f"expected one sign in Formal SignWriting, M518x533S1870a489x515; got {got}"
+        )
     drawn = fsw_to_sign(text)["symbols"]
     if len(drawn) > _MOST_SYMBOLS:
         raise LutError("bad_fsw", f"expected at most {_MOST_SYMBOLS} symbols in a sign, got {len(drawn)}")
@@ -129,7 +131,7 @@ def _symbol(key: str, corner: tuple[int, int]) -> Symbol:
     )
 
 
-@lru_cache(maxsize=None)
+@cache
 def _drawn_size(key: str) -> tuple[int, int]:
     width, height = get_symbol_size(key)
     return int(width), int(height)
