@@ -228,21 +228,20 @@ def _ways(stances: tuple[Stance, ...], moves: HandMovements, side: Side, opposit
     if not moves.ways:
         yield from _without_way(stances)
         return
-    for index, movement in enumerate(moves.ways):
+    reached: Spot | None = None
+    for movement in moves.ways:
         if isinstance(movement.kind, Circling):
-            before = None if index == 0 else yielded
             circle = _for_hand_circle(movement.kind, side, opposite)
-            middle = first.spot if before is None else before.spot.moved(-circle.first)
-            yielded = replace(
-                last.beat(middle.moved(circle.first)), circle=circle, touches=first.towards is not None
-            )
-            yield yielded
+            begins = first.spot.moved(circle.first) if reached is None else reached
+            yield replace(last.beat(begins), circle=circle, touches=first.towards is not None)
+            reached = begins
             continue
+        assert isinstance(movement.kind, Path), "ways are paths and circles"
         path = _for_hand(movement.kind, side)
-        start = _start(first, last, path) if index == 0 else yielded.spot
-        for beat in _path_beats(stances, path, start, opposite, begins=index == 0):
-            yielded = beat
+        start = _start(first, last, path) if reached is None else reached
+        for beat in _path_beats(stances, path, start, opposite, begins=reached is None):
             yield beat
+            reached = beat.spot
 
 
 def _without_way(stances: tuple[Stance, ...]) -> Iterator[Beat]:
@@ -285,9 +284,7 @@ def _path_beats(
     end = start.moved(way)
     if first.towards is not None and not first.slides and start is first.spot:
         end = end.moved(-_LEAVES * first.towards)
-    if (len(stances) == 2 and first.towards is not None and last.towards is not None) or (
-        last.towards is not None and last is not first
-    ):
+    if last.towards is not None and last is not first:
         end = last.spot
     there = [
         last.beat(spot, arc=segment.bulge if segment.bulge.any() else None)

@@ -6,10 +6,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise, zip_longest
+from typing import Literal
 
 import numpy as np
 from pydantic import ValidationError
 
+from teo_common.arrays import Array
 from teo_sign_capture.notation.score_schema import Circle, HandScore, HeadScore, Score, Step, Wiggle
 from teo_sign_capture.signwriting import symbol_groups as groups
 from teo_sign_capture.signwriting.beats import (
@@ -26,14 +28,14 @@ from teo_sign_capture.signwriting.hands import WrittenHands, read_hands
 from teo_sign_capture.signwriting.handshapes import handshape_of
 from teo_sign_capture.signwriting.head import face_words, head_postures
 from teo_sign_capture.signwriting.losses import UnreadableError
-from teo_sign_capture.signwriting.movement import Circling, Movement, is_finger_movement, movement_of
-from teo_sign_capture.signwriting.page import Side, direction_words, displacement_words
+from teo_sign_capture.signwriting.movement import Circling, Hands, Movement, is_finger_movement, movement_of
+from teo_sign_capture.signwriting.page import SIDES, Side, direction_words, displacement_words
 from teo_sign_capture.signwriting.place import read_landmarks
 from teo_sign_capture.signwriting.stances import are_mirrored, read_stances
 from teo_sign_capture.signwriting.written_sign import Symbol, read_fsw
 
-# SignWriting gives no durations. Measured signs move at about half a metre a second, and no movement takes less than
-# 0.2 s; symbols of dynamics are a third faster or two thirds slower than that.
+# SignWriting gives no durations. Measured signs move at about half a metre a second, and no movement takes
+# less than 0.2 s; symbols of dynamics are a third faster or two thirds slower than that.
 _SPEED, _LEAST_TIME = 50.0, 0.2  # [cm/s], [s]
 _FAST, _SLOW = 0.67, 1.67
 # [s] A touch is held so long, and so is the end of a sign.
@@ -42,6 +44,13 @@ _TOUCH_HOLD, _LAST_HOLD = 0.1, 0.25
 _SWING_TIME, _SWINGS = 0.35, {"fingers": 30.0, "wrist": 25.0, "forearm": 40.0}
 # [s] A round of a circle.
 _ROUND_TIME = 0.6
+# Planes of circles in the axes of a hand's score (front, in, up), by their normals: from the first vector on clockwise
+# is to the second.
+_CIRCLE_PLANES: tuple[tuple[Literal["front", "side", "top"], Array, Array], ...] = (
+    ("front", np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])),
+    ("side", np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])),
+    ("top", np.array([1.0, 0.0, 0.0]), np.array([0.0, -1.0, 0.0])),
+)
 # [cm] Shapes of robot and hand are that rough: nearer hands would go into what they touch.
 TOUCHING = 1.0
 # [cm] Hands are as mirrors at one place if they are nearer.
@@ -72,8 +81,8 @@ def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> 
 
     Raises:
         LutError: "bad_fsw", "unknown_symbol".
-        UnreadableError: "movement", "movement_order", "order", "handshape", "no_hand", "too_many_hands", "limb",
-            "posture".
+        UnreadableError: "movement", "movement_order", "order", "handshape", "no_hand", "too_many_hands",
+            "limb", "posture".
     """
     symbols = read_fsw(fsw)
     hands = read_hands(groups.of(symbols, groups.HANDS), _arrows(symbols))
@@ -88,7 +97,7 @@ def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> 
     stances = read_stances(hands, contacts, landmarks, gap)
     alternating = any(symbol.base in (groups.ALTERNATING, groups.EVERY_OTHER_TIME) for symbol in symbols)
     main: Side = "right" if hands.right else "left"
-    moves = {side: _moves_of(side, hands, movements) for side in ("right", "left") if hands.of(side)}  # type: ignore[arg-type]
+    moves = {side: _moves_of(side, hands, movements) for side in SIDES if hands.of(side)}
     for each in moves.values():
         losses += each.losses
     rights = beats_of(stances[0] if main == "right" else stances[1], moves[main], main)
@@ -141,11 +150,8 @@ def _read_movements(symbols: tuple[Symbol, ...], hands: WrittenHands) -> tuple[M
     return tuple(movements)
 
 
-def _nearer_hand(symbol: Symbol, hands: WrittenHands) -> Side | str:  # narrowed below
-    far = {
-        side: min(hand.symbol.distance(symbol.middle) for hand in hands.of(side))
-        for side in ("right", "left")
-    }
+def _nearer_hand(symbol: Symbol, hands: WrittenHands) -> Hands:
+    far = {side: min(hand.symbol.distance(symbol.middle) for hand in hands.of(side)) for side in SIDES}
     if abs(far["right"] - far["left"]) < 3.0:
         return "both"
     return min(far, key=lambda side: far[side])
@@ -276,12 +282,7 @@ def _circle(beat: Beat, pace: float) -> Circle | None:
     radius = float(np.linalg.norm(first))
     if normal[index] < 0.9 * radius**2:
         raise UnreadableError("movement", "a circle that lies aslant")
-    # In the axes of a hand's score (front, in, up): clockwise as the schema of circles has it.
-    plane, one, other = (
-        ("front", np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])),
-        ("side", np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])),
-        ("top", np.array([1.0, 0.0, 0.0]), np.array([0.0, -1.0, 0.0])),
-    )[index]
+    plane, one, other = _CIRCLE_PLANES[index]
     clockwise = float((first @ one) * (then @ other) - (first @ other) * (then @ one)) > 0.0
     return Circle(
         plane=plane,
@@ -297,12 +298,12 @@ def _changes(before: Beat | None, beat: Beat) -> HandScore | None:
     """What is new of a hand since the posture before; None if nothing is."""
     now = _written(beat)
     if before is None:
-        return HandScore(**now)
+        return HandScore.model_validate(now)
     old = _written(before)
     if now["palm"] != old["palm"]:
         old.pop("fingers")  # the two are said together
     new = {name: value for name, value in now.items() if old.get(name) != value}
-    return HandScore(**new) if new else None
+    return HandScore.model_validate(new) if new else None
 
 
 def _written(beat: Beat) -> dict[str, str]:
@@ -320,5 +321,9 @@ def _with_head(steps: list[Step], postures: list[tuple[float, float]]) -> list[S
     moved = []
     for step, posture in zip_longest(steps, postures):
         head = None if posture is None else HeadScore(turn=posture[0], bow=posture[1])
-        moved.append(Step(time=0.25, head=head) if step is None else step.model_copy(update={"head": head}))
+        moved.append(
+            Step.model_validate({"time": 0.25, "head": head})
+            if step is None
+            else step.model_copy(update={"head": head})
+        )
     return moved

@@ -14,7 +14,7 @@ from teo_sign_capture.notation.score_schema import Part
 from teo_sign_capture.signwriting import symbol_groups as groups
 from teo_sign_capture.signwriting.hands import WrittenHand, WrittenHands
 from teo_sign_capture.signwriting.orientation import Orientation, plane_of
-from teo_sign_capture.signwriting.page import Side, for_hand, in_space
+from teo_sign_capture.signwriting.page import SIDES, Side, for_hand, in_space
 from teo_sign_capture.signwriting.place import Landmarks, from_head, tip_is_nearer
 from teo_sign_capture.signwriting.written_sign import Symbol
 
@@ -65,8 +65,8 @@ def read_contacts(
     for symbol in groups.of(symbols, groups.CONTACTS):
         near = sorted(
             (hand.symbol.distance(symbol.middle), side, index, hand)
-            for side in ("right", "left")
-            for index, hand in enumerate(hands.of(side))  # type: ignore[arg-type]  # the two sides there are
+            for side in SIDES
+            for index, hand in enumerate(hands.of(side))
         )
         distance, side, index, _ = near[0]
         others = [each for each in near if each[1] != side]
@@ -88,7 +88,7 @@ def read_contacts(
             side, index = "right", min(index, len(hands.right) - 1)
         if symbol.base in groups.CONTACTS_BETWEEN:
             losses.append(f"{symbol.key}, {symbol.name}: TEO's fingers stay together")
-        found.append(Contact(symbol=symbol, side=side, drawing=index, touched=touched))  # type: ignore[arg-type]
+        found.append(Contact(symbol=symbol, side=side, drawing=index, touched=touched))
     return tuple(found), tuple(losses)
 
 
@@ -141,7 +141,8 @@ class HandMeeting:
     Attributes:
         place: Place on the left hand.
         part: Part of the right hand.
-        towards: Where the left hand lies from the right one, in the axes of the right hand's score. Shape (3,).
+        towards: Where the left hand lies from the right one, in the axes of the right hand's score. Shape
+            (3,).
     """
 
     place: str

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A dictionary in SignWriting into the table: every sign that can be read, and why the others cannot.
 
-Signs are made in processes of this machine, each file written whole or not at all. What the table has is left as it is,
-so that an import that was stopped goes on where it was.
+Signs are made in processes of this machine, each file written whole or not at all. What the table has is
+left as it is, so that an import that was stopped goes on where it was.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ from teo_signs.sign_schema import STANDINGS
 
 # [cm] Hands stay so far off what they touch where TEO would otherwise run into itself: its wrists are wide.
 _GAPS = (TOUCHING, 4.0, 8.0)
-# [mm] A hand farther from its place is somewhere else: TEO's chin and mouth are 28 mm apart, its chest 100 mm wide.
+# [mm] A hand farther from its place is somewhere else: TEO's chin and mouth are 28 mm apart, its chest 100
+# mm wide.
 _MOST_OFF_PLACE = 120.0
 
 Result = Literal["whole", "with_losses", "as_before", "refused"]

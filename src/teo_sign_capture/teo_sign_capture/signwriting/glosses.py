@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Terms of a community's dictionary as glosses.
 
-People type "carcel 2", "¿quien? 13" or "Mar (azul)": variants are numbered, marks and accents left out. A gloss is the
-Spanish word with its accents, in capitals; variants are told apart by a number that is added.
+People type "carcel 2", "¿quien? 13" or "Mar (azul)": variants are numbered, marks and accents left out. A
+gloss is the Spanish word with its accents, in capitals; variants are told apart by a number that is added.
 """
 
 from __future__ import annotations

@@ -127,7 +127,7 @@ def _two_of_one_side(
     if _are_two(pair, movements):
         return [own], [other]
     try:
-        _comes_later(*pair, side, movements)
+        _comes_later(pair[0], pair[1], side, movements)
     except UnreadableError:
         # A flat hand that shows palm or back is drawn alike as either hand: then it is the other one.
         for symbol in (other, own):
@@ -161,7 +161,7 @@ def _in_order(symbols: list[Symbol], side: Side, movements: tuple[Movement, ...]
         raise UnreadableError(
             "too_many_hands", f"{len(symbols)} drawings of the {side} hand: expected at most two"
         )
-    if len(symbols) == 2 and _comes_later(*symbols, side, movements):
+    if len(symbols) == 2 and _comes_later(symbols[0], symbols[1], side, movements):
         symbols = [symbols[1], symbols[0]]
     return tuple(_hand(symbol, side) for symbol in symbols)
 

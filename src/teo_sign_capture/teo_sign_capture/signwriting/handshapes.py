@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Handshapes of ISWA 2010 as the project's: what TEO's six motors make of 261 hands.
 
-The names of the bases say what is up (the reference of ISWA 2010, by the names of Unicode 8): "fist index" is a
-fist whose index finger is straight, "hinge" is bent at the knuckles, "angle" closes on the thumb.
+The names of the bases say what is up (the reference of ISWA 2010, by the names of Unicode 8): "fist index" is
+a fist whose index finger is straight, "hinge" is bent at the knuckles, "angle" closes on the thumb.
 """
 
 from __future__ import annotations
@@ -90,8 +90,8 @@ _LOSSES: dict[str, tuple[int, ...]] = {
 _BY_BASE = {base: shape for shape, bases in _SHAPES.items() for base in bases}
 _LOSS_BY_BASE = {base: loss for loss, bases in _LOSSES.items() for base in bases}
 
-# Fingers that are bent at the knuckles are drawn from the side, whichever side of the hand is shown: they point
-# to the left of the hand that is drawn upright.
+# Fingers that are bent at the knuckles are drawn from the side, whichever side of the hand is shown: they
+# point to the left of the hand that is drawn upright.
 BENT_ASIDE = frozenset(
     {
         *_SHAPES["bent"],

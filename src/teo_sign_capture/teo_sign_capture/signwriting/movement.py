@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Movement symbols of ISWA 2010: what moves, along which way, how often.
 
-Arrows with a black head are the right hand's (fill 0), with a white head the left one's (1), with an open head
-both hands' (2). Way and bulge of each symbol are written down as drawn with rotation 0; size is that of the symbol,
-on the scale of the head.
+Arrows with a black head are the right hand's (fill 0), with a white head the left one's (1), with an open
+head both hands' (2). Way and bulge of each symbol are written down as drawn with rotation 0; size is that
+of the symbol, on the scale of the head.
 """
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -125,8 +126,7 @@ _HALF_UP: _Drawn = ((_UP, (_HALF, 0.0)),)
 def _line(*points: tuple[float, float]) -> _Drawn:
     """Straight from point to point."""
     return tuple(
-        ((after[0] - before[0], after[1] - before[1]), _NONE)
-        for before, after in zip(points[:-1], points[1:], strict=True)
+        ((after[0] - before[0], after[1] - before[1]), _NONE) for before, after in itertools.pairwise(points)
     )
 
 
@@ -163,8 +163,9 @@ def _arrows() -> dict[int, _Arrow]:
     def put(bases: range, arrow: _Arrow) -> None:
         table.update(dict.fromkeys(bases, arrow))
 
-    for plane, first in (("wall", 0x22A), ("floor", 0x265)):
-        straight = _Arrow(drawn=_STRAIGHT, plane=plane)  # type: ignore[arg-type]  # the two planes there are
+    straight_ones: tuple[tuple[Plane, int], ...] = (("wall", 0x22A), ("floor", 0x265))
+    for plane, first in straight_ones:
+        straight = _Arrow(drawn=_STRAIGHT, plane=plane)
         wrist = replace(straight, bent_wrist=True)
         put(range(first, first + 4), straight)
         put(range(first + 4, first + 5), wrist)
@@ -175,9 +176,8 @@ def _arrows() -> dict[int, _Arrow]:
             )
             bent = replace(wrist, times=times, to_and_fro=to_and_fro)
             put(range(first + offset + 1, first + offset + 2), bent)
-    for first, plane in ((0x23B, "wall"), (0x274, "floor")):
-        corner = _Arrow(drawn=_CORNER, plane=plane)  # type: ignore[arg-type]  # the two planes there are
-        put(range(first, first + 3), corner)
+    put(range(0x23B, 0x23E), _Arrow(drawn=_CORNER, plane="wall"))
+    put(range(0x274, 0x277), _Arrow(drawn=_CORNER, plane="floor"))
     put(range(0x23F, 0x242), _Arrow(drawn=_CHECK, plane="wall"))
     put(range(0x277, 0x278), _Arrow(drawn=_CHECK, plane="floor"))
     put(range(0x242, 0x245), _Arrow(drawn=_BOX, plane="wall"))
@@ -199,8 +199,8 @@ def _arrows() -> dict[int, _Arrow]:
 
 _ARROWS = _arrows()
 
-# Curves that stand on the page's plane: 0 and 1 go up, 2 and 3 down (parallel to the wall); over the floor they go
-# the way that the thin, far end and the thick, near end show.
+# Curves that stand on the page's plane: 0 and 1 go up, 2 and 3 down (parallel to the wall); over the floor
+# they go the way that the thin, far end and the thick, near end show.
 _UPRIGHT_WAYS = (1.0, 1.0, -1.0, -1.0)
 _OVER_FLOOR_WAYS = ((0, 1), (0, 1), (-1, 1), (-1, -1), (0, -1), (0, -1), (1, -1), (1, 1))
 # first base, last base, arcs, where they swing out: front, left, up

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a hand is held: palm and fingers from fill and rotation of its symbol.
 
-ISWA 2010, hands: fills 0 to 2 are seen from behind, parallel to the wall; 3 to 5 (drawn with a gap) from above,
-parallel to the floor. White is the palm (0, 3), black the back (2, 5), half and half the edge (1, 4), with the palm
-on the white half. Rotations 0 to 7 are a right hand, turned counterclockwise by 45 deg each; from 8 on a left one,
-mirrored.
+ISWA 2010, hands: fills 0 to 2 are seen from behind, parallel to the wall; 3 to 5 (drawn with a gap) from
+above, parallel to the floor. White is the palm (0, 3), black the back (2, 5), half and half the edge (1,
+4), with the palm on the white half. Rotations 0 to 7 are a right hand, turned counterclockwise by 45 deg
+each; from 8 on a left one, mirrored.
 """
 
 from __future__ import annotations

@@ -3,8 +3,8 @@
 """From the page to the space before the signer.
 
 Vectors of the page are right and up; those of the space are front, left, up, as base_link has them. Signs
-are drawn as the signer sees them. What moves parallel to the wall in front (double lines) is seen from behind,
-what moves parallel to the floor (single lines) from above: there, up on the page is to the front.
+are drawn as the signer sees them. What moves parallel to the wall in front (double lines) is seen from
+behind, what moves parallel to the floor (single lines) from above: there, up on the page is to the front.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from teo_common.arrays import Array
 
 Plane = Literal["wall", "floor"]
 Side = Literal["right", "left"]
+SIDES: tuple[Side, Side] = ("right", "left")
 
 # A head is 36 px wide and high; TEO's, from chin to crown, is 0.18 m.
 CM_PER_PIXEL = 0.5

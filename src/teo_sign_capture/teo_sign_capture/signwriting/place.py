@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where a hand is: from its place on the page to a place of articulation.
 
-The head is a circle of 36 px, the shoulders a bar of 42 px. A hand that touches the head is at the part of the face
-that is nearest on the page; one that touches the body below is on the chest. Hands that touch nothing are in the air,
-as far from head, bar or the middle of the page as they are drawn.
+The head is a circle of 36 px, the shoulders a bar of 42 px. A hand that touches the head is at the part of
+the face that is nearest on the page; one that touches the body below is on the chest. Hands that touch
+nothing are in the air, as far from head, bar or the middle of the page as they are drawn.
 """
 
 from __future__ import annotations

@@ -82,8 +82,8 @@ def read_fsw(text: str) -> tuple[Symbol, ...]:
     """The symbols of one sign.
 
     Raises:
-        LutError: "bad_fsw" if it is not one sign in Formal SignWriting; "unknown_symbol" if a symbol is none of
-            ISWA 2010.
+        LutError: "bad_fsw" if it is not one sign in Formal SignWriting; "unknown_symbol" if a symbol is none
+            of ISWA 2010.
     """
     if not _SIGN.fullmatch(text):
         got = repr(text[:60]) if text else "nothing"
