@@ -136,7 +136,8 @@ def place_on_head(hand: WrittenHand, landmarks: Landmarks, contact: Symbol | Non
     if down < -0.1:
         return _sided("temple" if aside > 0.75 else "eye", out, off)
     if down < 0.3:
-        return _sided("ear" if aside > 0.85 else "cheek" if aside > 0.35 else "nose", out, off)
+        # Ears have a symbol of their own: without it, what is drawn at the side is the cheek.
+        return _sided("cheek" if aside > 0.35 else "nose", out, off)
     if down < 0.78:
         return _sided("cheek" if aside > 0.6 else "mouth_corner" if aside > 0.3 else "mouth", out, off)
     return " ".join(filter(None, ("chin", off)))

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from teo_common.arrays import Array
 from teo_sign_capture.notation.score_schema import Part
 from teo_sign_capture.signwriting.beats import Spot, Stance
 from teo_sign_capture.signwriting.contact import Contact, hand_meeting, meeting_part, towards_body
@@ -93,16 +94,22 @@ def _stance(
     if landmarks.head is not None and is_before_head(hand, landmarks):
         words = place_on_head(hand, landmarks, None, _BEFORE_FACE)
         return Stance(hand=hand, spot=Spot.read(words), part=_part_at_head(hand, landmarks))
-    return Stance(hand=hand, spot=_air(hand, hands, landmarks), part="palm", free=_is_free(landmarks))
+    drawings = hands.of(hand.side)
+    touching = {(each.side, each.drawing) for each in contacts}
+    together = len(drawings) == 2 and not any(side == hand.side for side, _ in touching)
+    # Before and after are drawn beside each other: the sign is made about the middle of the two.
+    point = sum(each.symbol.middle for each in drawings) / 2.0 if together else hand.symbol.middle
+    spot = _air(np.asarray(point), hand, hands, landmarks)
+    return Stance(hand=hand, spot=spot, part="palm", free=together or _is_free(landmarks))
 
 
 def _is_free(landmarks: Landmarks) -> bool:
     return landmarks.head is None and landmarks.bar is None
 
 
-def _air(hand: WrittenHand, hands: WrittenHands, landmarks: Landmarks) -> Spot:
+def _air(point: Array, hand: WrittenHand, hands: WrittenHands, landmarks: Landmarks) -> Spot:
     alone = not (hands.right and hands.left)
-    return Spot.read(air_words(point_in_air(hand.symbol.middle, hand.side, landmarks, alone)))
+    return Spot.read(air_words(point_in_air(point, hand.side, landmarks, alone)))
 
 
 def _drawn_as_mirrors(hands: WrittenHands, index: int) -> bool:
