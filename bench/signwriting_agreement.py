@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Signs compiled from SignWriting: how many are read, how fast, and whether they are as signs that were measured.
+"""Signs compiled from SignWriting: how many are read, how fast, and whether they are as signs that were
+measured.
 
-`python bench/signwriting_agreement.py FILE`, a dictionary as `lut import --signwriting` reads it. The truth are the
-package's own scores whose form was measured on a dictionary's videos (standing measured or recorded): community and
-normative dictionary may have different signs for a word, so that an agreement of all is not to be expected.
+`python bench/signwriting_agreement.py FILE`, a dictionary as `lut import --signwriting` reads it. The truth
+are the package's own scores whose form was measured on a dictionary's videos (standing measured or
+recorded): community and normative dictionary may have different signs for a word, so that an agreement of
+all is not to be expected.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ from teo_sign_capture.signwriting.glosses import GlossNames
 from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_signs.errors import LutError
 
-# A place that is nearer is the same part of the body or the space [m]; a palm that is turned less looks the same way.
+# A place that is nearer is the same part of the body or the space [m]; a palm that is turned less looks the
+# same way.
 _SAME_PLACE, _SAME_PALM = 0.15, np.cos(np.radians(60.0))
 # Handshapes whose six axes differ less on the mean are told apart by few [rad].
 _SAME_SHAPE = np.radians(15.0)

@@ -44,8 +44,8 @@ _TOUCH_HOLD, _LAST_HOLD = 0.1, 0.25
 _SWING_TIME, _SWINGS = 0.35, {"fingers": 30.0, "wrist": 25.0, "forearm": 40.0}
 # [s] A round of a circle.
 _ROUND_TIME = 0.6
-# Planes of circles in the axes of a hand's score (front, in, up), by their normals: from the first vector on clockwise
-# is to the second.
+# Planes of circles in the axes of a hand's score (front, in, up), by their normals: clockwise is from the
+# first vector to the second.
 _CIRCLE_PLANES: tuple[tuple[Literal["front", "side", "top"], Array, Array], ...] = (
     ("front", np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, 0.0])),
     ("side", np.array([0.0, 0.0, 1.0]), np.array([1.0, 0.0, 0.0])),

@@ -77,6 +77,8 @@ def read_contacts(
             touched = "head"
         elif both and at_other <= _NEAR and distance <= _NEAR:
             touched = "hand"
+        elif landmarks.bar is None and from_head(near[0][3].symbol, landmarks) <= 0.0:
+            touched = "head"  # the hand is drawn against it, the mark on the hand's far side
         elif landmarks.bar is not None or (landmarks.head is not None and at_head > _NEAR and not both):
             touched = "trunk"
         elif both:

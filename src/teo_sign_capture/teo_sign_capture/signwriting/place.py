@@ -115,7 +115,7 @@ def place_on_head(hand: WrittenHand, landmarks: Landmarks, contact: Symbol | Non
     """
     assert landmarks.head is not None
     point = hand.symbol.nearest(landmarks.head)
-    if contact is not None:
+    if contact is not None and from_head(contact, landmarks) <= _HEAD_RADIUS:
         # The mark stands beside the place: where hand and mark meet.
         point = (contact.middle + hand.symbol.nearest(contact.middle)) / 2.0
     offset = (point - landmarks.head) / _HEAD_RADIUS

@@ -49,8 +49,10 @@ def test_longer_arrows_are_longer_ways() -> None:
     assert 4.0 < lengths[0] < lengths[-1] < 40.0  # [cm]
 
 
-@pytest.mark.parametrize(("symbol", "times", "to_and_fro"), [("S22a04", 1, False), ("S22f04", 2, False),
-                                                             ("S26c00", 2, True), ("S27100", 3, True)])  # fmt: skip
+@pytest.mark.parametrize(
+    ("symbol", "times", "to_and_fro"),
+    [("S22a04", 1, False), ("S22f04", 2, False), ("S26c00", 2, True), ("S27100", 3, True)],
+)
 def test_double_and_triple_arrows_repeat(symbol: str, times: int, to_and_fro: bool) -> None:
     kind = path(symbol)
     assert (kind.times, kind.to_and_fro) == (times, to_and_fro)

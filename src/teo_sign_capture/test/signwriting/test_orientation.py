@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How a hand is held, as the lessons of SignWriting teach it: white is the palm, gaps are the floor's plane."""
+"""How a hand is held, as SignWriting is taught: white is the palm, a gap the floor's plane."""
 
 from __future__ import annotations
 
