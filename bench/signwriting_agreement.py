@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Signs compiled from SignWriting: how many are read, how fast, and whether they are as signs that were
-measured.
+"""Signs compiled from SignWriting: how many are read, how fast, and how far they are as measured ones.
 
 `python bench/signwriting_agreement.py FILE`, a dictionary as `lut import --signwriting` reads it. The truth
 are the package's own scores whose form was measured on a dictionary's videos (standing measured or
