@@ -114,7 +114,8 @@ def place_on_head(hand: WrittenHand, landmarks: Landmarks, contact: Symbol | Non
         off: Displacement from there, in words.
     """
     assert landmarks.head is not None
-    point = hand.symbol.nearest(landmarks.head)
+    # A hand is drawn beside its place, or over it so that the face stays to be seen.
+    point = (hand.symbol.nearest(landmarks.head) + hand.symbol.middle) / 2.0
     if contact is not None and from_head(contact, landmarks) <= _HEAD_RADIUS:
         # The mark stands beside the place: where hand and mark meet.
         point = (contact.middle + hand.symbol.nearest(contact.middle)) / 2.0

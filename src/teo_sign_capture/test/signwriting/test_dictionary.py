@@ -50,7 +50,6 @@ def names() -> GlossNames:
         ("ladron", "LADRÓN"),
         ("quien? 13", "QUIÉN"),
         ("POR FIN 1", "POR_FIN"),
-        ("Washington (USA)", None),
         ("cemetery 2", None),
         ("carsasrse", None),
         ("?3", None),
