@@ -100,6 +100,11 @@ def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> 
     moves = {side: _moves_of(side, hands, movements) for side in SIDES if hands.of(side)}
     for each in moves.values():
         losses += each.losses
+    for contact in contacts:
+        # A hand that rubs is drawn without an arrow where it goes round on the spot.
+        if contact.slides and not any(each.ways for each in moves.values()):
+            key, name = contact.symbol.key, contact.symbol.name
+            losses += (f"{key}, {name}: no arrow says which way, TEO's hand touches only",)
     rights = beats_of(stances[0] if main == "right" else stances[1], moves[main], main)
     lefts: list[Beat] = []
     if hands.right and hands.left:
