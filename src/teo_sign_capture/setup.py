@@ -28,6 +28,7 @@ setup(
         "rich",
         "rosbags",
         "scipy",
+        "signwriting",
         "spoken-to-signed",
         "threadpoolctl",
         "typer",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`lut import`: a sign from a clip in which a person's points were found."""
+"""`lut import`: a sign from a clip in which a person's points were found, or a dictionary in SignWriting."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from teo_sign_capture.cli.capture import (
     End,
     Hands,
     KindOption,
-    Licence,
     Notes,
     Picture,
     Replace,
@@ -31,11 +30,18 @@ from teo_signs.errors import LutError
 _errors = Console(stderr=True, highlight=False)
 
 _DAY = "%Y-%m-%d"
+_NO_LICENCE = "not stated: ask the person who signs before passing it on"
 
 
 def import_pose(
-    file: Annotated[Path, typer.Argument(help="A .pose file: MediaPipe Holistic's or OpenPose's points.")],
-    gloss: Annotated[str, typer.Option(help="Name of the sign.")],
+    file: Annotated[
+        Path | None, typer.Argument(help="A .pose file: MediaPipe Holistic's or OpenPose's points.")
+    ] = None,
+    gloss: Annotated[str | None, typer.Option(help="Name of the sign in a .pose file.")] = None,
+    signwriting: Annotated[
+        Path | None,
+        typer.Option(help="A dictionary in SignWriting: SignPuddle's .spml, or a TSV of term and FSW."),
+    ] = None,
     start: Start = None,
     end: End = None,
     lut: TableDirectory = None,
@@ -47,15 +53,60 @@ def import_pose(
     recorded: Annotated[
         datetime | None, typer.Option(formats=[_DAY], help="Day of the recording, for the entry.")
     ] = None,
-    licence: Licence = "not stated: ask the person who signs before passing it on",
+    licence: Annotated[
+        str | None, typer.Option(help="Terms of the recording or the dictionary; 'not stated' without it.")
+    ] = None,
     notes: Notes = "",
     picture: Picture = None,
     draw: Draw = True,
+    scores: Annotated[
+        Path | None, typer.Option(help="SignWriting: directory for the scores that signs are compiled to.")
+    ] = None,
+    source: Annotated[
+        str, typer.Option(help="SignWriting: the dictionary, for the entries.")
+    ] = "SignPuddle LSE dictionary",
+    only: Annotated[
+        list[str] | None, typer.Option(help="SignWriting: a gloss; may be given again. All without it.")
+    ] = None,
+    any_term: Annotated[
+        bool, typer.Option("--any-term", help="SignWriting: take terms that are no known Spanish words.")
+    ] = False,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="SignWriting: signs at a time; one for each core without it.")
+    ] = None,
+    report: Annotated[
+        Path | None, typer.Option(help="SignWriting: what became of each entry, .tsv or .json.")
+    ] = None,
 ) -> None:
     """Capture a sign from a clip in which a person's points were found, lifted by the lengths of limbs.
 
+    With --signwriting: compile every sign of a dictionary in SignWriting; what the table has stays as it is.
+
     Exit status: 0 captured, 1 not (code and reason on standard error), 2 wrong options.
     """
+    if signwriting is not None:
+        from teo_sign_capture.cli.import_signwriting import NO_LICENCE, import_signwriting
+
+        if file is not None or gloss is not None:
+            fail(
+                LutError("bad_arguments", "expected --signwriting FILE, or FILE.pose --gloss GLOSS, got both")
+            )
+        import_signwriting(
+            signwriting,
+            table=lut,
+            scores=scores,
+            replace=replace,
+            source=source,
+            licence=licence or NO_LICENCE,
+            only=only or [],
+            any_term=any_term,
+            jobs=jobs,
+            report=report,
+        )
+        return
+    if file is None or gloss is None:
+        fail(LutError("bad_arguments", "expected FILE.pose --gloss GLOSS, or --signwriting FILE"))
+
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import Job, Settings
     from teo_sign_capture.entries.pose_capture import capture_pose_file
@@ -68,7 +119,7 @@ def import_pose(
         replace=replace,
         kind=kind,
         standing=standing,
-        licence=licence,
+        licence=licence or _NO_LICENCE,
         notes=notes,
         pictures=(picture or table) if draw else None,
     )

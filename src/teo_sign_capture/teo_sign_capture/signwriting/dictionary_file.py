@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Files of signs: a SignPuddle export (SPML), or a table of term and Formal SignWriting."""
+
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+from teo_signs.errors import LutError
+
+# The whole LSE dictionary of SignPuddle, 8,300 entries with texts and sources, is about 5 MB.
+MOST_BYTES = 64_000_000
+_MOST_ENTRIES = 100_000
+
+_COLUMNS = ["term", "fsw"]
+# How a term of an SPML entry that is the sign itself begins.
+_FSW = re.compile(r"(?:A(?:S[0-9a-f]{5})+)?[BLMR]\d{3}x\d{3}(?:S[0-9a-f]{5}\d{3}x\d{3})+")
+# What XML of our own machine has no use for, and an attacker has.
+_ENTITY = re.compile(rb"<!ENTITY", re.IGNORECASE)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DictionaryEntry:
+    """A sign as a dictionary has it.
+
+    Attributes:
+        term: What it means, as people of the dictionary have typed it.
+        fsw: The sign in Formal SignWriting; empty if the entry has none.
+        number: Its number in the file, from 1.
+    """
+
+    term: str
+    fsw: str
+    number: int
+
+
+def read_dictionary(path: Path) -> list[DictionaryEntry]:
+    """All entries of a file, in its order.
+
+    Raises:
+        LutError: "unreadable", "too_large", "not_utf8", "not_spml", "not_tsv", "no_entries".
+    """
+    try:
+        size = path.stat().st_size
+        if size > MOST_BYTES:
+            raise LutError("too_large", f"{path.name}: expected at most {MOST_BYTES} bytes, got {size}")
+        data = path.read_bytes()
+    except OSError as error:
+        raise LutError(
+            "unreadable", f"{path.name}: expected a file to read, got: {error.strerror}"
+        ) from error
+    spml = path.suffix.lower() in (".spml", ".xml") or data.lstrip()[:1] == b"<"
+    entries = _spml(path, data) if spml else _tsv(path, data)
+    if not entries:
+        raise LutError("no_entries", f"{path.name}: expected entries of a dictionary, got none")
+    if len(entries) > _MOST_ENTRIES:
+        raise LutError(
+            "too_large", f"{path.name}: expected at most {_MOST_ENTRIES} entries, got {len(entries)}"
+        )
+    return entries
+
+
+def _spml(path: Path, data: bytes) -> list[DictionaryEntry]:
+    if _ENTITY.search(data):
+        raise LutError("not_spml", f"{path.name}: expected SPML without entities of its own, got <!ENTITY")
+    try:
+        root = ElementTree.fromstring(data)
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        raise LutError("not_spml", f"{path.name}: expected SPML, an XML file, got: {error}") from error
+    if root.tag != "spml":
+        raise LutError("not_spml", f"{path.name}: expected the element spml, got {root.tag}")
+    entries: list[DictionaryEntry] = []
+    for number, entry in enumerate(root.iter("entry"), start=1):
+        terms = [(term.text or "").strip() for term in entry.iter("term")]
+        signs = [term for term in terms if _FSW.fullmatch(term)]
+        words = [term for term in terms if term and not _FSW.fullmatch(term)]
+        entries.append(
+            DictionaryEntry(term=words[0] if words else "", fsw=signs[0] if signs else "", number=number)
+        )
+    return entries
+
+
+def _tsv(path: Path, data: bytes) -> list[DictionaryEntry]:
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise LutError("not_utf8", f"{path.name}: expected UTF-8, got byte {data[error.start]:#x}") from error
+    lines = [line for line in text.splitlines() if line.strip()]
+    rows = list(csv.reader(lines, delimiter="\t", quoting=csv.QUOTE_NONE))
+    if rows and [cell.strip().lower() for cell in rows[0]] == _COLUMNS:
+        rows = rows[1:]
+    entries = []
+    for number, row in enumerate(rows, start=1):
+        if len(row) != len(_COLUMNS):
+            raise LutError(
+                "not_tsv",
+                f"{path.name}: entry {number}: expected term, tab, FSW; got {len(row)} columns",
+            )
+        entries.append(DictionaryEntry(term=row[0].strip(), fsw=row[1].strip(), number=number))
+    return entries

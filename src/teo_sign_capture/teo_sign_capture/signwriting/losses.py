@@ -1,0 +1,17 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What the compiler says of a sign: what is lost, or why it is refused."""
+
+from __future__ import annotations
+
+
+class UnreadableError(Exception):
+    """A sign that cannot be read.
+
+    Attributes:
+        code: Stable name of the reason, such as "movement".
+    """
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(message)
+        self.code = code
