@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -94,13 +95,14 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     """The mirror image of a sign, within the limits."""
     joints = tuple(mirrored_name(name) for name in sign.joints)
     knots = mirrored_positions(sign.joints, sign.knots)
+    alternatives = tuple(mirrored_positions(sign.joints, other) for other in sign.alternatives)
     place = turn = 0.0
     for side, arm in _ARMS.items():
         if not set(arm) <= set(joints):
             continue
         columns = [joints.index(name) for name in arm]
         limits = joint_limits(arm)
-        for row in knots:
+        for row in chain(knots, *alternatives):
             within = np.clip(row[columns], limits.lower, limits.upper)
             # An entry keeps six decimals: what is beyond by less is on the limit.
             if np.abs(within - row[columns]).max() > LIMIT_TOLERANCE:
@@ -117,6 +119,7 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
         handedness=_OTHER_HAND[sign.handedness],
         joints=joints,
         knots=knots,
+        alternatives=alternatives,
         provenance=sign.provenance.model_copy(update={"notes": notes}),
         quality={**sign.quality, **errors} if turn else sign.quality,
     )

@@ -29,6 +29,8 @@ class Sign:
         knots: Positions [rad], a column for each of `joints`. Shape (n, len(joints)), read-only.
         provenance: Where the sign came from.
         quality: Figures of the capture, by name.
+        alternatives: Other postures of the same sign that are read as well, for the planner to choose from:
+            each as `knots`, at the same times. Read-only.
     """
 
     gloss: str
@@ -40,6 +42,7 @@ class Sign:
     knots: NDArray[np.float64]
     provenance: Provenance
     quality: Mapping[str, float]
+    alternatives: tuple[NDArray[np.float64], ...] = ()
 
     @property
     def duration(self) -> float:

@@ -46,8 +46,9 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
     content = _Reader(Path(file)).read(text)
     times = np.array(content.times, dtype=np.float64)
     knots = np.array(content.knots, dtype=np.float64)
-    times.setflags(write=False)
-    knots.setflags(write=False)
+    alternatives = tuple(np.array(other, dtype=np.float64) for other in content.alternatives)
+    for array in (times, knots, *alternatives):
+        array.setflags(write=False)
     return Sign(
         gloss=content.gloss,
         language=content.language,
@@ -58,6 +59,7 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         knots=knots,
         provenance=content.provenance,
         quality=MappingProxyType(dict(content.quality)),
+        alternatives=alternatives,
     )
 
 
@@ -88,7 +90,10 @@ def format_sign(sign: Sign) -> str:
         "times": np.round(sign.times, _DECIMALS).tolist(),
     }
     lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
-    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign).tolist()]))
+    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign, sign.knots).tolist()]))
+    if sign.alternatives:
+        others = [_json(_rounded_within(sign, other).tolist()) for other in sign.alternatives]
+        lines.append(_block("alternatives", "[]", others))
     for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
     return "{\n" + ",\n".join(lines) + "\n}\n"
@@ -220,21 +225,26 @@ class _Reader:
                 self._refuse("times_not_increasing", f"times[{index}]", expected, f"{times[index]:g} s")
 
     def _check_knots(self, content: SignFile) -> None:
+        self._check_rows(content, "knots", content.knots)
+        for index, other in enumerate(content.alternatives):
+            self._check_rows(content, f"alternatives[{index}]", other)
+
+    def _check_rows(self, content: SignFile, field: str, given: list[list[float]]) -> None:
         rows, columns = len(content.times), len(content.joints)
-        if len(content.knots) != rows:
-            self._refuse("wrong_length", "knots", f"{rows} rows, one a time", f"{len(content.knots)}")
-        for index, row in enumerate(content.knots):
+        if len(given) != rows:
+            self._refuse("wrong_length", field, f"{rows} rows, one a time", f"{len(given)}")
+        for index, row in enumerate(given):
             if len(row) != columns:
                 expected = f"{columns} positions, one a joint"
-                self._refuse("wrong_length", f"knots[{index}]", expected, f"{len(row)}")
-        knots = np.array(content.knots, dtype=np.float64)
+                self._refuse("wrong_length", f"{field}[{index}]", expected, f"{len(row)}")
+        knots = np.array(given, dtype=np.float64)
         lower, upper = _bounds(content.joints)
         outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
         if outside.size:
             row_index, column = outside[0].tolist()
             expected = f"{content.joints[column]} within {lower[column]:.6f} .. {upper[column]:.6f} rad"
             got = f"{knots[row_index, column]:.6f} rad"
-            self._refuse("outside_limits", f"knots[{row_index}][{column}]", expected, got)
+            self._refuse("outside_limits", f"{field}[{row_index}][{column}]", expected, got)
 
 
 @functools.cache
@@ -249,17 +259,15 @@ def _bounds(joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]
     return lower, upper
 
 
-def _rounded_within(sign: Sign) -> NDArray[np.float64]:
+def _rounded_within(sign: Sign, knots: NDArray[np.float64]) -> NDArray[np.float64]:
     """Knots rounded for the file, inwards where the nearest digit lies beyond a limit that the knot keeps."""
-    rounded: NDArray[np.float64] = np.round(sign.knots, _DECIMALS)
+    rounded: NDArray[np.float64] = np.round(knots, _DECIMALS)
     if not set(sign.joints) <= set(_limits()) or rounded.ndim != 2 or not np.isfinite(rounded).all():
         return rounded  # refused by name when it is read
     lower, upper = _bounds(list(sign.joints))
     step = 10.0**-_DECIMALS
-    rounded = np.where(
-        (rounded > upper) & (sign.knots <= upper), np.round(rounded - step, _DECIMALS), rounded
-    )
-    return np.where((rounded < lower) & (sign.knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
+    rounded = np.where((rounded > upper) & (knots <= upper), np.round(rounded - step, _DECIMALS), rounded)
+    return np.where((rounded < lower) & (knots >= lower), np.round(rounded + step, _DECIMALS), rounded)
 
 
 def _short(value: object) -> str:

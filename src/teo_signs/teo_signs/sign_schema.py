@@ -23,6 +23,9 @@ Handedness = Literal["right", "left", "both"]
 # A file name may hold 255 bytes on the usual file systems, and a letter of a gloss takes up to 4 of them.
 MAX_GLOSS_LENGTH = 60
 
+# Planning time grows with the square of their number.
+MAX_ALTERNATIVES = 16
+
 
 def _gloss(value: str) -> str:
     if value != unicodedata.normalize("NFC", value):
@@ -105,6 +108,12 @@ class SignFile(BaseModel):
     knots: list[list[FiniteFloat]] = Field(
         min_length=1,
         description="A row for each time: the position [rad] of each of 'joints', in its order.",
+    )
+    alternatives: list[list[list[FiniteFloat]]] = Field(
+        default=[],
+        max_length=MAX_ALTERNATIVES,
+        description="Other postures of the same sign that are read as well, of which the planner takes the one "
+        "with the shortest way: each as 'knots', at the same times.",
     )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(
