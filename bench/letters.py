@@ -83,16 +83,22 @@ class Likeness:
 def measure() -> list[Figure]:
     """How many letters are most like their own recording, which are not, and which look alike."""
     found = likenesses()
-    right = sum(one.right for one in found)
-    wrong = [f"{one.letter} as {one.ranking[0]}" for one in found if not one.right]
-    alike = [f"{one.letter}/{name}" for one in found for name in one.look_alikes]
+    captured = [one for one in found if one.posture == 0]
+    # Letters have as many alternatives as were found for them; without one they are as captured.
+    played = list({one.letter: one for one in found}.values())
+    alike = dict.fromkeys(f"{one.letter}/{name}" for one in found for name in one.look_alikes)
     return [
-        Figure(
-            "letters whose played motion is most like their own recording",
-            f"{right} of {len(found)} (target {TARGET})" + (f"; not: {', '.join(wrong)}" if wrong else ""),
-        ),
+        Figure("letters most like their own recording, as captured", _count(captured)),
+        Figure("letters most like their own recording, in their last alternative", _count(played)),
         Figure("letters that the hand hardly separates", ", ".join(alike) or "none"),
     ]
+
+
+def _count(found: list[Likeness]) -> str:
+    """How many are right, and which are not."""
+    wrong = [f"{one.letter} as {one.ranking[0]}" for one in found if not one.right]
+    right = f"{len(found) - len(wrong)} of {len(found)} (target {TARGET})"
+    return right + (f"; not: {', '.join(wrong)}" if wrong else "")
 
 
 def likenesses() -> list[Likeness]:
@@ -131,7 +137,7 @@ def main() -> None:
     """Print what each letter is taken for, and which the hand cannot separate."""
     console = Console(width=160)  # thirty columns
     found = likenesses()
-    letters = [one.letter for one in found]
+    letters = list(found[0].distances)
     table = Table("TEO's", *letters, title="difference from each recording", box=SIMPLE_HEAD, padding=0)
     for one in found:
         nearest = one.ranking[0]
@@ -143,7 +149,7 @@ def main() -> None:
             else f"[dim]{one.distances[name]:.0f}[/]"
             for name in letters
         ]
-        table.add_row(f"[bold]{one.letter}[/]", *cells)
+        table.add_row(f"[bold]{one.letter}[/]{one.posture or ''}", *cells)
     console.print(table)
     for one in found:
         if not one.right:
@@ -151,8 +157,8 @@ def main() -> None:
     for one in found:
         if one.right and one.look_alikes:
             console.print(f"{one.letter} is hardly separated from {_differences(one)}")
-    right = sum(one.right for one in found)
-    console.print(f"{right} of {len(found)} are most like their own; target {TARGET}")
+    for name, some in (("as captured", 0), ("in their first alternative", 1)):
+        console.print(f"{name}: {_count([one for one in found if one.posture == some])}")
 
 
 def _differences(one: Likeness) -> str:

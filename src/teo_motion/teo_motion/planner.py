@@ -3,9 +3,9 @@
 """Plans sentences: tokens in, motion out.
 
 One walk: `Lexicon` finds the signs, `choose_postures` takes those of their postures that are the shortest way
-apart, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle
-limbs, has the waypoints timed (`SentenceTiming`) and leads the motion around the robot's body, `HeadOverlay`
-lays the head's gestures over it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
+apart, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle limbs, has the waypoints timed
+(`SentenceTiming`) and leads the motion around the robot's body, `HeadOverlay` lays the head's gestures over
+it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
 """
 
 from __future__ import annotations

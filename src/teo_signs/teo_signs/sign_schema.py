@@ -112,8 +112,8 @@ class SignFile(BaseModel):
     alternatives: list[list[list[FiniteFloat]]] = Field(
         default=[],
         max_length=MAX_ALTERNATIVES,
-        description="Other postures of the same sign that are read as well, of which the planner takes the one "
-        "with the shortest way: each as 'knots', at the same times.",
+        description="Other postures of the same sign that are read as well, of which the planner takes the "
+        "one with the shortest way: each as 'knots', at the same times.",
     )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(

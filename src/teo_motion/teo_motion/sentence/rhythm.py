@@ -29,8 +29,8 @@ class SigningStyle:
     # letter to letter must stop clearly for the letter to be told from the way to it.
     letter_hold: float = 0.3
 
-    # The last letter of a word stands still so many times as long [1]: it marks the end of the word, and tools
-    # of the field double it.
+    # The last letter of a word stands still so many times as long [1]: it marks the end of the word, and
+    # tools of the field double it.
     last_letter_hold: float = 2.0
 
     # Time for which the hands stay still between a spelled word and what follows it [s]: one gap more.

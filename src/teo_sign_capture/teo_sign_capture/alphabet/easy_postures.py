@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Postures of all letters, found together, between which TEO has the shortest way.
 
-At 50 deg/s on every joint, spelling takes as long as the slowest joint from letter to letter. Each letter may be
-moved a little, by one offset to the joints of all its knots (`LetterTolerance` says how far); the offsets of all
-letters are found in one linear program that makes the expected travel of the slowest joint least. Tolerances are
-curved, so that programs follow each other, each within a shorter distance of the last (sequential linear
-programming, F. Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
+At 50 deg/s on every joint, spelling takes as long as the slowest joint from letter to letter. Each letter may
+be moved a little, by one offset to the joints of all its knots (`LetterTolerance` says how far); the
+offsets of all letters are found in one linear program that makes the expected travel of the slowest joint
+least. Tolerances are curved, so that programs follow each other, each within a shorter distance of the last
+(sequential linear programming, F. Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from collections.abc import Mapping, Sequence
 from itertools import permutations
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.sparse import coo_matrix
 
@@ -27,8 +28,8 @@ from teo_signs.errors import LutError
 from teo_signs.likeness import SEEN_LENGTH, nearest_pairs
 from teo_signs.sign import Sign
 
-# Letters in a thousand of Spanish, counted over 8,000 lemmas and names of the project's lexicon; CH, LL and RR are
-# letters of their own, and none is left out.
+# Letters in a thousand of Spanish, counted over 8,000 lemmas and names of the project's lexicon; CH, LL and
+# RR are letters of their own, and none is left out.
 LETTER_FREQUENCY = {
     "A": 143, "B": 18, "C": 52, "CH": 4, "D": 36, "E": 97, "F": 11, "G": 18, "H": 5, "I": 90, "J": 6, "K": 1,
     "L": 41, "LL": 4, "M": 30, "N": 64, "Ñ": 2, "O": 97, "P": 26, "Q": 3, "R": 94, "RR": 4, "S": 44, "T": 53,
@@ -38,11 +39,12 @@ LETTER_FREQUENCY = {
 # [rad] Most by which a joint's offset changes in each program.
 _STEPS = np.radians([15.0, 15.0, 10.0, 7.0, 5.0, 3.0, 2.0, 1.0])
 
-# [rad] What being beyond a tolerance by its whole size costs, against the expected travel: nothing gained by it
-# is worth it, but a program that is infeasible would end the search.
+# [rad] What being beyond a tolerance by its whole size costs, against the expected travel: nothing gained
+# by it is worth it, but a program that is infeasible would end the search.
 _BEYOND = 10.0
 
-# Letters that are nearer than this are look-alikes [just seen differences]: what tells their hands apart stays.
+# Letters that are nearer than this are look-alikes [just seen differences]: what tells their hands apart
+# stays.
 _LOOK_ALIKE = 2.5
 
 
@@ -133,10 +135,10 @@ class _Rows:
 
     def __init__(self, columns: int) -> None:
         self._columns, self._height = columns, 0
-        self._entries: list[tuple[Array, Array, Array]] = []
+        self._entries: list[tuple[NDArray[np.intp], NDArray[np.intp], Array]] = []
         self._bounds: list[Array] = []
 
-    def add(self, blocks: Sequence[tuple[Array, Array]], bound: Array) -> None:
+    def add(self, blocks: Sequence[tuple[NDArray[np.intp], Array]], bound: Array) -> None:
         """Add rows whose sum of blocks, each for some columns, is at most a bound. Shape (r,)."""
         for columns, block in blocks:
             row, column = np.nonzero(block)

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How far a captured letter may be moved and still be read as itself.
 
-A letter is moved by one offset to the joints of all its knots, so that what moves in it moves on. It may turn its
-palm, shift its place and bend its fingers by tolerances; it stays most like its own recording, keeps the fingers
-apart that tell it from a look-alike, does not hide the face, and thumb and fingers do not meet more than they do.
+A letter is moved by one offset to the joints of all its knots, so that what moves in it moves on. It may turn
+its palm, shift its place and bend its fingers by tolerances; it stays most like its own recording, keeps the
+fingers apart that tell it from a look-alike, does not hide the face, and thumb and fingers do not meet more
+than they do.
 """
 
 from __future__ import annotations
@@ -27,15 +28,15 @@ from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.quality_figures import least_clearance
 from teo_signs.sign import Sign
 
-# [rad] The palm turns by this much about any axis: a little more than is just seen, less than half of the 45 deg
-# between a palm to the front and one half to the side.
+# [rad] The palm turns by this much about any axis: a little more than is just seen, less than half of the
+# 45 deg between a palm to the front and one half to the side.
 _TURN = np.radians(20.0)
 # [m] A letter has no place of its own; it stays within half a hand's length of where the signer made it.
 _SHIFT = 0.08
 # [m] The end of a finger or thumb is just seen to be elsewhere: the thickness of a finger.
 _BEND = 0.015
-# [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended finger
-# that bends is soon a hooked one.
+# [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended
+# finger that bends is soon a hooked one.
 _FOLDED_BEND, _FOLDED = 0.025, np.radians(60.0)
 # Own recording nearer than any other by this [just seen differences].
 _AHEAD = 0.2
@@ -45,10 +46,12 @@ _RIVAL, _RIVALS = 1.6, 6
 _MEETING = 0.03
 # [m] Other parts of TEO keep as far apart: letters as captured keep 25 mm.
 _CLEARANCE = 0.015
-# [rad], [rad/s], [s] Step of differences; TEO's joints, and what a letter is held (`SigningStyle.letter_hold`).
+# [rad], [rad/s], [s] Step of differences; TEO's joints, and what a letter is held
+# (`SigningStyle.letter_hold`).
 _STEP = 2e-3
 _SPEED, _RATE, _HOLD = np.radians(50.0), 25.0, 0.3
-# Sizes of what no tolerance bounds, by which being beyond is weighed: recognition [just seen], clearance, face [m].
+# Sizes of what no tolerance bounds, by which being beyond is weighed: recognition [just seen], clearance,
+# face [m].
 _RECOGNITION_SCALE, _MEETING_SCALE, _FACE_SCALE = 0.5, 0.01, 0.02
 # Of an offset that cannot be used whole, the shares that are tried.
 _SHARES = (1.0, 0.9, 0.8, 0.65, 0.5, 0.3)

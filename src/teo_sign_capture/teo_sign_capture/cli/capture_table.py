@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Commands that fill the look-up table: `capture_letters`, `ease_letters`, `capture_numbers`, `_demonstration`, `_scores`."""
+"""Commands that fill a table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`, `ease_letters`."""
 
 from __future__ import annotations
 
