@@ -47,19 +47,16 @@ def test_every_letter_has_an_easy_posture_of_the_same_movement() -> None:
     for letter, sign in letters().items():
         (other,) = sign.alternatives
         offset = other - sign.knots
-        np.testing.assert_allclose(
-            offset, np.broadcast_to(offset[0], offset.shape), atol=2e-6, err_msg=letter
-        )
+        same = np.broadcast_to(offset[0], offset.shape)
+        np.testing.assert_allclose(offset, same, atol=2e-6, err_msg=letter)
 
 
 def test_the_palm_is_turned_and_moved_by_little(robot: Robot) -> None:
     for letter, sign in letters().items():
         for row, other in zip(sign.knots, sign.alternatives[0], strict=True):
             palm, moved = (
-                robot.placement(
-                    robot.configuration(dict(zip(sign.joints, q.tolist(), strict=True))), "right_palm"
-                )
-                for q in (row, other)
+                robot.placement(robot.configuration(pose), "right_palm")
+                for pose in (dict(zip(sign.joints, q.tolist(), strict=True)) for q in (row, other))
             )
             turn = Rotation.from_matrix(palm[:3, :3].T @ moved[:3, :3]).magnitude()
             assert np.degrees(turn) < 30.0, letter
@@ -74,9 +71,7 @@ def test_extended_fingers_stay_extended_and_folded_ones_folded() -> None:
 
 
 def test_letters_that_look_alike_look_no_more_alike_in_any_posture(robot: Robot) -> None:
-    captured = nearest_pairs(
-        robot, [dataclasses.replace(sign, alternatives=()) for sign in letters().values()]
-    )
+    captured = nearest_pairs(robot, letters().values())
     for pair in captured[:8]:
         for first in (letters()[pair.first], eased(letters()[pair.first])):
             for second in (letters()[pair.second], eased(letters()[pair.second])):
@@ -125,9 +120,8 @@ def test_a_letter_is_within_its_own_tolerance_and_a_turned_hand_is_not(robot: Ro
     here = tolerance.linear(np.zeros(12), 0.1)
     assert ((here.lower <= 0.0) & (here.upper >= 0.0)).all()
     beyond = (-here.bound / here.scale).max()
-    assert beyond < (1e-6 if letter == "A" else 3.0), (
-        "F and T are captured more like S: that row alone is beyond"
-    )
+    # F and T are captured more like S: that row alone is beyond.
+    assert beyond < (1e-6 if letter == "A" else 3.0)
     turned = np.zeros(12)
     turned[4] = 0.6
     assert (tolerance.linear(turned, 0.1).matrix @ turned > tolerance.linear(turned, 0.1).bound).any()
