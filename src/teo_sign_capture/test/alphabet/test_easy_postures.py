@@ -71,12 +71,13 @@ def test_extended_fingers_stay_extended_and_folded_ones_folded() -> None:
 
 
 def test_letters_that_look_alike_look_no_more_alike_in_any_posture(robot: Robot) -> None:
-    captured = nearest_pairs(robot, letters().values())
-    for pair in captured[:8]:
+    alike = [pair for pair in nearest_pairs(robot, letters().values()) if pair.seen < 2.5]
+    assert len(alike) > 4
+    for pair in alike:
         for first in (letters()[pair.first], eased(letters()[pair.first])):
             for second in (letters()[pair.second], eased(letters()[pair.second])):
                 (now,) = nearest_pairs(robot, [first, second])
-                assert now.seen > pair.seen - 0.1, pair
+                assert now.seen > pair.seen - 0.01, pair
 
 
 def test_any_two_easy_postures_differ_by_more_than_is_just_seen(robot: Robot) -> None:
