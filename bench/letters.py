@@ -25,8 +25,8 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import sample_at
 from teo_motion.sentence.posture_choice import postures_of
 from teo_sign_capture.alphabet.letter_features import features, recorded_features
-from teo_sign_capture.entries.take_combination import warp
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
+from teo_sign_capture.time_warp import warp
 from teo_sign_capture.tracks.hand_model import measure_signer
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign

@@ -23,9 +23,9 @@ from teo_description.hand_geometry import DextraHand, thumb_clearances
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.letter_features import features
 from teo_sign_capture.alphabet.spelling_arm import spelling_bounds
-from teo_sign_capture.entries.take_combination import warp
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.quality_figures import least_clearance
+from teo_sign_capture.time_warp import warp
 from teo_signs.sign import Sign
 
 # [rad] The palm turns by this much about any axis: a little more than is just seen, less than half of the
