@@ -141,7 +141,7 @@ def _random_plans(numbers: range) -> Broken:
     refused, found = 0, []
     for _ in numbers:
         try:
-            found.append(_check(planner.plan(_random_tokens(generator, table))))
+            found.append(check(planner.plan(_random_tokens(generator, table))))
         except PlanError as error:
             if error.code != "self_collision":
                 raise RuntimeError(f"batch {numbers}: {error.code}") from error
@@ -150,7 +150,8 @@ def _random_plans(numbers: range) -> Broken:
     return Broken(len(numbers), refused, violations, *_worst(found))
 
 
-def _check(plan: Plan) -> Broken:
+def check(plan: Plan) -> Broken:
+    """What one plan does to the limits, also between its points."""
     limits = MotionLimits.of_robot()
     reached = [motion.extremes() for motion in plan.motions]
     position, velocity, acceleration = _interpolated(plan)

@@ -18,6 +18,7 @@ import retriever_accuracy
 import retriever_node
 import retriever_robustness
 import robot_model
+import spelling
 import text_to_trajectory
 import translation
 from rich.console import Console
@@ -29,6 +30,7 @@ BENCHES = (
     planning,
     lexicon,
     letters,
+    spelling,
     lifting,
     driver_rate,
     translation,

@@ -46,6 +46,7 @@ setup(
             "capture_node = teo_sign_capture.node.capture_node:main",
             "capture_numbers = teo_sign_capture.cli.capture_table:numbers_main",
             "capture_scores = teo_sign_capture.cli.capture_table:scores_main",
+            "ease_letters = teo_sign_capture.cli.capture_table:ease_letters_main",
             "perform_scores = teo_sign_capture.cli.perform_scores:main",
         ],
         "teo_lut_executor.lut_commands": [

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plans sentences: tokens in, motion out.
 
-One walk: `Lexicon` finds the signs, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle
-limbs, has the waypoints timed (`SentenceTiming`) and leads the motion around the robot's body, `HeadOverlay`
-lays the head's gestures over it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
+One walk: `Lexicon` finds the signs, `choose_postures` takes those of their postures that are the shortest way
+apart, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle limbs, has the waypoints timed
+(`SentenceTiming`) and leads the motion around the robot's body, `HeadOverlay` lays the head's gestures over
+it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from teo_motion.head.overlay import HeadOverlay
 from teo_motion.sentence.composition import REST, compose
 from teo_motion.sentence.head_gestures import head_gestures
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.posture_choice import choose_postures
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
 from teo_motion.sentence.timing import SentenceTiming
@@ -116,8 +118,8 @@ class Planner:
             PlanError: The sentence cannot be signed; the code says why.
         """
         check_form(form)
-        signed = self._lexicon.resolve(tokens)
         begin = self._checked(start)
+        signed = choose_postures(self._lexicon.resolve(tokens), start=begin.position, limits=self.limits)
         composition = compose(signed, start=begin, limits=self.limits, style=self.style.for_form(form))
         plan = self._avoidance.plan(composition)
         return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))

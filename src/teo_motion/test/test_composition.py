@@ -66,19 +66,18 @@ def test_letters_are_held_and_the_last_of_a_word_longer(table: Mapping[str, Sign
     assert holds == pytest.approx([single, last, single, last, single, last])
 
 
-def test_a_hold_that_the_sign_has_itself_counts(
-    table: Mapping[str, Sign], make_sign: Callable[..., Sign]
+@pytest.mark.parametrize("recorded", [0.0, 0.2, 1.2])
+def test_a_letter_is_held_alike_however_long_its_recording_holds_it(
+    table: Mapping[str, Sign], make_sign: Callable[..., Sign], recorded: float
 ) -> None:
-    knots = table["A"].knots[[0, 0, 0]]
+    knots = table["A"].knots[[0, 0, 0]][: 3 if recorded else 2]
     knots[0, 4] += 0.2
-    own = {"B": make_sign("B", knots, [0.0, 0.3, 0.5], kind="letter")}
-    composition = composed(own | dict(table), "B-A")
-    assert composition.spans[0].asked == pytest.approx(0.3 + STYLE.letter_hold)
-    long = {"B": make_sign("B", knots, [0.0, 0.3, 1.5], kind="letter")}
-    assert composed(long | dict(table), "B-A").spans[0].asked == pytest.approx(1.5)
-    assert composed(long | dict(table), "B").spans[0].asked == pytest.approx(
-        0.3 + 1.2 * STYLE.last_letter_hold
-    )
+    own = {"B": make_sign("B", knots, [0.0, 0.3, 0.3 + recorded][: len(knots)], kind="letter")} | {
+        gloss: sign for gloss, sign in table.items() if gloss != "B"
+    }
+    assert composed(own, "B-A").spans[0].asked == pytest.approx(0.3 + STYLE.letter_hold)
+    last = 0.3 + STYLE.letter_hold * STYLE.last_letter_hold
+    assert composed(own, "A-B").spans[1].asked == pytest.approx(last)
 
 
 def test_the_hands_stay_a_little_after_a_spelled_word(table: Mapping[str, Sign]) -> None:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -94,10 +95,14 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     """The mirror image of a sign, within the limits."""
     joints = tuple(mirrored_name(name) for name in sign.joints)
     knots, errors = _mirrored_knots(robot, sign.joints, joints, sign.knots)
-    forms = {}
+    forms, alternatives = {}, []
     for inflection, form in sign.forms.items():
         rows, more = _mirrored_knots(robot, sign.joints, joints, form.knots)
         forms[inflection] = replace(form, knots=rows)
+        errors = np.maximum(errors, more)
+    for other in sign.alternatives:
+        rows, more = _mirrored_knots(robot, sign.joints, joints, other)
+        alternatives.append(rows)
         errors = np.maximum(errors, more)
     place, turn = errors.tolist()
     figures = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
@@ -107,6 +112,7 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
         handedness=_OTHER_HAND[sign.handedness],
         joints=joints,
         knots=knots,
+        alternatives=tuple(alternatives),
         provenance=sign.provenance.model_copy(update={"notes": notes}),
         quality={**sign.quality, **figures} if turn else sign.quality,
         forms=forms,

@@ -45,6 +45,8 @@ class Sign:
         quality: Figures of the capture, by name.
         forms: Inflected forms by inflection: "2>1" from the addressee to the signer, "CABEZA" at the head.
             What `times` and `knots` hold is the citation form.
+        alternatives: Other postures of the same sign that are read as well, for the planner to choose from:
+            each as `knots`, at the same times. Read-only.
     """
 
     gloss: str
@@ -57,6 +59,7 @@ class Sign:
     provenance: Provenance
     quality: Mapping[str, float]
     forms: Mapping[str, Form] = field(default_factory=lambda: MappingProxyType({}))
+    alternatives: tuple[NDArray[np.float64], ...] = ()
 
     @property
     def duration(self) -> float:
@@ -68,9 +71,12 @@ class Sign:
         return dict(zip(self.joints, self.knots[knot].tolist(), strict=True))
 
     def inflected(self, inflection: str) -> Sign:
-        """The sign in one of its forms; as it is if it has no such form, or none is asked for ("")."""
+        """The sign in one of its forms; as it is if it has no such form, or none is asked for ("").
+
+        A form has no `alternatives`: they are postures of the citation form.
+        """
         form = self.forms.get(inflection)
-        return self if form is None else replace(self, times=form.times, knots=form.knots)
+        return self if form is None else replace(self, times=form.times, knots=form.knots, alternatives=())
 
 
 def gloss_key(gloss: str) -> str:

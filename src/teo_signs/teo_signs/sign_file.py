@@ -59,6 +59,7 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         provenance=content.provenance,
         quality=MappingProxyType(dict(content.quality)),
         forms=MappingProxyType(forms),
+        alternatives=tuple(_array(other) for other in content.alternatives),
     )
 
 
@@ -97,6 +98,9 @@ def format_sign(sign: Sign) -> str:
             f"{_json(inflection)}: {_form(sign.joints, form)}" for inflection, form in sign.forms.items()
         ]
         lines.append(_block("forms", "{}", forms))
+    if sign.alternatives:
+        others = [_json(_rounded_within(sign.joints, other).tolist()) for other in sign.alternatives]
+        lines.append(_block("alternatives", "[]", others))
     for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
     return "{\n" + ",\n".join(lines) + "\n}\n"
@@ -146,11 +150,13 @@ class _Reader:
         self._check_motion(content.joints, content, "")
         for inflection, form in content.forms.items():
             self._check_motion(content.joints, form, f"forms.{inflection}.")
+        for index, other in enumerate(content.alternatives):
+            self._check_rows(content.joints, content.times, other, f"alternatives[{index}]")
         return content
 
     def _check_motion(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
         self._check_times(motion.times, field)
-        self._check_knots(joints, motion, field)
+        self._check_rows(joints, motion.times, motion.knots, f"{field}knots")
 
     def _refuse(self, code: str, field: str, expected: str, got: str) -> NoReturn:
         place = f"{self._name}: {field}" if field else self._name
@@ -234,22 +240,21 @@ class _Reader:
                     "times_not_increasing", f"{field}times[{index}]", expected, f"{times[index]:g} s"
                 )
 
-    def _check_knots(self, joints: list[str], motion: SignFile | FormFile, field: str) -> None:
-        rows, columns = len(motion.times), len(joints)
-        if len(motion.knots) != rows:
-            self._refuse("wrong_length", f"{field}knots", f"{rows} rows, one a time", f"{len(motion.knots)}")
-        for index, row in enumerate(motion.knots):
-            if len(row) != columns:
-                expected = f"{columns} positions, one a joint"
-                self._refuse("wrong_length", f"{field}knots[{index}]", expected, f"{len(row)}")
-        knots = np.array(motion.knots, dtype=np.float64)
+    def _check_rows(self, joints: list[str], times: list[float], given: list[list[float]], field: str) -> None:
+        if len(given) != len(times):
+            self._refuse("wrong_length", field, f"{len(times)} rows, one a time", f"{len(given)}")
+        for index, row in enumerate(given):
+            if len(row) != len(joints):
+                expected = f"{len(joints)} positions, one a joint"
+                self._refuse("wrong_length", f"{field}[{index}]", expected, f"{len(row)}")
+        knots = np.array(given, dtype=np.float64)
         lower, upper = _bounds(joints)
         outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
         if outside.size:
             row_index, column = outside[0].tolist()
             expected = f"{joints[column]} within {lower[column]:.6f} .. {upper[column]:.6f} rad"
             got = f"{knots[row_index, column]:.6f} rad"
-            self._refuse("outside_limits", f"{field}knots[{row_index}][{column}]", expected, got)
+            self._refuse("outside_limits", f"{field}[{row_index}][{column}]", expected, got)
 
 
 @functools.cache

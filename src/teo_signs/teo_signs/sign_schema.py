@@ -23,6 +23,9 @@ Handedness = Literal["right", "left", "both"]
 # A file name may hold 255 bytes on the usual file systems, and a letter of a gloss takes up to 4 of them.
 MAX_GLOSS_LENGTH = 60
 
+# Planning time grows with the square of their number.
+MAX_ALTERNATIVES = 16
+
 
 def _gloss(value: str) -> str:
     if value != unicodedata.normalize("NFC", value):
@@ -125,6 +128,12 @@ class SignFile(BaseModel):
         default={},
         description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee "
         "to the signer, 'CABEZA' at the head. May be left out.",
+    )
+    alternatives: list[list[list[FiniteFloat]]] = Field(
+        default=[],
+        max_length=MAX_ALTERNATIVES,
+        description="Other postures of the same sign that are read as well, of which the planner takes the "
+        "one with the shortest way: each as 'knots', at the same times.",
     )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(

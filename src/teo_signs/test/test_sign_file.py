@@ -130,6 +130,11 @@ WRONG = [
     ("wrong_length", "knots", lambda c: c.update(knots=[[-0.5, 0.2]])),
     ("wrong_length", "knots[1]", lambda c: c.update(knots=[[-0.5, 0.2], [-1.0]])),
     ("wrong_length", "knots[1]", lambda c: c.update(knots=[[-0.5, 0.2], [-1.0, 0.2, 0.0]])),
+    ("wrong_length", "alternatives[0]", lambda c: c.update(alternatives=[[[-0.5, 0.2]]])),
+    ("wrong_length", "alternatives[0][1]", lambda c: c.update(alternatives=[[[-0.5, 0.2], [-1.0]]])),
+    ("outside_limits", "alternatives[0][0][0]", lambda c: c.update(alternatives=[[[9.0, 0.2]] * 2])),
+    ("bad_type", "alternatives", lambda c: c.update(alternatives=3)),
+    ("bad_value", "alternatives", lambda c: c.update(alternatives=[c["knots"]] * 17)),
     ("outside_limits", "knots[1][0]", lambda c: c.update(knots=[[-0.5, 0.2], [-2.0, 0.2]])),
     ("outside_limits", "knots[0][1]", lambda c: c.update(knots=[[-0.5, 0.0], [-1.0, 0.2]])),
     ("bad_value", "provenance.created", lambda c: c["provenance"].update(created="2025-02-30")),
@@ -220,6 +225,15 @@ def test_a_saved_sign_is_in_the_table_whole_and_alone(tmp_path: Path) -> None:
     assert path == tmp_path / "new" / "TÚ.json"
     assert [file.name for file in path.parent.iterdir()] == ["TÚ.json"]
     assert read_sign(path).pose(1) == {"FrontalRightElbow": -1.0, "RightIndexFinger": 0.2}
+
+
+def test_alternatives_are_kept_and_an_entry_without_them_has_none(tmp_path: Path) -> None:
+    other = [[-0.4, 0.3], [-0.9, 0.3]]
+    sign = parse_sign(json.dumps(entry() | {"alternatives": [other]}), file="TÚ.json")
+    (kept,) = read_sign(save_sign(tmp_path, sign)).alternatives
+    np.testing.assert_array_equal(kept, other)
+    assert not kept.flags.writeable
+    assert parse_sign(json.dumps(entry()), file="TÚ.json").alternatives == ()
 
 
 def test_an_entry_is_not_replaced_unless_told(tmp_path: Path) -> None:

@@ -57,7 +57,7 @@ PARAMETERS = (
     _row("max_duration", DEFAULT_MAX_DURATION, 1.0, 600.0, "Longest sentence that is signed [s]."),
     # Style.
     _row("transition", _STYLE.transition, 0.0, 5.0, "Least time between two signs [s]."),
-    _row("letter_hold", _STYLE.letter_hold, 0.0, 5.0, "Least time for which a letter stands still [s]."),
+    _row("letter_hold", _STYLE.letter_hold, 0.0, 5.0, "Time for which a letter or number stands still [s]."),
     _row(
         "last_letter_hold",
         _STYLE.last_letter_hold,

@@ -147,6 +147,12 @@ def _same_word(item: SignedToken, following: SignedToken | None) -> bool:
     )
 
 
+def _stands_still(sign: Sign) -> float:
+    """How long a sign itself holds its last posture [s]."""
+    moving = np.flatnonzero(np.abs(sign.knots - sign.knots[-1]).max(axis=1) > _STILL)
+    return sign.duration - float(sign.times[moving[-1] + 1]) if moving.size else sign.duration
+
+
 class _Composer:
     """Adds waypoint after waypoint, and remembers where each limb was last."""
 
@@ -172,15 +178,19 @@ class _Composer:
         first = len(self._rows) - 1
         scale = token.duration_scale
         was_moving = False
-        for row, step in zip(rows[1:], np.diff(sign.times), strict=True):
+        still = _stands_still(sign)
+        if token.spelled:  # held by `letter_hold` instead, whatever the recording has
+            rows = rows[: int(np.searchsorted(sign.times, sign.duration - still, side="right"))]
+        for row, step in zip(rows[1:], np.diff(sign.times), strict=False):
             moves = bool(np.abs(row - self._posture).max() > _STILL)
             self._fix(float(step) * scale, row, limbs, same_stroke=moves and was_moving)
             was_moving = moves
         self._used = limbs
         self._signs += 1
-        hold = self._hold(token, sign, ends_word=ends_word, ends_sentence=ends_sentence) * scale
-        self.stay(hold)
-        asked = sign.duration * scale + hold
+        kept = 0.0 if token.spelled else still
+        hold = self._hold(token, sign, ends_word=ends_word, ends_sentence=ends_sentence)
+        self.stay(max(0.0, hold - kept) * scale)
+        asked = (sign.duration - still + max(hold, kept)) * scale
         self._spans.append(TokenSpan(token=token, first=first, last=len(self._rows) - 1, asked=asked))
 
     def add_pause(self, token: Token) -> None:
@@ -250,17 +260,14 @@ class _Composer:
         return rows, tuple(sorted(moved | held))
 
     def _hold(self, token: Token, sign: Sign, *, ends_word: bool, ends_sentence: bool) -> float:
-        """How long the last knot is held beyond what the sign itself holds it [s], at a scale of 1."""
-        moving = np.flatnonzero(np.abs(sign.knots - sign.knots[-1]).max(axis=1) > _STILL)
-        still = sign.duration - float(sign.times[moving[-1] + 1]) if moving.size else sign.duration
+        """How long the last posture is held in all [s], at a scale of 1."""
+        still = _stands_still(sign)
         hold = still
         if token.spelled:
-            hold = max(still, self._style.letter_hold) * (self._style.last_letter_hold if ends_word else 1.0)
-        elif not moving.size:
+            hold = self._style.letter_hold * (self._style.last_letter_hold if ends_word else 1.0)
+        elif still == sign.duration:
             hold = max(still, self._style.posture_hold)
-        if ends_sentence:
-            hold = max(hold, self._style.final_hold)
-        return max(0.0, hold - still)
+        return max(hold, self._style.final_hold) if ends_sentence else hold
 
     def _looks_the_same(self, posture: NDArray[np.float64], limbs: tuple[int, ...]) -> bool:
         columns = [column for limb in limbs for column in LIMBS[limb]]

@@ -23,15 +23,15 @@ class SigningStyle:
     # longer, so this is a lower bound that short moves keep.
     transition: float = 0.125
 
-    # Least time for which a letter or number stands still [s]. Signers take 0.26 s for a letter with its
-    # transition; deaf testers of spelling animations asked for longer holds, and a hand that takes about a
-    # second from letter to letter must stop clearly for the letter to be told from the way to it.
+    # Time for which a letter or number stands still in its last posture [s], however long its recording does:
+    # single letters are recorded held for 0.5 to 0.9 s. Signers take 0.26 s for a letter with its transition;
+    # deaf testers of spelling animations asked for longer holds, and a hand that takes about a second from
+    # letter to letter must stop clearly for the letter to be told from the way to it.
     letter_hold: float = 0.3
 
-    # The last letter of a word stands still so many times as long as the sign has it, or as `letter_hold`
-    # [1]: it marks the end of the word. Tools of the field double it; recorded letters stand still for 0.5 to
-    # 0.9 s already, of which half as much again is seen.
-    last_letter_hold: float = 1.5
+    # The last letter of a word stands still so many times as long [1]: it marks the end of the word, and
+    # tools of the field double it.
+    last_letter_hold: float = 2.0
 
     # Time for which the hands stay still between a spelled word and what follows it [s]: one gap more.
     word_pause: float = 0.125

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Commands that fill the look-up table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`."""
+"""Commands that fill a table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`, `ease_letters`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from rich.console import Console
 
 from teo_description.robot import Robot
 from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 
@@ -45,6 +46,30 @@ def capture_letters(
         _fail(LutError("unknown_letter", message))
     alphabet = read_alphabet(robot, clips)
     _save((capture_letter(robot, alphabet, letter) for letter in only or clips), out, replace=replace)
+
+
+def ease_letters(
+    lut: Annotated[Path, typer.Option(help="Directory of the table whose letters get easy postures.")],
+) -> None:
+    """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
+    from teo_sign_capture.alphabet import easy_postures
+    from teo_sign_capture.alphabet.letter_features import recorded_features
+    from teo_sign_capture.alphabet.letter_tolerance import LetterTolerance
+    from teo_sign_capture.alphabet.letters import read_alphabet
+    from teo_sign_capture.recordings.letter_clips import load_letter_clips
+
+    robot = Robot.load()
+    try:
+        table, clips = Lut.open(lut), load_letter_clips()
+        scale = read_alphabet(robot, clips).scale
+        recordings = {letter: recorded_features(clip, scale) for letter, clip in clips.items()}
+        letters = {letter: table[letter] for letter in clips if letter in table}
+        tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
+        offsets = easy_postures.ease_letters(robot, tolerances)
+    except LutError as error:
+        _fail(error)
+    eased = (easy_postures.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
+    _save(eased, lut, replace=True)
 
 
 def capture_numbers(out: Out, replace: Replace = False) -> None:
@@ -109,6 +134,11 @@ def capture_scores(
 def letters_main() -> None:
     """Run `capture_letters`."""
     _run(capture_letters)
+
+
+def ease_letters_main() -> None:
+    """Run `ease_letters`."""
+    _run(ease_letters)
 
 
 def numbers_main() -> None:

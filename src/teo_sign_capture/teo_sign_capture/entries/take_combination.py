@@ -3,15 +3,14 @@
 """Several takes of one sign become one motion: those that agree are averaged, or the best is chosen.
 
 Takes are compared by what the robot shows: where each palm is, how hand and fingers are directed, and how the
-fingers are bent, in units that people just tell apart; time is warped (dynamic time warping, Sakoe and Chiba
-1978), as nobody signs twice at the same pace.
+fingers are bent, in units that people just tell apart; time is warped (`time_warp`), as nobody signs
+twice at the same pace.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +19,7 @@ from scipy.ndimage import gaussian_filter1d
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion
+from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 
 # [m] Unit of places: two fingers' breadth.
@@ -58,13 +58,6 @@ class Combined:
     leader: int
     used: tuple[int, ...]
     reason: str
-
-
-class Warp(NamedTuple):
-    """How two motions correspond: mean distance along the way [unit], and pairs of frames, shape (p, 2)."""
-
-    distance: float
-    pairs: NDArray[np.int64]
 
 
 def combine(robot: Robot, motions: Sequence[RobotMotion], names: Sequence[str]) -> Combined:
@@ -154,27 +147,6 @@ def features(robot: Robot, motion: RobotMotion) -> Array:
         bends[:, 0] = pose[fingers] / _TURN
         rows.append(np.concatenate([np.array(row), bends]))
     return np.array(rows)
-
-
-def warp(first: Array, second: Array) -> Warp:
-    """Align two motions in time; frames are as far apart as what differs most. Shapes (n, f, 3) each."""
-    cost = np.linalg.norm(first[:, None] - second[None], axis=3).max(axis=2)
-    total = np.full((len(first) + 1, len(second) + 1), np.inf)
-    total[0, 0] = 0.0
-    for row in range(len(first)):
-        for column in range(len(second)):
-            before = min(total[row, column], total[row, column + 1], total[row + 1, column])
-            total[row + 1, column + 1] = cost[row, column] + before
-    row, column = len(first) - 1, len(second) - 1
-    pairs = [(row, column)]
-    while row or column:
-        steps = ((row - 1, column - 1), (row - 1, column), (row, column - 1))
-        row, column = min(
-            steps, key=lambda step: total[step[0] + 1, step[1] + 1] if min(step) >= 0 else np.inf
-        )
-        pairs.append((row, column))
-    path = np.array(pairs[::-1], dtype=np.int64)
-    return Warp(float(cost[path[:, 0], path[:, 1]].mean()), path)
 
 
 def _hands(motion: RobotMotion) -> tuple[str, ...]:

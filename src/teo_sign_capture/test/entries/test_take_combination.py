@@ -12,8 +12,9 @@ import pytest
 from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_sign_capture.entries.take_combination import combine, warp
+from teo_sign_capture.entries.take_combination import combine
 from teo_sign_capture.retarget.robot_motion import RobotMotion
+from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 
 NAMES = ("one", "two", "three", "four", "five")
