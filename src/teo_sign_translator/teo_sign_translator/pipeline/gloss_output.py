@@ -13,10 +13,8 @@ from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.hypothesis_repair import Repaired
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.names import is_persons_name
 from teo_sign_translator.text.source_words import SourceWord
-
-# Tags of people's names; names of places have signs, or are spelled like any other word.
-_PEOPLE = ("NAME", "NAME:m", "NAME:f")
 
 # Behind it stands a name: "me llamo rosa" is MI NOMBRE R-O-S-A.
 _NAME_GLOSS = "NOMBRE"
@@ -79,10 +77,10 @@ def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bo
         meant: Their readings that have this gloss, the likeliest first.
         named: Whether it follows the sign for "name"; then any word that may be a name is one.
     """
-    if named and any(reading.tag in (*_PEOPLE, "X") for reading in meant):
+    if named and any(is_persons_name(reading) or reading.tag == "X" for reading in meant):
         return True
-    listed = any(reading.tag in _PEOPLE and reading.exact for reading in meant)
-    return bool(meant) and (meant[0].tag in _PEOPLE or (listed and any(word.capital for word in words)))
+    listed = any(is_persons_name(reading) and reading.exact for reading in meant)
+    return bool(meant) and (is_persons_name(meant[0]) or (listed and any(word.capital for word in words)))
 
 
 def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
