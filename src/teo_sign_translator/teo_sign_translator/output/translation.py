@@ -33,6 +33,9 @@ class Origin(IntEnum):
     REPAIRED = 6
     WORD_LIST = 7
     PAUSE = 8
+    PARAPHRASE = 9
+    HYPERNYM = 10
+    DRAFT = 11
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

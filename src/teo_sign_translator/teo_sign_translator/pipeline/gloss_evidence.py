@@ -89,7 +89,7 @@ class GlossEvidence:
         """Places of the glosses that no word is evidence for.
 
         Besides those listed: of PASADO beside a verb that is now, and of a word said twice that is there
-        once and no plural.
+        once.
 
         Args:
             words: Of the sentence.
@@ -102,7 +102,7 @@ class GlossEvidence:
             for place, gloss in enumerate(glosses)
             if (self._lacks_evidence(gloss.gloss, readings) and not _unsure(gloss, words))
             or (gloss.gloss == _PAST and _present(glosses[place:], meant))
-            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words, readings))
+            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words))
         ]
 
     def _lacks_evidence(self, gloss: str, readings: Sequence[Reading]) -> bool:
@@ -137,12 +137,11 @@ def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]])
 
 
 def _said_again(
-    place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord], readings: Sequence[Reading]
+    place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord]
 ) -> bool:
-    """Whether a gloss was said before for the same word, and not because it is a plural.
+    """Whether a gloss was said before for the same word.
 
-    A plural is the noun twice, one sign after the other. What is denied may be said of the same subject again
-    ("no somos médicos, somos profesores").
+    What is denied may be said of the same subject again ("no somos médicos, somos profesores").
     """
     gloss = glosses[place]
     again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
@@ -151,11 +150,10 @@ def _said_again(
     said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
     if len(said) != 1:
         return False
-    if again[-1] < place - 1:
-        denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
-        return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
-    tags = [reading.tag for reading in readings if copied_gloss(reading) == gloss.gloss]
-    return bool(tags) and all(tag.startswith(("N:", "A:")) and tag.endswith("s") for tag in tags)
+    if again[-1] == place - 1:
+        return True
+    denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
+    return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
 
 
 def _listed(text: str) -> list[str]:

@@ -35,7 +35,7 @@ def gloss_output_words(
     result: list[OutputWord] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
         named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
-        origin = Origin.REPAIRED if repaired else Origin.MODEL
+        origin = Origin.DRAFT if said.drafted else Origin.REPAIRED if repaired else Origin.MODEL
         own_words = _output_words(words, gloss, origin, own, named=named)
         result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
         if place in pauses:

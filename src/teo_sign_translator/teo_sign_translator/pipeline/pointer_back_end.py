@@ -13,9 +13,11 @@ from teo_sign_translator.lstm256.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
+from teo_sign_translator.pipeline.drafted import Drafter
 from teo_sign_translator.pipeline.gloss_output import gloss_output_words
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair, Repaired, as_said
 from teo_sign_translator.pipeline.long_sentences import parts, pieces
+from teo_sign_translator.pipeline.trust import is_trusted
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.text.reading import Clause
 from teo_sign_translator.text.sentence_type import SentenceType
@@ -57,6 +59,7 @@ class PointerBackEnd:
         model: SentenceModel,
         morphology: Morphology,
         repair: HypothesisRepair,
+        drafter: Drafter,
         taught: Phrasebook,
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
@@ -67,6 +70,7 @@ class PointerBackEnd:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
             repair: Chooses among the model's translations and mends the one it chooses.
+            drafter: Translates by rule what the model is not to be trusted with.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
             beam_width: Translations that the model weighs against each other, at least 1.
@@ -74,6 +78,7 @@ class PointerBackEnd:
         self._model = model
         self._morphology = morphology
         self._repair = repair
+        self._drafter = drafter
         self._taught = taught
         self._beam_width = beam_width
 
@@ -98,10 +103,13 @@ class PointerBackEnd:
         ]
 
     def _say(self, every: Sequence[_Part]) -> list[Repaired]:
-        """Translate parts; those that lose words piece by piece, if that loses fewer."""
+        """Translate parts; drafts of those that the model is not to be trusted with.
+
+        Of the others those that lose words are translated piece by piece, if that loses fewer.
+        """
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            self._as_taught(part, hypotheses) or self._repair.repair(part.words, hypotheses)
+            self._as_taught(part, hypotheses) or self._trusted(part.words, hypotheses)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -111,11 +119,23 @@ class PointerBackEnd:
         ]
         again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
         for index, own in divided.items():
-            translated = [(piece, self._repair.repair(*next(again))) for piece in own]
+            translated = [(piece, self._mended(*next(again))) for piece in own]
             together = self._repair.join(every[index].words, translated)
             if sum(together.repaired) < sum(result[index].repaired):
                 result[index] = together
         return result
+
+    def _trusted(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
+        """The best hypothesis, mended, or a draft where that is better."""
+        best = self._repair.best(words, hypotheses)
+        draft = self._drafter.draft(words)
+        count = sum(not word.is_mark for word in words)
+        if is_trusted(best.glosses, draft, faults=best.faults, words=count):
+            return self._repair.repair(words, best)
+        return Repaired(draft, (False,) * len(draft), drafted=True)
+
+    def _mended(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
+        return self._repair.repair(words, self._repair.best(words, hypotheses))
 
     def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Repaired | None:
         """The translation that was taught; if it is not among the first, looked for among more."""
@@ -180,7 +200,7 @@ def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Repaired | 
             gloss.gloss == expected or expected in SLOTS
             for gloss, expected in zip(hypothesis.glosses, taught.glosses, strict=True)
         ):
-            return as_said(hypothesis)
+            return as_said(hypothesis.glosses)
     return None
 
 

@@ -21,6 +21,7 @@ from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
 from teo_sign_translator.output.spelling import unsignable
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
+from teo_sign_translator.pipeline.drafted import Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
@@ -104,7 +105,7 @@ class Translator:
             morphology = Morphology.load()
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
-                model, morphology, HypothesisRepair.load(), taught, beam_width=beam_width
+                model, morphology, HypothesisRepair.load(), Drafter.load(), taught, beam_width=beam_width
             )
             return cls(back_end, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
         back_end = LstmBackEnd(load_model(name, directory), taught, glosses, name=name)
