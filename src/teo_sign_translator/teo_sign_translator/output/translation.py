@@ -72,6 +72,7 @@ class Sentence:
         negated: Whether it holds a negation.
         tokens: At least one.
         uncertain: Whether its confidence is below the threshold of the translator.
+        dropped: Words of the text, as typed, that no token stands for: articles, prepositions and the like.
     """
 
     text: str
@@ -79,6 +80,7 @@ class Sentence:
     negated: bool
     tokens: tuple[Token, ...]
     uncertain: bool
+    dropped: tuple[str, ...] = ()
 
     @property
     def confidence(self) -> float:
@@ -121,6 +123,7 @@ class Translation:
                     "negated": sentence.negated,
                     "confidence": round(sentence.confidence, 4),
                     "uncertain": sentence.uncertain,
+                    "dropped": list(sentence.dropped),
                     "tokens": [
                         {
                             "gloss": token.gloss,

@@ -251,7 +251,7 @@ def _subject(
     front: list[_Item] = []
     for place in places:
         tag = meant[place].tag
-        if not tag.startswith(_FINITE):
+        if not tag.startswith(_FINITE) or not meant[place].exact:  # a guess names nobody
             continue
         person = "" if tag.startswith("V:imp") else tag[-2:]
         requests = asks and meant[place].lemma == "poder"

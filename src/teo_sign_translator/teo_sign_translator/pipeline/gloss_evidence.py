@@ -20,6 +20,9 @@ from teo_sign_translator.text.source_words import SourceWord
 _NONE = "-"
 _PAST = "PASADO"
 _NOT = "NO"
+# Tags of words behind which a noun comes, and of what then cannot stand there.
+_NOMINAL = ("PREP", "DET:def", "DET:poss")
+_VERBAL = ("V:ind", "V:cond", "V:sub", "V:imp", "PRON:obj", "PRON:refl")
 _PAST_TAGS = ("V:ind:pret:", "V:ind:impf:")
 #: Subjects that a verb's ending says, and its person: "llego" may be "llegó", but not the past of YO.
 _PERSONS = {"YO": "1s", "TÚ": "2s", "NOSOTROS": "1p", "VOSOTROS": "2p"}
@@ -118,9 +121,19 @@ def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
 
 
 def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
-    """Readings of each word; if the sentence has accents, only those written as the word is typed."""
+    """Readings of each word; if the sentence has accents, only those written as the word is typed.
+
+    Behind a preposition or an article stands no finite verb, and behind a preposition no pronoun that a verb
+    has before it: nobody is named by "la" and "baja" in "por la baja".
+    """
     accents = any(word.form != fold(word.form) for word in words)
-    return [[reading for reading in word.readings if reading.exact or not accents] for word in words]
+    result: list[list[Reading]] = []
+    for word in words:
+        readings = [reading for reading in word.readings if reading.exact or not accents]
+        if result and result[-1] and all(each.tag.startswith(_NOMINAL) for each in result[-1]):
+            readings = [each for each in readings if not each.tag.startswith(_VERBAL)] or readings
+        result.append(readings)
+    return result
 
 
 def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.output.output_words import PAUSE, OutputWord, lexical, number, unclaimed
+from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, lexical, number
 from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.hypothesis_repair import Repaired
 from teo_sign_translator.pointer import OutputGloss
@@ -23,14 +23,14 @@ _NAME_GLOSS = "NOMBRE"
 def gloss_output_words(
     words: Sequence[SourceWord], said: Repaired, signed: Collection[str]
 ) -> list[OutputWord]:
-    """Glosses as output words; words that none says go with the next one, marks between them are pauses.
+    """Glosses as output words, those that none says behind them; marks between them are pauses.
 
     Args:
         words: Of the sentence.
         said: Its translation.
         signed: Glosses that are no names whatever their words.
     """
-    typed = _typed(words, [gloss.sources for gloss in said.glosses])
+    typed = [_texts(words, sorted(gloss.sources)) for gloss in said.glosses]
     pauses = _pauses(words, said.glosses)
     result: list[OutputWord] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
@@ -40,7 +40,9 @@ def gloss_output_words(
         result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
         if place in pauses:
             result.append(PAUSE)
-    return result
+    claimed = {place for gloss in said.glosses for place in gloss.sources}
+    left = [place for place, word in enumerate(words) if place not in claimed and not word.is_mark]
+    return [*result, *(carried(words[place].form, (words[place].text,)) for place in left)]
 
 
 def _output_words(
@@ -81,12 +83,6 @@ def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bo
         return True
     listed = any(is_persons_name(reading) and reading.exact for reading in meant)
     return bool(meant) and (is_persons_name(meant[0]) or (listed and any(word.capital for word in words)))
-
-
-def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
-    """For each gloss the words, as typed, that it stands for, with the words without a gloss before them."""
-    extras = unclaimed(sources, [place for place, word in enumerate(words) if not word.is_mark])
-    return [_texts(words, sorted({*own, *extra})) for own, extra in zip(sources, extras, strict=True)]
 
 
 def _texts(words: Sequence[SourceWord], places: Sequence[int]) -> tuple[str, ...]:
