@@ -63,7 +63,10 @@ def translate(
         ),
     ] = None,
     least_standing: Annotated[
-        str, typer.Option(help=f"With a table: the least founded signs that count, one of {', '.join(STANDINGS)}.")
+        str,
+        typer.Option(
+            help=f"With a table: the least founded signs that count, one of {', '.join(STANDINGS)}."
+        ),
     ] = LEAST_STANDING,
     substitutes: Annotated[
         str,

@@ -53,12 +53,13 @@ PARAMETERS = (
     ParameterRow(
         name="signs_file",
         default="",
-        description="File with the glosses that have signs, one a line, or folder of a table's entries; used until the executor's list_signs "
+        description="File with the glosses that have signs, one a line, or folder of a table's entries; "
+        "used until the executor's list_signs "
         "answers. Empty: until then every gloss may have one, and the executor spells what it lacks.",
     ),
     ParameterRow(
         name="substitutes",
-        default=Substitutes.HYPERNYM.name.lower(),  # letters are the last resort: most signers read none that fast
+        default=Substitutes.HYPERNYM.name.lower(),  # letters are slow to sign and hard to read
         description="What may be signed for a word without a sign, before it is spelled: none, synonym, "
         "paraphrase or hypernym; each allows those before it too.",
     ),

@@ -11,7 +11,7 @@ from teo_sign_translator.data_files import invalid_line, read_lines
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.substitutes import SIGN_NAME
 
-#: How well founded a sign may be, the best first, as a table's entries and the executor's `least_standing` name it.
+#: How well founded a sign may be, the best first, as the entries of a table name it.
 STANDINGS = ("recorded", "measured", "described", "sketched")
 #: The executor's default: what is only sketched is spelled.
 LEAST_STANDING = "described"

@@ -15,7 +15,7 @@ from teo_sign_translator.output.translation import Kind, Origin
 
 
 class SignChooser:
-    """Chooses signs: the gloss's own, its lemma's, the same one by another name, several together, letters."""
+    """Chooses signs: the gloss's own, the same one by another name, several together, letters."""
 
     def __init__(
         self,
@@ -79,7 +79,9 @@ class SignChooser:
             return [replace(output_word, signs=(above,), origin=Origin.HYPERNYM)]
         parts = [part for part in gloss.split("_") if part]
         if len(parts) > 1:
-            return [c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, taken)]
+            return [
+                c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, taken)
+            ]
         return _letters(output_word)
 
     def _same_sign(self, gloss: str, signs: Set[str]) -> tuple[str, Origin] | None:

@@ -40,9 +40,7 @@ class Substitutes(IntEnum):
             return cls[name.upper()]
         except KeyError:
             known = ", ".join(each.name.lower() for each in cls)
-            raise TranslationError(
-                "unknown_substitutes", f"expected one of {known}, got {name!r}"
-            ) from None
+            raise TranslationError("unknown_substitutes", f"expected one of {known}, got {name!r}") from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +72,9 @@ class SubstituteLists:
             far = [other for each in near for other in (*own.get(each, ()), *families.get(each, ()))]
             synonyms[gloss] = tuple(other for other in dict.fromkeys([*near, *far]) if other != gloss)
         return cls(
-            synonyms, read_paraphrases(data_file("paraphrases.tsv")), read_hypernyms(data_file("hypernyms.tsv"))
+            synonyms,
+            read_paraphrases(data_file("paraphrases.tsv")),
+            read_hypernyms(data_file("hypernyms.tsv")),
         )
 
 
@@ -92,7 +92,7 @@ def read_synonyms(path: Path | None = None) -> dict[str, tuple[str, ...]]:
     for line_number, line in read_lines(path):
         group = [gloss.strip() for gloss in line.split(",")]
         valid = all(SIGN_NAME.fullmatch(gloss) and gloss not in synonyms for gloss in group)
-        if len(group) < 2 or len({*group}) < len(group) or not valid:  # noqa: PLR2004 - one is no group
+        if len(group) < 2 or len({*group}) < len(group) or not valid:
             raise invalid_line(path, line_number, "two or more glosses, each listed once", f"'{line}'")
         for gloss in group:
             synonyms[gloss] = tuple(other for other in group if other != gloss)

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A draft of a sentence: its words' lemmas in an order that rules give, where the model is not to be trusted.
 
-The rules are few, and each of them is counted on signers (UD_Spanish_Sign_Language-LSE, the LSE-RADIS treebank
-of GRADES, Universidade de Vigo) or published in grammars of LSE. A draft says every word that has a meaning of
-its own, and no other, save the subject that only a verb's ending names.
+The rules are few, and each of them is counted on signers (UD_Spanish_Sign_Language-LSE, the LSE-RADIS
+treebank of GRADES, Universidade de Vigo) or published in grammars of LSE. A draft says every word that has a
+meaning of its own, and no other, save the subject that only a verb's ending names.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
 
-#: Of each gloss of a draft: its words are right, their order is a rule's. Below the translator's threshold, so
-#: that a drafted sentence is called uncertain.
+#: Of each gloss of a draft: its words are right, their order is a rule's. Below the translator's threshold,
+#: so that a drafted sentence is called uncertain.
 DRAFT_CONFIDENCE = 0.5
 
 _SUBJECTS = {"1s": "YO", "2s": "TÚ", "1p": "NOSOTROS", "2p": "VOSOTROS"}
@@ -43,6 +43,13 @@ _SILENT_PREPOSITIONS = frozenset(words_of("a de en con por para"))
 _AGE = "EDAD"
 _NO = "NO"
 _FINITE = ("V:ind", "V:cond", "V:sub", "V:imp")
+# Tags of words behind which a verb comes, if the word can be one.
+_BEFORE_VERBS = ("PRON:obj", "PRON:refl", "PRON:1", "PRON:2", "ADV:neg")
+# Tags of what one has or is: no verb is signed before it.
+_HAD = ("N:", "A:", "DET", "NUM", "V:part", "X", "ADV:degree")
+# Glosses that go with a word of time before them, and those that may stand before it.
+_OF_TIMES = ("PASADO", "PRÓXIMO", "SIGUIENTE", "PASAR")
+_BEFORE_TIMES = ("PRÓXIMO", "ÚLTIMO")
 _TIMES = frozenset(noun.lemma for noun in nouns() if noun.classes[0] == "time")
 
 
@@ -99,9 +106,7 @@ class Drafter:
                 result.append(_item(piece.joint, words[piece.joint].readings[0]))
             result += self._clause(words, piece, asks=asks)
         if not result:  # "¿y de la?": nothing but function words says these
-            result = [
-                _item(place, word.readings[0]) for place, word in enumerate(words) if not word.is_mark
-            ]
+            result = [_item(place, word.readings[0]) for place, word in enumerate(words) if not word.is_mark]
         return tuple(OutputGloss(each.gloss, each.places, DRAFT_CONFIDENCE, copied=True) for each in result)
 
     def _clause(self, words: Sequence[SourceWord], piece: Piece, *, asks: bool) -> list[_Item]:
@@ -131,7 +136,9 @@ class Drafter:
             place = places[index]
             for length in range(min(longest, len(places) - index), 1, -1):
                 own = tuple(places[index : index + length])
-                gloss = self.phrases.get(tuple(map(_phrase_form, (words[each] for each in own), map(meant.get, own))))
+                gloss = self.phrases.get(
+                    tuple(map(_phrase_form, (words[each] for each in own), map(meant.get, own)))
+                )
                 if gloss is not None:
                     tag = "WH" if _asks(meant, own) else meant[place].tag
                     yield _Item(gloss, own, Reading(gloss.lower(), tag))
@@ -175,7 +182,7 @@ def read_phrases(path: Path | None = None) -> dict[tuple[str, ...], str]:
     found: dict[tuple[str, ...], str] = {}
     for number, (phrase, gloss) in read_rows(path, columns=2):
         words = words_of(phrase)
-        if len(words) < 2 or words in found or gloss != gloss.upper():  # noqa: PLR2004 - one is no phrase
+        if len(words) < 2 or words in found or gloss != gloss.upper():
             expected = "two or more words, once, and a gloss in capitals"
             raise invalid_line(path, number, expected, f"'{phrase}', '{gloss}'")
         found[words] = gloss
@@ -186,10 +193,9 @@ def _item(place: int, reading: Reading) -> _Item:
     return _Item(copied_gloss(reading), (place,), reading)
 
 
-def _phrase_form(word: SourceWord, reading: Reading | None) -> str:
+def _phrase_form(word: SourceWord, reading: Reading) -> str:
     """A word as set phrases have it: a verb's infinitive, a question word with its accent."""
-    says = reading is not None and reading.tag.startswith((*_FINITE, "WH"))
-    return reading.lemma if reading is not None and says else word.form
+    return reading.lemma if reading.tag.startswith((*_FINITE, "WH")) else word.form
 
 
 def _asks(meant: Mapping[int, Reading], places: Sequence[int]) -> bool:
@@ -210,7 +216,9 @@ def _meant(words: Sequence[SourceWord], places: Sequence[int], *, asks: bool) ->
         choices = word.readings
         if before is not None and before.tag.startswith(("DET", "PREP")):
             choices = [each for each in choices if not each.tag.startswith(_FINITE)] or list(choices)
-        elif before is not None and before.tag.startswith(("PRON:obj", "PRON:refl", "PRON:1", "PRON:2", "ADV:neg")):
+        elif before is not None and before.tag.startswith(
+            ("PRON:obj", "PRON:refl", "PRON:1", "PRON:2", "ADV:neg")
+        ):
             choices = [each for each in choices if each.tag.startswith("V:")] or list(choices)
         if before is not None and before.lemma == "haber":
             choices = [each for each in choices if each.tag.startswith("V:part")] or list(choices)
@@ -229,8 +237,10 @@ def _meant(words: Sequence[SourceWord], places: Sequence[int], *, asks: bool) ->
 def _implied(clitic: str, verb: Reading) -> bool:
     """Whether the verb says a clitic: its subject is the same (me lavo), or its direction says it (dame)."""
     person = _OBJECTS[clitic][1]
-    return verb.tag.endswith(f":{person}") or (verb.lemma in _DIRECTED and person == "1s") or (
-        verb.tag in ("V:inf", "V:ger") and person == "1s"
+    return (
+        verb.tag.endswith(f":{person}")
+        or (verb.lemma in _DIRECTED and person == "1s")
+        or (verb.tag in ("V:inf", "V:ger") and person == "1s")
     )
 
 
@@ -274,7 +284,9 @@ def _without_helpers(items: Sequence[_Item], *, asks: bool) -> list[_Item]:
     for index, item in enumerate(items):
         following = items[index + 1] if index + 1 < len(items) else None
         lemma = item.reading.lemma if item.is_a("V:") and item.reading else ""
-        nominal = following is not None and following.is_a("N:", "A:", "DET", "NUM", "V:part", "X", "ADV:degree")
+        nominal = following is not None and following.is_a(
+            "N:", "A:", "DET", "NUM", "V:part", "X", "ADV:degree"
+        )
         others = len(items) > 1
         if lemma in _COPULAS and others:
             continue
@@ -305,14 +317,23 @@ def _times(items: Sequence[_Item]) -> tuple[list[_Item], list[_Item]]:
         if item.is_a("ADV:time") and not item.is_a("ADV:time:frequency"):
             when.add(index)
         elif item.is_a("N:") and item.reading is not None and item.reading.lemma in _TIMES:
-            if index and items[index - 1].is_a("A:") and not items[index - 1].gloss.startswith(("PRÓXIMO", "ÚLTIMO")):
+            if (
+                index
+                and items[index - 1].is_a("A:")
+                and not items[index - 1].gloss.startswith(("PRÓXIMO", "ÚLTIMO"))
+            ):
                 continue  # "buen día" is no time
             when.add(index)
             before = index - 1
             while before >= 0 and items[before].is_a("DET:dem", "DET:quant", "NUM", "A:"):
                 when.add(before)
                 before -= 1
-            if index + 1 < len(items) and items[index + 1].gloss in ("PASADO", "PRÓXIMO", "SIGUIENTE", "PASAR"):
+            if index + 1 < len(items) and items[index + 1].gloss in (
+                "PASADO",
+                "PRÓXIMO",
+                "SIGUIENTE",
+                "PASAR",
+            ):
                 when.add(index + 1)
     first = [item for index, item in enumerate(items) if index in when]
     return first, [item for index, item in enumerate(items) if index not in when]
@@ -370,5 +391,3 @@ def _questions(items: Sequence[_Item]) -> tuple[list[_Item], list[_Item]]:
         elif item.gloss == "CUÁNTO" and item.reading is not None and item.reading.tag.endswith("p"):
             item.gloss = "CUÁNTOS"
     return [item for item in items if item not in asking], asking
-
-

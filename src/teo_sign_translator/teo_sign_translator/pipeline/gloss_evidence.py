@@ -149,9 +149,7 @@ def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]])
     return f"V:ind:pres:{person}" in tags and not any(f"{past}{person}" in tags for past in _PAST_TAGS)
 
 
-def _said_again(
-    place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord]
-) -> bool:
+def _said_again(place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord]) -> bool:
     """Whether a gloss was said before for the same word.
 
     What is denied may be said of the same subject again ("no somos médicos, somos profesores").

@@ -91,7 +91,11 @@ class HypothesisRepair:
                 return candidates[-1]
         return min(candidates, key=lambda candidate: candidate.faults)
 
-    def repair(self, words: Sequence[SourceWord], candidate: Candidate) -> Repaired:
+    def repair(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
+        """The best translation, mended; see `best` and `mend`."""
+        return self.mend(words, self.best(words, hypotheses))
+
+    def mend(self, words: Sequence[SourceWord], candidate: Candidate) -> Repaired:
         """A translation that loses no word and invents no gloss.
 
         What it invents is left out, a sign that nobody said misleads; what it loses is put back. A word put

@@ -119,7 +119,7 @@ class PointerBackEnd:
         ]
         again = zip(asked, self._model.translate_all(asked, beam=self._beam_width), strict=True)
         for index, own in divided.items():
-            translated = [(piece, self._mended(*next(again))) for piece in own]
+            translated = [(piece, self._repair.repair(*next(again))) for piece in own]
             together = self._repair.join(every[index].words, translated)
             if sum(together.repaired) < sum(result[index].repaired):
                 result[index] = together
@@ -131,11 +131,8 @@ class PointerBackEnd:
         draft = self._drafter.draft(words)
         count = sum(not word.is_mark for word in words)
         if is_trusted(best.glosses, draft, faults=best.faults, words=count):
-            return self._repair.repair(words, best)
+            return self._repair.mend(words, best)
         return Repaired(draft, (False,) * len(draft), drafted=True)
-
-    def _mended(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
-        return self._repair.repair(words, self._repair.best(words, hypotheses))
 
     def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Repaired | None:
         """The translation that was taught; if it is not among the first, looked for among more."""

@@ -23,14 +23,9 @@ from teo_sign_translator.text.source_words import SourceWord
 SPARE = 4
 #: Sentences that are read and translated together, to bound memory; more are no faster.
 _TOGETHER = 64
-#: Times that a translation may say one gloss, whatever its length; with every fourth word more: a pronoun comes
-#: back in each clause, and a request may end as it began (DAME POR_FAVOR DAME). A search that goes round in a
-#: circle says one gloss for ever.
-_SAID_AGAIN = 2
-_WORDS_OF_A_CLAUSE = 4
-#: Times that a translation may say one gloss: twice, with every fourth word once more (a pronoun comes back in
-#: each clause), and once more than the sentence has its word. A search that goes round in a circle says one
-#: gloss until it is stopped.
+#: Times that a translation may say one gloss: twice, with every fourth word once more (a pronoun comes back
+#: in each clause), and once more than the sentence has its word. A search that goes round in a circle says
+#: one gloss until it is stopped.
 _TIMES_SAID = 2
 _WORDS_OF_A_CLAUSE = 4
 #: Words that a gloss stands for have at least this part of the highest attention: the alignment teaches equal

@@ -32,7 +32,7 @@ def is_persons_name(reading: Reading) -> bool:
 def name_readings(
     readings: Sequence[Reading], written: str, *, capital: bool, introduced: bool
 ) -> tuple[Reading, ...]:
-    """Readings of a word inside a sentence, which is a name if it is introduced as one or not known otherwise.
+    """Readings of a word inside a sentence: a name if it is introduced as one, or not known otherwise.
 
     Args:
         readings: Of the word in lower case.

@@ -139,4 +139,3 @@ def _written(form: str, morphology: Morphology) -> str:
     single, double = shortened(form), shortened(form, times=2)
     known_twice = any(reading.exact for reading in morphology.readings(double))
     return double if known_twice and not any(r.exact for r in morphology.readings(single)) else single
-
