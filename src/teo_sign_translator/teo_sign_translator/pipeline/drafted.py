@@ -136,9 +136,8 @@ class Drafter:
             place = places[index]
             for length in range(min(longest, len(places) - index), 1, -1):
                 own = tuple(places[index : index + length])
-                gloss = self.phrases.get(
-                    tuple(map(_phrase_form, (words[each] for each in own), map(meant.get, own)))
-                )
+                forms = tuple(_phrase_form(words[each], meant[each]) for each in own)
+                gloss = self.phrases.get(forms)
                 if gloss is not None:
                     tag = "WH" if _asks(meant, own) else meant[place].tag
                     yield _Item(gloss, own, Reading(gloss.lower(), tag))
@@ -213,17 +212,17 @@ def _meant(words: Sequence[SourceWord], places: Sequence[int], *, asks: bool) ->
     for index, place in enumerate(places):
         word = words[place]
         before = result[places[index - 1]] if index else None
-        choices = word.readings
+        choices: Sequence[Reading] = word.readings
         if before is not None and before.tag.startswith(("DET", "PREP")):
-            choices = [each for each in choices if not each.tag.startswith(_FINITE)] or list(choices)
+            choices = [each for each in choices if not each.tag.startswith(_FINITE)] or choices
         elif before is not None and before.tag.startswith(
             ("PRON:obj", "PRON:refl", "PRON:1", "PRON:2", "ADV:neg")
         ):
-            choices = [each for each in choices if each.tag.startswith("V:")] or list(choices)
+            choices = [each for each in choices if each.tag.startswith("V:")] or choices
         if before is not None and before.lemma == "haber":
-            choices = [each for each in choices if each.tag.startswith("V:part")] or list(choices)
+            choices = [each for each in choices if each.tag.startswith("V:part")] or choices
         if asks and (index == 0 or (index == 1 and before is not None and before.tag == "PREP")):
-            choices = [each for each in choices if each.tag.startswith("WH")] or list(choices)
+            choices = [each for each in choices if each.tag.startswith("WH")] or choices
         reading = choices[0]
         if reading.tag.startswith("DET:def") and index + 1 < len(places):  # "la veo": no article
             following = words[places[index + 1]].readings[0]
@@ -296,7 +295,7 @@ def _without_helpers(items: Sequence[_Item], *, asks: bool) -> list[_Item]:
             continue
         if lemma == "ir" and following is not None and following.is_a("V:inf"):
             continue
-        if lemma == "tener" and nominal:
+        if lemma == "tener" and following is not None and nominal:
             if any(each.gloss == "AÑO" for each in items[index + 1 : index + 3]) and following.is_a("NUM"):
                 result.append(_Item(_AGE, items[index + 2].places, items[index + 2].reading))
                 result.append(following)
