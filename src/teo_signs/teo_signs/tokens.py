@@ -41,6 +41,8 @@ class Token:
         duration_scale: Times the sign's recorded duration: 2.0 is half as fast.
         word_index: Counts the words of the sentence; letters of one spelled word share it.
         source_words: Words of the text that this token stands for.
+        origin: How the translator came by it, a value of `teo_sign_msgs/SignToken`; carried along, not used.
+            0 if that is not said.
     """
 
     gloss: str
@@ -49,6 +51,7 @@ class Token:
     duration_scale: float = 1.0
     word_index: int = 0
     source_words: tuple[str, ...] = ()
+    origin: int = 0
 
     @property
     def spelled(self) -> bool:
