@@ -297,7 +297,7 @@ def _without_helpers(items: Sequence[_Item], *, asks: bool) -> list[_Item]:
             continue
         if lemma == "tener" and following is not None and nominal:
             if any(each.gloss == "AÑO" for each in items[index + 1 : index + 3]) and following.is_a("NUM"):
-                result.append(_Item(_AGE, items[index + 2].places, items[index + 2].reading))
+                result.append(_Item(_AGE, items[index + 2].places, Reading("edad", "N:fs")))
                 result.append(following)
                 items = [*items[: index + 1], *items[index + 3 :]]
                 return [*result, *_without_helpers(items[index + 1 :], asks=asks)]

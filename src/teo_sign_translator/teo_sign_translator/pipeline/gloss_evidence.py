@@ -124,7 +124,8 @@ def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
     """Readings of each word; if the sentence has accents, only those written as the word is typed.
 
     Behind a preposition or an article stands no finite verb, and behind a preposition no pronoun that a verb
-    has before it: nobody is named by "la" and "baja" in "por la baja".
+    has before it: nobody is named by "la" and "baja" in "por la baja". Nor is a verb another one that lacks
+    its accent: "vengo" is no "vengó".
     """
     accents = any(word.form != fold(word.form) for word in words)
     result: list[list[Reading]] = []
@@ -132,6 +133,9 @@ def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
         readings = [reading for reading in word.readings if reading.exact or not accents]
         if result and result[-1] and all(each.tag.startswith(_NOMINAL) for each in result[-1]):
             readings = [each for each in readings if not each.tag.startswith(_VERBAL)] or readings
+        first = word.readings[0]
+        if first.exact and first.tag.startswith("V:"):
+            readings = [each for each in readings if each.exact or each.lemma == first.lemma]
         result.append(readings)
     return result
 
