@@ -315,7 +315,7 @@ def _times(items: Sequence[_Item]) -> tuple[list[_Item], list[_Item]]:
     for index, item in enumerate(items):
         if item.is_a("ADV:time") and not item.is_a("ADV:time:frequency"):
             when.add(index)
-        elif item.is_a("N:") and item.reading is not None and item.reading.lemma in _TIMES:
+        elif item.gloss != _AGE and item.reading is not None and _names_time(item.reading):
             if (
                 index
                 and items[index - 1].is_a("A:")
@@ -336,6 +336,10 @@ def _times(items: Sequence[_Item]) -> tuple[list[_Item], list[_Item]]:
                 when.add(index + 1)
     first = [item for index, item in enumerate(items) if index in when]
     return first, [item for index, item in enumerate(items) if index not in when]
+
+
+def _names_time(reading: Reading) -> bool:
+    return reading.tag.startswith("N:") and reading.lemma in _TIMES
 
 
 def _modifiers_behind(items: Sequence[_Item]) -> list[_Item]:
