@@ -54,6 +54,21 @@ KINDS = {
     SignToken.KIND_NUMBER: "number",
     SignToken.KIND_PAUSE: "pause",
 }
+#: How a token came about, as the table names it: what is not the word's own sign can be told.
+ORIGINS = {
+    SignToken.ORIGIN_UNKNOWN: "",
+    SignToken.ORIGIN_MODEL: "model",
+    SignToken.ORIGIN_LEMMA: "lemma",
+    SignToken.ORIGIN_SYNONYM: "synonym",
+    SignToken.ORIGIN_SPELLED: "spelled",
+    SignToken.ORIGIN_NUMBER: "number",
+    SignToken.ORIGIN_REPAIRED: "repaired",
+    SignToken.ORIGIN_WORD_LIST: "word list",
+    SignToken.ORIGIN_PAUSE: "",
+    SignToken.ORIGIN_PARAPHRASE: "paraphrase",
+    SignToken.ORIGIN_HYPERNYM: "hypernym",
+    SignToken.ORIGIN_DRAFT: "draft",
+}
 
 
 class DemoError(Exception):
@@ -98,12 +113,28 @@ class Spectator(Node):
             if 0.0 <= elapsed <= status.duration:
                 timing = self.progress.timing_at(index, elapsed)
                 text = self.progress.sentences[index].text if index in self.progress.sentences else ""
-                return f"{text}   {timing.token.gloss}" if timing else text
+                return f"{text}   {captioned(timing.token)}" if timing else text
         return ""
 
     def state_at(self, moment: float) -> dict[str, float]:
         """Positions [rad] by joint name at the sample nearest to a moment [s]."""
         return min(self.states, key=lambda state: abs(state[0] - moment))[1]
+
+
+def captioned(token: SignToken) -> str:
+    """Give a token's gloss, and the word that it stands for where it is not that word's own sign.
+
+    `~` says that it is one of several signs for the word, `<` something more general, `-` a letter of it.
+    """
+    marks = {
+        SignToken.ORIGIN_PARAPHRASE: "~",
+        SignToken.ORIGIN_HYPERNYM: "<",
+        SignToken.ORIGIN_SPELLED: "-",
+    }
+    mark = marks.get(token.origin)
+    if mark is None or not token.source_words:
+        return str(token.gloss)
+    return f"{token.gloss} {mark} {' '.join(token.source_words)}"
 
 
 def seconds(stamp: object) -> float:
@@ -217,7 +248,9 @@ def draw_strip(spectator: Spectator, path: Path) -> None:
 
 def table(progress: Progress) -> Table:
     """Lay out every token with its times, measured from the first movement."""
-    result = Table("token", "kind", r"start \[s]", r"duration \[s]", "stretch", title="What TEO signed")
+    result = Table(
+        "token", "kind", "origin", r"start \[s]", r"duration \[s]", "stretch", title="What TEO signed"
+    )
     first = min((seconds(status.header.stamp) for status in progress.started.values()), default=0.0)
     for _, status in sorted(progress.started.items()):
         begin = seconds(status.header.stamp) - first
@@ -225,6 +258,7 @@ def table(progress: Progress) -> Table:
             result.add_row(
                 timing.token.gloss or "-",
                 KINDS[timing.token.kind],
+                ORIGINS.get(timing.token.origin, "?"),
                 f"{begin + timing.start:.2f}",
                 f"{timing.duration:.2f}",
                 f"{timing.stretch:.2f}",

@@ -10,9 +10,11 @@ from teo_sign_translator.corpus.paper_pairs import training_pairs
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
+from teo_sign_translator.output.sign_choice import SignChooser
+from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.coverage import FunctionWords
+from teo_sign_translator.pipeline.drafted import Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator
@@ -52,5 +54,7 @@ MORPHOLOGY = Morphology.load()
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
     taught = Phrasebook(training_pairs(), GlossList.load())
-    back_end = PointerBackEnd(model, MORPHOLOGY, HypothesisRepair.load(), taught, Agreement.load())
-    return Translator(back_end, SignChooser(read_synonyms(), MORPHOLOGY))
+    back_end = PointerBackEnd(
+        model, MORPHOLOGY, HypothesisRepair.load(), Drafter.load(), taught, Agreement.load()
+    )
+    return Translator(back_end, SignChooser(SubstituteLists.load(), MORPHOLOGY))

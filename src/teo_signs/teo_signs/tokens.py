@@ -47,6 +47,8 @@ class Token:
         source_words: Words of the text that this token stands for.
         inflection: Form of the sign: "2>1" from the addressee to the signer, "CABEZA" at the head; empty for
             the citation form, which is also made where the entry has no such form.
+        origin: How the translator came by it, a value of `teo_sign_msgs/SignToken`; carried along, not used.
+            0 if that is not said.
     """
 
     gloss: str
@@ -56,6 +58,7 @@ class Token:
     word_index: int = 0
     source_words: tuple[str, ...] = ()
     inflection: str = ""
+    origin: int = 0
 
     @property
     def spelled(self) -> bool:

@@ -125,6 +125,7 @@ def _to_token(message: SignToken) -> Token:
         word_index=message.word_index,
         source_words=tuple(message.source_words),
         inflection=message.inflection,
+        origin=message.origin,
     )
 
 
@@ -137,4 +138,11 @@ def _from_token(token: Token) -> SignToken:
         word_index=token.word_index,
         source_words=list(token.source_words),
         inflection=token.inflection,
+        origin=_origin(token),
     )
+
+
+def _origin(token: Token) -> int:
+    """That of the translator; of a letter that the table's lack of a sign has made, spelled."""
+    made_here = token.kind is Kind.LETTER and token.origin != SignToken.ORIGIN_UNKNOWN
+    return SignToken.ORIGIN_SPELLED if made_here else token.origin

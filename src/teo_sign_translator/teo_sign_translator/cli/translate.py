@@ -18,7 +18,8 @@ from rich.progress import track
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
-from teo_sign_translator.output.sign_choice import read_signs
+from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
+from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
@@ -56,8 +57,24 @@ def translate(
     ] = DEFAULT_BEAM_WIDTH,
     signs: Annotated[
         Path | None,
-        typer.Option(help="File with the glosses that have signs, one a line; what has none is spelled."),
+        typer.Option(
+            help="Which glosses have signs: a file with one a line, or the folder of a table's entries "
+            "(*.json); what has none is shown by others, see --substitutes, or spelled."
+        ),
     ] = None,
+    least_standing: Annotated[
+        str,
+        typer.Option(
+            help=f"With a table: the least founded signs that count, one of {', '.join(STANDINGS)}."
+        ),
+    ] = LEAST_STANDING,
+    substitutes: Annotated[
+        str,
+        typer.Option(
+            help="What may be signed for a word without a sign, one of "
+            f"{', '.join(each.name.lower() for each in Substitutes)}; each allows those before it too."
+        ),
+    ] = Substitutes.HYPERNYM.name.lower(),
     list_models: Annotated[
         bool, typer.Option("--list-models", help="Write the models' names and stop.")
     ] = False,
@@ -76,7 +93,9 @@ def translate(
         raise typer.BadParameter("expected either a text, --stdin or --file")
     try:
         writer = _Writer(
-            Translator.load(model, beam_width=beam), read_signs(signs) if signs else None, as_json=as_json
+            Translator.load(model, beam_width=beam, substitutes=Substitutes.named(substitutes)),
+            read_signs(signs, least_standing) if signs else None,
+            as_json=as_json,
         )
     except TranslationError as error:
         _complain("", error)

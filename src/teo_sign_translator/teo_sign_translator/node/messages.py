@@ -30,6 +30,7 @@ def to_messages(translation: Translation, *, stamp: Time, utterance_id: str) -> 
         message.negated = sentence.negated
         message.confidence = sentence.confidence
         message.uncertain = sentence.uncertain
+        message.dropped = list(sentence.dropped)
         message.tokens = [
             SignToken(
                 gloss=token.gloss,

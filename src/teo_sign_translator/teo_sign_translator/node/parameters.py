@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
+from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE, DEFAULT_MODEL
 
@@ -52,8 +53,15 @@ PARAMETERS = (
     ParameterRow(
         name="signs_file",
         default="",
-        description="File with the glosses that have signs, one a line; used until the executor's list_signs "
+        description="File with the glosses that have signs, one a line, or folder of a table's entries; "
+        "used until the executor's list_signs "
         "answers. Empty: until then every gloss may have one, and the executor spells what it lacks.",
+    ),
+    ParameterRow(
+        name="substitutes",
+        default=Substitutes.HYPERNYM.name.lower(),  # letters are slow to sign and hard to read
+        description="What may be signed for a word without a sign, before it is spelled: none, synonym, "
+        "paraphrase or hypernym; each allows those before it too.",
     ),
     ParameterRow(
         name="autostart",

@@ -29,7 +29,8 @@ from teo_sign_translator.node.messages import to_messages
 from teo_sign_translator.node.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
 from teo_sign_translator.node.sign_inventory import SignInventory
 from teo_sign_translator.node.text_worker import TextWorker
-from teo_sign_translator.output.sign_choice import listed_signs
+from teo_sign_translator.output.known_signs import listed_signs
+from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.pipeline.translator import Translator
 
 #: Texts that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own queue
@@ -241,6 +242,8 @@ class TranslatorNode(LifecycleNode):
                 self._next_translator = self._load(asked)
             if "signs_file" in asked:
                 listed_signs(asked["signs_file"])
+            if "substitutes" in asked:
+                Substitutes.named(asked["substitutes"])
         except TranslationError as error:
             return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
         return SetParametersResult(successful=True)
@@ -254,6 +257,8 @@ class TranslatorNode(LifecycleNode):
             self.get_logger().info(f"model {self._translator.name}")
         if "min_confidence" in asked:
             self._translator.min_confidence = asked["min_confidence"]
+        if "substitutes" in asked:
+            self._translator.substitutes = Substitutes.named(asked["substitutes"])
         if "queue_size" in asked and self._worker is not None:
             self._worker.size = asked["queue_size"]
         if "signs_file" in asked and self._inventory is not None:
@@ -261,9 +266,13 @@ class TranslatorNode(LifecycleNode):
 
     def _load(self, asked: dict[str, Any]) -> Translator:
         """A translator with the parameters' values, and with those of `asked` that are about to be set."""
-        values = {name: self._value(name) for name in ("model", "beam_width", "min_confidence")} | asked
+        names = ("model", "beam_width", "min_confidence", "substitutes")
+        values = {name: self._value(name) for name in names} | asked
         return Translator.load(
-            values["model"], beam_width=values["beam_width"], min_confidence=values["min_confidence"]
+            values["model"],
+            beam_width=values["beam_width"],
+            min_confidence=values["min_confidence"],
+            substitutes=Substitutes.named(values["substitutes"]),
         )
 
     def _value(self, name: str) -> Any:

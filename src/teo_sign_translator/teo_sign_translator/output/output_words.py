@@ -52,7 +52,7 @@ PAUSE = OutputWord(signs=("",), kind=Kind.PAUSE, confidence=1.0, words=(), origi
 
 
 def carried(word: str, typed: tuple[str, ...]) -> OutputWord:
-    """A word without a sign of its own: it is said by the next output word that is signed."""
+    """A word without a sign of its own: LSE says it otherwise, or not at all."""
     return OutputWord(
         signs=(), kind=Kind.LEXICAL, confidence=1.0, words=typed, origin=Origin.WORD_LIST, said=word
     )
@@ -138,34 +138,32 @@ def unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list
     return result
 
 
-def attach_carried(output_words: Sequence[OutputWord]) -> list[OutputWord]:
-    """Give the typed words of carried output words to the next one that is signed, or to the last.
+def without_carried(output_words: Sequence[OutputWord]) -> tuple[list[OutputWord], tuple[str, ...]]:
+    """Output words that are signed, and the typed words of those that are not, in the order of the text.
 
     Args:
         output_words: Of one sentence. If none of them is signed, their words are spelled.
+
+    Returns:
+        One pause between two words, none at the ends, however many marks were typed; and what is dropped.
     """
     if not any(output_word.signs and output_word.kind is not Kind.PAUSE for output_word in output_words):
-        return [
+        spelt = [
             each
             for output_word in output_words
             for each in spelled(output_word.said, output_word.words, SPELLED_CONFIDENCE)
         ]
+        return spelt, ()
     result: list[OutputWord] = []
-    waiting: list[str] = []
+    dropped: list[str] = []
     for output_word in output_words:
         if not output_word.signs:
-            waiting += output_word.words
-        elif output_word.kind is Kind.PAUSE:
-            # One pause between two words, none at the ends, however many marks were typed.
-            if result and result[-1].kind is not Kind.PAUSE:
-                result.append(output_word)
-        else:
-            result.append(replace(output_word, words=(*waiting, *output_word.words)))
-            waiting = []
+            dropped += output_word.words
+        elif output_word.kind is not Kind.PAUSE or (result and result[-1].kind is not Kind.PAUSE):
+            result.append(output_word)
     if result[-1].kind is Kind.PAUSE:
         result.pop()
-    result[-1] = replace(result[-1], words=(*result[-1].words, *waiting))
-    return result
+    return result, tuple(dropped)
 
 
 def number_tokens(output_words: Iterable[OutputWord]) -> tuple[Token, ...]:

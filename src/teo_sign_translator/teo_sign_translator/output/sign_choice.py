@@ -1,112 +1,136 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Which sign, or which letters, a gloss is shown by."""
+"""Which sign, which signs together, or which letters a gloss is shown by."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import replace
-from pathlib import Path
 
-from teo_sign_translator.data_files import data_file, invalid_line, read_lines
+from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import OutputWord, spelled
+from teo_sign_translator.output.substitutes import SIGN_NAME, SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind, Origin
-
-# What a look-up table can name: Spanish letters, `_` for spaces, as long as a message holds.
-_SIGN_NAME = re.compile(r"[A-ZÁÉÍÓÚÜÑ_]{1,64}")
-
-
-def read_synonyms(path: Path | None = None) -> dict[str, tuple[str, ...]]:
-    """For each gloss the others that mean the same, in the order of the list.
-
-    Args:
-        path: The file; by default the package's `data/synonyms.tsv`, a line a group.
-
-    Raises:
-        TranslationError: "invalid_data", with file and line.
-    """
-    path = path or data_file("synonyms.tsv")
-    synonyms: dict[str, tuple[str, ...]] = {}
-    for line_number, line in read_lines(path):
-        group = [gloss.strip() for gloss in line.split(",")]
-        if len(group) < 2 or any(not _SIGN_NAME.fullmatch(gloss) or gloss in synonyms for gloss in group):
-            raise invalid_line(path, line_number, "two or more glosses, each listed once", f"'{line}'")
-        for gloss in group:
-            synonyms[gloss] = tuple(other for other in group if other != gloss)
-    return synonyms
-
-
-def read_signs(path: Path) -> frozenset[str]:
-    """The glosses that have signs, from a file with one on each line.
-
-    Raises:
-        TranslationError: "invalid_data", with file and line.
-    """
-    signs: set[str] = set()
-    for line_number, line in read_lines(path):
-        gloss = line.strip().upper()
-        if not _SIGN_NAME.fullmatch(gloss):
-            raise invalid_line(path, line_number, "one gloss", f"'{line.strip()}'")
-        signs.add(gloss)
-    return frozenset(signs)
-
-
-def listed_signs(file: str) -> frozenset[str] | None:
-    """The glosses of a file that a parameter names; None if it names none.
-
-    Raises:
-        TranslationError: "invalid_data", with file and line.
-    """
-    return read_signs(Path(file)) if file else None
 
 
 class SignChooser:
-    """Chooses signs: the gloss's own, its lemma's, a synonym's, else letters."""
+    """Chooses signs: the gloss's own, the same one by another name, several together, letters."""
 
-    def __init__(self, synonyms: dict[str, tuple[str, ...]], morphology: Morphology | None) -> None:
+    def __init__(
+        self,
+        lists: SubstituteLists,
+        morphology: Morphology | None,
+        substitutes: Substitutes = Substitutes.HYPERNYM,
+    ) -> None:
         """Take the ways from a gloss without a sign to one that has one.
 
         Args:
-            synonyms: For each gloss others that mean the same.
-            morphology: Gives lemmas; None if glosses are lemmas.
+            lists: What may be signed in place of a gloss.
+            morphology: Gives lemmas and participles; None if glosses are lemmas.
+            substitutes: Which of the lists' steps are taken; the rest is spelled.
         """
-        self._synonyms = synonyms
+        self._lists = lists
         self._morphology = morphology
+        self.substitutes = substitutes
 
-    def choose(self, output_words: Iterable[OutputWord], signs: Set[str] | None) -> list[OutputWord]:
+    def choose(
+        self, output_words: Iterable[OutputWord], signs: Set[str] | None, *, general: bool = False
+    ) -> list[OutputWord]:
         """Make output words of what has signs, in the same order.
 
         Args:
             output_words: Glosses, letters, numbers, pauses.
             signs: Glosses that have a sign of their own. None if that is not known: then every gloss that
                 could have one is kept, for the executor to look up, and names are spelled.
+            general: Whether the sentence stays true with something more general in a word's place. Two
+                words never become the same: of what they differ in nothing would be left.
         """
-        return [chosen for output_word in output_words for chosen in self._choose(output_word, signs)]
+        words = list(output_words)
+        taken = {word.signs[0] for word in words if word.signs}
+        result: list[OutputWord] = []
+        for word in words:
+            chosen = self._choose(word, signs, taken if general else None)
+            taken |= {each.signs[0] for each in chosen if each.origin is Origin.HYPERNYM}
+            result += chosen
+        return result
 
-    def _choose(self, output_word: OutputWord, signs: Set[str] | None) -> Sequence[OutputWord]:
+    def _choose(
+        self, output_word: OutputWord, signs: Set[str] | None, taken: Set[str] | None
+    ) -> Sequence[OutputWord]:
         if output_word.kind is not Kind.LEXICAL or not output_word.signs:
             return [output_word]
         (gloss,) = output_word.signs
         if signs is None:
-            keeps = not output_word.is_name and _SIGN_NAME.fullmatch(gloss)
+            keeps = not output_word.is_name and SIGN_NAME.fullmatch(gloss)
             return [output_word] if keeps else _letters(output_word)
         if gloss in signs:
             return [output_word]
         if output_word.is_name:
             return _letters(output_word)
-        for other in self._lemmas(gloss):
-            if other in signs:
-                return [replace(output_word, signs=(other,), origin=Origin.LEMMA)]
-        for known in (gloss, *self._lemmas(gloss)):
-            for other in self._synonyms.get(known, ()):
-                if other in signs:
-                    return [replace(output_word, signs=(other,), origin=Origin.SYNONYM)]
+        found = self._same_sign(gloss, signs)
+        if found is not None:
+            return [replace(output_word, signs=(found[0],), origin=found[1])]
+        said = self._paraphrase(gloss, signs)
+        if said:
+            return [replace(output_word, signs=(part,), origin=Origin.PARAPHRASE) for part in said]
+        above = None if taken is None else self._hypernym(gloss, signs)
+        if above is not None and taken is not None and above not in taken:
+            return [replace(output_word, signs=(above,), origin=Origin.HYPERNYM)]
         parts = [part for part in gloss.split("_") if part]
         if len(parts) > 1:
-            return [c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs)]
+            return [
+                c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, taken)
+            ]
         return _letters(output_word)
+
+    def _same_sign(self, gloss: str, signs: Set[str]) -> tuple[str, Origin] | None:
+        """A name of the same sign that the table has: the gloss, its lemma, a synonym."""
+        if gloss in signs:
+            return gloss, Origin.MODEL
+        lemmas = self._lemmas(gloss)
+        for other in lemmas:
+            if other in signs:
+                return other, Origin.LEMMA
+        if self.substitutes >= Substitutes.SYNONYM:
+            for other in self._synonyms((gloss, *lemmas)):
+                if other in signs:
+                    return other, Origin.SYNONYM
+        return None
+
+    def _synonyms(self, glosses: Sequence[str]) -> Iterator[str]:
+        """Other names of a sign: those of the lists, then the participle of a verb (CANSAR: CANSADO)."""
+        for gloss in glosses:
+            yield from self._lists.synonyms.get(gloss, ())
+        for gloss in glosses:
+            if self._morphology is not None and gloss.endswith(("AR", "ER", "IR", "ÍR")):
+                try:
+                    yield self._morphology.inflect(gloss.lower(), "V:part:ms").upper()
+                except TranslationError:  # no verb
+                    continue
+
+    def _paraphrase(self, gloss: str, signs: Set[str]) -> tuple[str, ...]:
+        """Signs that say a gloss together; none unless the table has all of them."""
+        if self.substitutes < Substitutes.PARAPHRASE:
+            return ()
+        for known in (gloss, *self._lemmas(gloss), *self._lists.synonyms.get(gloss, ())):
+            for row in self._lists.paraphrases.get(known, ()):
+                found = [self._same_sign(part, signs) for part in row]
+                said = tuple(each[0] for each in found if each is not None)
+                if len(said) == len(row):
+                    return said
+        return ()
+
+    def _hypernym(self, gloss: str, signs: Set[str]) -> str | None:
+        """The sign of the closest thing that is more general."""
+        if self.substitutes < Substitutes.HYPERNYM:
+            return None
+        for known in (gloss, *self._lemmas(gloss), *self._lists.synonyms.get(gloss, ())):
+            for above in self._lists.hypernyms.get(known, ()):
+                found = self._same_sign(above, signs)
+                if found is not None:
+                    return found[0]
+        return None
 
     def _lemmas(self, gloss: str) -> tuple[str, ...]:
         """Other glosses of the same word: AMIGO for AMIGA."""

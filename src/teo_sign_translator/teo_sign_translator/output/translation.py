@@ -33,6 +33,9 @@ class Origin(IntEnum):
     REPAIRED = 6
     WORD_LIST = 7
     PAUSE = 8
+    PARAPHRASE = 9
+    HYPERNYM = 10
+    DRAFT = 11
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,6 +74,7 @@ class Sentence:
         negated: Whether it holds a negation.
         tokens: At least one.
         uncertain: Whether its confidence is below the threshold of the translator.
+        dropped: Words of the text, as typed, that no token stands for: articles, prepositions and the like.
     """
 
     text: str
@@ -78,6 +82,7 @@ class Sentence:
     negated: bool
     tokens: tuple[Token, ...]
     uncertain: bool
+    dropped: tuple[str, ...] = ()
 
     @property
     def confidence(self) -> float:
@@ -120,6 +125,7 @@ class Translation:
                     "negated": sentence.negated,
                     "confidence": round(sentence.confidence, 4),
                     "uncertain": sentence.uncertain,
+                    "dropped": list(sentence.dropped),
                     "tokens": [
                         {
                             "gloss": token.gloss,

@@ -20,6 +20,9 @@ from teo_sign_translator.text.source_words import SourceWord
 _NONE = "-"
 _PAST = "PASADO"
 _NOT = "NO"
+# Tags of words behind which a noun comes, and of what then cannot stand there.
+_NOMINAL = ("PREP", "DET:def", "DET:poss")
+_VERBAL = ("V:ind", "V:cond", "V:sub", "V:imp", "PRON:obj", "PRON:refl")
 _PAST_TAGS = ("V:ind:pret:", "V:ind:impf:")
 #: Subjects that a verb's ending says, and its person: "llego" may be "llegó", but not the past of YO.
 _PERSONS = {"YO": "1s", "TÚ": "2s", "NOSOTROS": "1p", "VOSOTROS": "2p"}
@@ -89,7 +92,7 @@ class GlossEvidence:
         """Places of the glosses that no word is evidence for.
 
         Besides those listed: of PASADO beside a verb that is now, and of a word said twice that is there
-        once and no plural.
+        once.
 
         Args:
             words: Of the sentence.
@@ -102,7 +105,7 @@ class GlossEvidence:
             for place, gloss in enumerate(glosses)
             if (self._lacks_evidence(gloss.gloss, readings) and not _unsure(gloss, words))
             or (gloss.gloss == _PAST and _present(glosses[place:], meant))
-            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words, readings))
+            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words))
         ]
 
     def _lacks_evidence(self, gloss: str, readings: Sequence[Reading]) -> bool:
@@ -118,9 +121,23 @@ def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
 
 
 def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
-    """Readings of each word; if the sentence has accents, only those written as the word is typed."""
+    """Readings of each word; if the sentence has accents, only those written as the word is typed.
+
+    Behind a preposition or an article stands no finite verb, and behind a preposition no pronoun that a verb
+    has before it: nobody is named by "la" and "baja" in "por la baja". Nor is a verb another one that lacks
+    its accent: "vengo" is no "vengó".
+    """
     accents = any(word.form != fold(word.form) for word in words)
-    return [[reading for reading in word.readings if reading.exact or not accents] for word in words]
+    result: list[list[Reading]] = []
+    for word in words:
+        readings = [reading for reading in word.readings if reading.exact or not accents]
+        if result and result[-1] and all(each.tag.startswith(_NOMINAL) for each in result[-1]):
+            readings = [each for each in readings if not each.tag.startswith(_VERBAL)] or readings
+        first = word.readings[0]
+        if first.exact and first.tag.startswith("V:"):
+            readings = [each for each in readings if each.exact or each.lemma == first.lemma]
+        result.append(readings)
+    return result
 
 
 def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:
@@ -136,13 +153,10 @@ def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]])
     return f"V:ind:pres:{person}" in tags and not any(f"{past}{person}" in tags for past in _PAST_TAGS)
 
 
-def _said_again(
-    place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord], readings: Sequence[Reading]
-) -> bool:
-    """Whether a gloss was said before for the same word, and not because it is a plural.
+def _said_again(place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord]) -> bool:
+    """Whether a gloss was said before for the same word.
 
-    A plural is the noun twice, one sign after the other. What is denied may be said of the same subject again
-    ("no somos médicos, somos profesores").
+    What is denied may be said of the same subject again ("no somos médicos, somos profesores").
     """
     gloss = glosses[place]
     again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
@@ -151,11 +165,10 @@ def _said_again(
     said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
     if len(said) != 1:
         return False
-    if again[-1] < place - 1:
-        denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
-        return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
-    tags = [reading.tag for reading in readings if copied_gloss(reading) == gloss.gloss]
-    return bool(tags) and all(tag.startswith(("N:", "A:")) and tag.endswith("s") for tag in tags)
+    if again[-1] == place - 1:
+        return True
+    denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
+    return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
 
 
 def _listed(text: str) -> list[str]:

@@ -8,16 +8,14 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
-from teo_sign_translator.output.output_words import PAUSE, OutputWord, lexical, number, unclaimed
+from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, lexical, number
 from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.hypothesis_repair import Repaired
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.names import is_persons_name
 from teo_sign_translator.text.source_words import SourceWord
-
-# Tags of people's names; names of places have signs, or are spelled like any other word.
-_PEOPLE = ("NAME", "NAME:m", "NAME:f")
 
 # Beside them a number with decimals is a price: "12,50 €" is said "doce cincuenta".
 _CURRENCIES = frozenset({"EURO", "DÓLAR", "LIBRA"})
@@ -30,7 +28,7 @@ _NAME_GLOSS = "NOMBRE"
 def gloss_output_words(
     words: Sequence[SourceWord], said: Repaired, signed: Collection[str], agreement: Agreement
 ) -> list[OutputWord]:
-    """Glosses as output words; words that none says go with the next one, marks between them are pauses.
+    """Glosses as output words, those that none says behind them; marks between them are pauses.
 
     Args:
         words: Of the sentence.
@@ -38,12 +36,12 @@ def gloss_output_words(
         signed: Glosses that are no names whatever their words.
         agreement: Gives the form of signs that agree.
     """
-    typed = _typed(words, [gloss.sources for gloss in said.glosses])
+    typed = [_texts(words, sorted(gloss.sources)) for gloss in said.glosses]
     pauses = _pauses(words, said.glosses)
     result: list[OutputWord] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
         named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
-        origin = Origin.REPAIRED if repaired else Origin.MODEL
+        origin = Origin.DRAFT if said.drafted else Origin.REPAIRED if repaired else Origin.MODEL
         neighbours = {each.gloss for each in said.glosses[max(0, place - 1) : place + 2]}
         if neighbours & _CURRENCIES:
             gloss = replace(gloss, gloss=_price(gloss.gloss))
@@ -54,7 +52,9 @@ def gloss_output_words(
         result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
         if place in pauses:
             result.append(PAUSE)
-    return result
+    claimed = {place for gloss in said.glosses for place in gloss.sources}
+    left = [place for place, word in enumerate(words) if place not in claimed and not word.is_mark]
+    return [*result, *(carried(words[place].form, (words[place].text,)) for place in left)]
 
 
 def _price(gloss: str) -> str:
@@ -99,16 +99,10 @@ def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bo
         meant: Their readings that have this gloss, the likeliest first.
         named: Whether it follows the sign for "name"; then any word that may be a name is one.
     """
-    if named and any(reading.tag in (*_PEOPLE, "X") for reading in meant):
+    if named and any(is_persons_name(reading) or reading.tag == "X" for reading in meant):
         return True
-    listed = any(reading.tag in _PEOPLE and reading.exact for reading in meant)
-    return bool(meant) and (meant[0].tag in _PEOPLE or (listed and any(word.capital for word in words)))
-
-
-def _typed(words: Sequence[SourceWord], sources: Sequence[tuple[int, ...]]) -> list[tuple[str, ...]]:
-    """For each gloss the words, as typed, that it stands for, with the words without a gloss before them."""
-    extras = unclaimed(sources, [place for place, word in enumerate(words) if not word.is_mark])
-    return [_texts(words, sorted({*own, *extra})) for own, extra in zip(sources, extras, strict=True)]
+    listed = any(is_persons_name(reading) and reading.exact for reading in meant)
+    return bool(meant) and (is_persons_name(meant[0]) or (listed and any(word.capital for word in words)))
 
 
 def _texts(words: Sequence[SourceWord], places: Sequence[int]) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.coverage import Coverage
@@ -29,15 +30,29 @@ class Repaired:
     Attributes:
         glosses: In signing order.
         repaired: For each whether the model had left its word out and it was put back.
+        drafted: Whether they are a draft (`drafted`), not the model's.
     """
 
     glosses: tuple[OutputGloss, ...]
     repaired: tuple[bool, ...]
+    drafted: bool = False
 
 
-def as_said(hypothesis: Hypothesis) -> Repaired:
+class Candidate(NamedTuple):
+    """The best of a model's translations.
+
+    Attributes:
+        glosses: What it says; no gloss twice in a row where the sentence has one word for it.
+        faults: Words that it loses and glosses that it invents.
+    """
+
+    glosses: tuple[OutputGloss, ...]
+    faults: int
+
+
+def as_said(glosses: tuple[OutputGloss, ...]) -> Repaired:
     """A translation as the model says it."""
-    return Repaired(hypothesis.glosses, (False,) * len(hypothesis.glosses))
+    return Repaired(glosses, (False,) * len(glosses))
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,24 +76,39 @@ class HypothesisRepair:
         """
         return cls(Coverage.load(), GlossEvidence.load())
 
-    def repair(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
-        """The best translation that loses no word and invents no gloss.
-
-        If there is none, that with the fewest faults, without what it invents and with what it loses put
-        back: a sign that nobody said misleads. A word put back stands beside the gloss of the nearest word
-        that has one, a question word last. A sentence of nothing but function words has each of them signed,
-        since it would be empty otherwise.
+    def best(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Candidate:
+        """The first translation without a fault, else that with the fewest.
 
         Args:
             words: Of the sentence; one at least is no mark.
             hypotheses: Its translations, best first.
         """
-        faults: list[int] = []
+        candidates: list[Candidate] = []
         for hypothesis in hypotheses:
-            faults.append(self._faults(words, hypothesis.glosses))
-            if hypothesis.glosses and not faults[-1]:
-                return as_said(hypothesis)
-        best = hypotheses[faults.index(min(faults))].glosses
+            glosses = _said_once(words, hypothesis.glosses)
+            candidates.append(Candidate(glosses, self._faults(words, glosses)))
+            if glosses and not candidates[-1].faults:
+                return candidates[-1]
+        return min(candidates, key=lambda candidate: candidate.faults)
+
+    def repair(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
+        """The best translation, mended; see `best` and `mend`."""
+        return self.mend(words, self.best(words, hypotheses))
+
+    def mend(self, words: Sequence[SourceWord], candidate: Candidate) -> Repaired:
+        """A translation that loses no word and invents no gloss.
+
+        What it invents is left out, a sign that nobody said misleads; what it loses is put back. A word put
+        back stands beside the gloss of the nearest word that has one, a question word last. A sentence of
+        nothing but function words has each of them signed, since it would be empty otherwise.
+
+        Args:
+            words: Of the sentence; one at least is no mark.
+            candidate: The best of its translations.
+        """
+        best = candidate.glosses
+        if best and not candidate.faults:
+            return as_said(best)
         invented = self.evidence.invented(words, best)
         best = tuple(gloss for place, gloss in enumerate(best) if place not in invented)
         missing = {place: self._meant(words[place]) for place in self.coverage.lost(words, best)}
@@ -138,3 +168,23 @@ class HypothesisRepair:
                 if distance < best or (distance == best and source < word):
                     best, index = distance, place + (source < word)
         return index
+
+
+def _said_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:
+    """Glosses without those said twice in a row for one word: signers do not double a noun for its plural.
+
+    Counted in LSE-RADIS: CERDO TRES, LOS-TRES, TODO and pointing say the plural.
+    """
+    result: list[OutputGloss] = []
+    for gloss in glosses:
+        again = bool(result) and result[-1].gloss == gloss.gloss
+        if again and sum(_may_be(word, gloss.gloss) for word in words) <= 1:
+            sources = tuple(sorted({*result[-1].sources, *gloss.sources}))
+            result[-1] = replace(result[-1], sources=sources)
+        else:
+            result.append(gloss)
+    return tuple(result)
+
+
+def _may_be(word: SourceWord, gloss: str) -> bool:
+    return any(copied_gloss(reading) == gloss for reading in word.readings)

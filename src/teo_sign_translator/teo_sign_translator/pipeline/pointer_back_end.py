@@ -14,9 +14,11 @@ from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
+from teo_sign_translator.pipeline.drafted import Drafter
 from teo_sign_translator.pipeline.gloss_output import gloss_output_words
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair, Repaired, as_said
 from teo_sign_translator.pipeline.long_sentences import parts, pieces
+from teo_sign_translator.pipeline.trust import is_trusted
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.text.reading import Clause
 from teo_sign_translator.text.sentence_type import SentenceType
@@ -58,6 +60,7 @@ class PointerBackEnd:
         model: SentenceModel,
         morphology: Morphology,
         repair: HypothesisRepair,
+        drafter: Drafter,
         taught: Phrasebook,
         agreement: Agreement,
         *,
@@ -69,6 +72,7 @@ class PointerBackEnd:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
             repair: Chooses among the model's translations and mends the one it chooses.
+            drafter: Translates by rule what the model is not to be trusted with.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
             agreement: Gives the form of signs that agree.
@@ -77,6 +81,7 @@ class PointerBackEnd:
         self._model = model
         self._morphology = morphology
         self._repair = repair
+        self._drafter = drafter
         self._taught = taught
         self._agreement = agreement
         self._beam_width = beam_width
@@ -102,10 +107,13 @@ class PointerBackEnd:
         ]
 
     def _say(self, every: Sequence[_Part]) -> list[Repaired]:
-        """Translate parts; those that lose words piece by piece, if that loses fewer."""
+        """Translate parts; drafts of those that the model is not to be trusted with.
+
+        Of the others those that lose words are translated piece by piece, if that loses fewer.
+        """
         answers = self._model.translate_all([part.words for part in every], beam=self._beam_width)
         result = [
-            self._as_taught(part, hypotheses) or self._repair.repair(part.words, hypotheses)
+            self._as_taught(part, hypotheses) or self._trusted(part.words, hypotheses)
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
@@ -120,6 +128,15 @@ class PointerBackEnd:
             if sum(together.repaired) < sum(result[index].repaired):
                 result[index] = together
         return result
+
+    def _trusted(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
+        """The best hypothesis, mended, or a draft where that is better."""
+        best = self._repair.best(words, hypotheses)
+        draft = self._drafter.draft(words)
+        count = sum(not word.is_mark for word in words)
+        if is_trusted(best.glosses, draft, faults=best.faults, words=count):
+            return self._repair.mend(words, best)
+        return Repaired(draft, (False,) * len(draft), drafted=True)
 
     def _as_taught(self, part: _Part, hypotheses: Sequence[Hypothesis]) -> Repaired | None:
         """The translation that was taught; if it is not among the first, looked for among more."""
@@ -187,7 +204,7 @@ def _as_taught(hypotheses: Sequence[Hypothesis], taught: Pattern) -> Repaired | 
             gloss.gloss == expected or expected in SLOTS
             for gloss, expected in zip(hypothesis.glosses, taught.glosses, strict=True)
         ):
-            return as_said(hypothesis)
+            return as_said(hypothesis.glosses)
     return None
 
 

@@ -16,13 +16,16 @@ from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.store import load_model
 from teo_sign_translator.model_files import card_schema
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.output.generality import may_be_generalised
 from teo_sign_translator.output.incorporation import with_numbers_incorporated
-from teo_sign_translator.output.output_words import attach_carried, divide, number_tokens
-from teo_sign_translator.output.sign_choice import SignChooser, read_synonyms
+from teo_sign_translator.output.output_words import divide, number_tokens, without_carried
+from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.spelling import unsignable
+from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
+from teo_sign_translator.pipeline.drafted import Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
@@ -88,6 +91,7 @@ class Translator:
         *,
         beam_width: int = DEFAULT_BEAM_WIDTH,
         min_confidence: float = DEFAULT_MIN_CONFIDENCE,
+        substitutes: Substitutes = Substitutes.HYPERNYM,
     ) -> Translator:
         """Load a model and the package's data.
 
@@ -96,11 +100,13 @@ class Translator:
             directory: Folder of the models; by default the package's.
             beam_width: Translations that the model weighs against each other; `lstm256` has but one.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
+            substitutes: What may be signed in place of a gloss without a sign.
 
         Raises:
             TranslationError: "unknown_model", "invalid_model", "invalid_data".
         """
         glosses = GlossList.load()
+        lists = SubstituteLists.load()
         taught = Phrasebook(training_pairs(), glosses)
         if card_schema(name, directory) == SCHEMA:
             morphology = Morphology.load()
@@ -109,13 +115,23 @@ class Translator:
                 model,
                 morphology,
                 HypothesisRepair.load(),
+                Drafter.load(),
                 taught,
                 Agreement.load(),
                 beam_width=beam_width,
             )
-            return cls(back_end, SignChooser(read_synonyms(), morphology), min_confidence=min_confidence)
+            return cls(back_end, SignChooser(lists, morphology, substitutes), min_confidence=min_confidence)
         back_end = LstmBackEnd(load_model(name, directory), taught, glosses, name=name)
-        return cls(back_end, SignChooser(read_synonyms(), None), min_confidence=min_confidence)
+        return cls(back_end, SignChooser(lists, None, substitutes), min_confidence=min_confidence)
+
+    @property
+    def substitutes(self) -> Substitutes:
+        """What may be signed in place of a gloss without a sign."""
+        return self._chooser.substitutes
+
+    @substitutes.setter
+    def substitutes(self, allowed: Substitutes) -> None:
+        self._chooser.substitutes = allowed
 
     @property
     def name(self) -> str:
@@ -178,7 +194,9 @@ class Translator:
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
-        chosen = self._chooser.choose(attach_carried(translated_sentence.output_words), signs)
+        signed, dropped = without_carried(translated_sentence.output_words)
+        general = may_be_generalised(clauses, kind)
+        chosen = self._chooser.choose(signed, signs, general=general)
         output_words = with_numbers_incorporated(chosen, signs)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
@@ -188,8 +206,9 @@ class Translator:
                 negated=is_negated(clauses),
                 tokens=tokens,
                 uncertain=any(token.confidence < self.min_confidence for token in tokens),
+                dropped=() if place else dropped,
             )
-            for tokens in parts
+            for place, tokens in enumerate(parts)
         ]
 
 

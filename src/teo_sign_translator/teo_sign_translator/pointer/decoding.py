@@ -23,6 +23,11 @@ from teo_sign_translator.text.source_words import SourceWord
 SPARE = 4
 #: Sentences that are read and translated together, to bound memory; more are no faster.
 _TOGETHER = 64
+#: Times that a translation may say one gloss: twice, with every fourth word once more (a pronoun comes back
+#: in each clause), and once more than the sentence has its word. A search that goes round in a circle says
+#: one gloss until it is stopped.
+_TIMES_SAID = 2
+_WORDS_OF_A_CLAUSE = 4
 #: Words that a gloss stands for have at least this part of the highest attention: the alignment teaches equal
 #: attention to all of them.
 _SHARED_LOOK = 0.5
@@ -144,13 +149,15 @@ def search(
     said = np.full((count, beam), START_INDEX)
     choices: list[_Choice] = []
     row = np.arange(count)[:, None]
-    # Twice the words and some: plurals repeat a word, and pronoun, tense and question add glosses.
-    for _ in range(2 * width + 8):
+    left = np.repeat(_allowed(memory, size)[:, None], beam, axis=1)
+    # Twice the words: pronoun, tense and question add glosses. One more step tells what would go on.
+    for _ in range(2 * (width - 1) + 1):
         step = model.step(memory, said.ravel(), states)
         options = step.probability.shape[1]
         with np.errstate(divide="ignore"):
             following = np.log(step.probability).reshape(count, beam, options)
         following[..., START_INDEX] = -np.inf  # never said, only read
+        following[left <= 0] = -np.inf
         following[ended] = -np.inf
         following[ended, END_INDEX] = 0  # what has ended stays as it is
         total = (score[..., None] + following).reshape(count, beam * options)
@@ -163,10 +170,22 @@ def search(
         probability = np.exp(following.reshape(count, -1)[row, best])
         choices.append(_Choice(parent, said, slot, probability, attention))
         states = tuple(state[rows.ravel()] for state in step.states)
+        left = left[row, parent]
+        left[row, np.arange(beam), slot] -= 1
         ended = slot == END_INDEX
         if ended.all():
             break
     return [_hypotheses(model, memory, choices, index, score[index], ended[index]) for index in range(count)]
+
+
+def _allowed(memory: Memory, size: int) -> Ints:
+    """How often each gloss may be said in each sentence; the end always. Shape (B, options)."""
+    count, width = memory.words.shape[:2]
+    words: Ints = np.zeros((count, size + memory.slots.shape[1]), np.int64)
+    np.add.at(words, (np.arange(count)[:, None], memory.slots[:, ::READINGS]), 1)
+    words = np.maximum(words + 1, max(_TIMES_SAID, (width - 1) // _WORDS_OF_A_CLAUSE))
+    words[:, END_INDEX] = np.iinfo(np.int64).max
+    return words
 
 
 def _best(total: Array, greedy: Ints, beam: int) -> Ints:

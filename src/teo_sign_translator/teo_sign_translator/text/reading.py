@@ -21,6 +21,9 @@ from teo_sign_translator.text.numerals import (
 
 _LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
 _PAUSES = ",;:()[]{}–—―"
+#: Marks behind which a capital says nothing of the word; of a quote, only where one opens.
+_EXPLAINING = ":([{–—―•*¿¡"
+_QUOTES = "\"'"
 #: Laughter as it is typed, slips included: jajaja, jajja, jejeje, haha, xD.
 _LAUGHTER = re.compile(r"a?j[aj]*ja[aj]*|j[ej]*je[ej]*|j[ij]*ji[ij]*|h[ah]*ha[ah]*|xd+", re.IGNORECASE)
 _SHORTEST_LAUGHTER = 4
@@ -44,12 +47,15 @@ class Word:
         value: Digits of a number, with one `,` if it has decimals, or one `:` in a time of day; else empty.
         stands_for: What a short form, symbol or ordinal says, in lower case; else empty. Words that one short
             form stands for have the same `parts`.
+        after_mark: Whether a mark behind which a capital means nothing stands just before it: a colon, a
+            dash, an opening bracket or quote.
     """
 
     parts: tuple[str, ...]
     kind: WordKind
     value: str = ""
     stands_for: str = ""
+    after_mark: bool = False
 
     @property
     def text(self) -> str:
@@ -150,7 +156,10 @@ class _Reader:
             if _is_laughter(text[index:after]):
                 self._laugh(index, after)
             else:
-                self._add(Word((text[index:after],), WordKind.LETTERS), index)
+                self._add(
+                    Word((text[index:after],), WordKind.LETTERS, after_mark=_is_after_mark(text, index)),
+                    index,
+                )
         elif character in "-−" and _is_minus(text, index):
             self._add(Word((character,), WordKind.LETTERS, stands_for="menos"), index)
         elif character in "?!":
@@ -253,6 +262,20 @@ def _word_end(text: str, index: int) -> int:
         if index == len(text) or unicodedata.category(text[index])[0] != "M":
             return index
         index += 1
+
+
+def _is_after_mark(text: str, index: int) -> bool:
+    """Whether a mark before an index explains a capital there: `dijo: Ven`, `"Ven"`, `— Ven`, `- Ven`."""
+    if index == 0:
+        return False
+    if text[index - 1] != " ":
+        before = text[max(0, index - 2) : index - 1]
+        return text[index - 1] in _EXPLAINING or (text[index - 1] in _QUOTES and not before.strip(" ¿¡(:"))
+    while index > 0 and text[index - 1] == " ":
+        index -= 1
+    return index > 0 and (
+        text[index - 1] in _EXPLAINING or (text[index - 1] == "-" and _stands_alone(text, index - 1))
+    )
 
 
 def _is_laughter(word: str) -> bool:

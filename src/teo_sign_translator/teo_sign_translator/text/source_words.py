@@ -7,8 +7,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
+from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
+from teo_sign_translator.text.names import introduces, name_readings, opening_name
 from teo_sign_translator.text.numerals import roman_value
 from teo_sign_translator.text.reading import Clause, Word, WordKind, read
 
@@ -26,8 +27,8 @@ class SourceWord:
             (`sr.` is `señor`), a number in digits, also one of several words (`31`, `3,5`, `15:30`) or a
             Roman one (`21`), a drawn-out word as it is written (`holaaaa` is `hola`). A mark is one of `,`
             (any mark that is a short pause), `.`, `?`, `!`; opening marks are left out.
-        capital: Whether it was typed with a capital that neither the beginning of a sentence nor capitals
-            all over explain.
+        capital: Whether it was typed with a capital that neither the beginning of a sentence, a mark before
+            it (`names`) nor capitals all over explain.
         readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
     """
 
@@ -59,17 +60,34 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
     """The words and marks of a sentence that has been read."""
     shouted = _capitals_mean_nothing([word for clause in clauses for word in clause.words])
     words: list[SourceWord] = []
+    openings: list[int] = []
     begins = True
     for clause in clauses:
         begins = begins or bool(clause.opening)
         for word in _asking_why(clause):
-            capital = not begins and not shouted and not word.stands_for and word.capitalised
-            words.append(_source_word(word, capital, morphology, shouted=shouted))
+            begins = begins or word.after_mark
+            written = word.capitalised and not word.stands_for
+            if begins and written:
+                openings.append(len(words))
+            capital = written and not begins and not shouted
+            introduced = bool(words) and introduces(words[-1].readings)
+            words.append(_source_word(word, capital, morphology, shouted=shouted, introduced=introduced))
             begins = False
         if clause.end:
             words.append(SourceWord(clause.end, clause.end, False, _MARKS[clause.end]))
         begins = clause.closes
+    for place in openings:
+        following = words[place + 1].readings if place + 1 < len(words) else ()
+        readings = opening_name(_all_readings(words[place], morphology), following)
+        words[place] = replace(words[place], readings=readings)
     return tuple(words)
+
+
+def _all_readings(word: SourceWord, morphology: Morphology) -> tuple[Reading, ...]:
+    """The readings of a word, that of a given name among them though it is a common word too."""
+    if word.readings[0].tag in ("NUM", "X") or " " in word.form:
+        return word.readings
+    return morphology.readings(word.form)
 
 
 def _asking_why(clause: Clause) -> Sequence[Word]:
@@ -96,7 +114,9 @@ def _capitals_mean_nothing(words: Sequence[Word]) -> bool:
     return len(text) > 1 and text.isupper()
 
 
-def _source_word(word: Word, capital: bool, morphology: Morphology, *, shouted: bool) -> SourceWord:
+def _source_word(
+    word: Word, capital: bool, morphology: Morphology, *, shouted: bool, introduced: bool
+) -> SourceWord:
     text = word.text
     roman = 0 if shouted else roman_value(text)
     if roman:
@@ -110,9 +130,7 @@ def _source_word(word: Word, capital: bool, morphology: Morphology, *, shouted: 
         form = _written(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
         return SourceWord(text, form, capital, (Reading(form, "X"),))
-    readings = morphology.readings(form)
-    if capital and not any(r.tag.startswith("NAME") for r in readings):
-        readings = _with_name(text, readings)
+    readings = name_readings(morphology.readings(form), text, capital=capital, introduced=introduced)
     return SourceWord(text, form, capital, readings)
 
 
@@ -121,11 +139,3 @@ def _written(form: str, morphology: Morphology) -> str:
     single, double = shortened(form), shortened(form, times=2)
     known_twice = any(reading.exact for reading in morphology.readings(double))
     return double if known_twice and not any(r.exact for r in morphology.readings(single)) else single
-
-
-def _with_name(text: str, readings: tuple[Reading, ...]) -> tuple[Reading, ...]:
-    """Readings of a word with a capital inside a sentence: it may be a name that the lexicon lacks."""
-    name = Reading(text, "NAME", exact=False)
-    if not any(reading.exact for reading in readings):
-        return (name, *readings[: MAX_READINGS - 1])
-    return (*readings[: MAX_READINGS - 1], name)

@@ -39,11 +39,11 @@ def _glosses(*glosses: tuple[str, int]) -> tuple[OutputGloss, ...]:
         ("Quedamos.", [("PASADO", 0), ("NOSOTROS", 0), ("QUEDAR", 0)], ["PASADO"]),
         ("Ahora bajo.", [("AHORA", 0), ("YO", 1), ("BAJAR", 1)], []),
         ("Busco compañía.", [("YO", 0), ("COMPAÑÍA", 1), ("COMPAÑÍA", 1), ("BUSCAR", 0)], ["COMPAÑÍA"]),
-        ("Busco libros.", [("YO", 0), ("LIBRO", 1), ("LIBRO", 1), ("BUSCAR", 0)], []),
+        ("Busco libros.", [("YO", 0), ("LIBRO", 1), ("LIBRO", 1), ("BUSCAR", 0)], ["LIBRO"]),
         (
             "La farmacia cierra los domingos.",
             [("DOMINGO", 4), ("DOMINGO", 4), ("FARMACIA", 1), ("DOMINGO", 4), ("CERRAR", 2)],
-            ["DOMINGO"],
+            ["DOMINGO", "DOMINGO"],
         ),
         ("¿Dónde para el 27?", [("HORA", 3), ("27", 3), ("PARAR", 1), ("DÓNDE", 0)], ["HORA"]),
         ("Quedamos a las 7.", [("HORA", 2), ("7", 3), ("NOSOTROS", 0), ("QUEDAR", 0)], []),

@@ -11,6 +11,7 @@ from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.lstm256.seq2seq import Prediction
 from teo_sign_translator.lstm256.tokens import Vocabulary
 from teo_sign_translator.output.sign_choice import SignChooser
+from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
@@ -121,8 +122,8 @@ def test_a_known_word_is_spelled_where_a_capital_marks_a_name(translator: Transl
 
 def test_words_without_a_sign_go_with_the_next_word(translator: Translator) -> None:
     sentence = _only(translator, "El gato duerme en la calle de la")
-    assert _word(sentence, "gato").source_words == ("El", "gato")
-    assert _word(sentence, "calle").source_words == ("en", "la", "calle", "de", "la")
+    assert _word(sentence, "gato").source_words == ("gato",)
+    assert _word(sentence, "calle").source_words == ("calle",)
 
 
 def test_a_pronoun_made_explicit_has_no_source_words(translator: Translator) -> None:
@@ -160,7 +161,7 @@ class _Parrot:
 def _translator_with(model: _Parrot) -> Translator:
     glosses = GlossList.load()
     back_end = LstmBackEnd(model, Phrasebook(training_pairs(), glosses), glosses, name="parrot")
-    return Translator(back_end, SignChooser({}, None))
+    return Translator(back_end, SignChooser(SubstituteLists(), None))
 
 
 @pytest.mark.parametrize(

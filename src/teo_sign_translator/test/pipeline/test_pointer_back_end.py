@@ -73,8 +73,9 @@ def test_each_token_says_how_it_came_about_and_from_which_words(copying: Transla
         ("VER", Origin.MODEL, ("ve",)),
         ("2", Origin.NUMBER, ("2",)),
         ("GATO", Origin.MODEL, ("gatos",)),
-        ("CASA", Origin.MODEL, ("en", "la", "casa")),
+        ("CASA", Origin.MODEL, ("casa",)),
     ]
+    assert sentence.dropped == ("en", "la")
 
 
 def test_a_short_form_is_one_source_word(copying: Translator) -> None:

@@ -134,7 +134,8 @@ def _assert_well_formed(translation: Translation) -> None:
 
 
 def _assert_no_word_is_lost(text: str, translation: Translation) -> None:
-    sources = " ".join(w for s in translation.sentences for token in s.tokens for w in token.source_words)
+    words = [w for s in translation.sentences for token in s.tokens for w in token.source_words]
+    sources = " ".join([*words, *(word for s in translation.sentences for word in s.dropped)])
     # An ordinal's mark belongs to its number: "1ºA" is the words 1º and A.
     for word in re.findall(r"[^\W\d_]+|[0-9]+", re.sub("([0-9])[ºª]", r"\1 ", text)):
         assert word in sources, f"{word!r} of {text!r} is in none of: {sources}"

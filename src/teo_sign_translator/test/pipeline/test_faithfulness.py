@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What no translation may do: go round in a circle, grow beyond its text, lose a word unsaid, name nobody."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+import pytest
+
+from teo_sign_translator.output.substitutes import Substitutes
+from teo_sign_translator.output.translation import Kind
+from teo_sign_translator.pipeline.translator import Translator
+
+TRANSLATOR = Translator.load()
+
+SENTENCES = (
+    "actividades formativas complementarias",
+    "Ahora está acabada.",
+    "Para que la casa sea segura",
+    "Vengo por la baja",
+    "había desaparecido de allí",
+    "I love my dog y mi perro es my friend",
+    "Estoy very tired hoy",
+    "a" * 10_000,
+    "Hola " + "b" * 10_000 + " casa",
+    "casa " * 200,
+    "muy muy muy muy bien",
+)
+
+
+@pytest.mark.parametrize("text", SENTENCES)
+def test_no_translation_repeats_or_outgrows_its_text(text: str) -> None:
+    translation = TRANSLATOR.translate(text)
+    glosses = [
+        token.gloss
+        for sentence in translation.sentences
+        for token in sentence.tokens
+        if token.kind is Kind.LEXICAL
+    ]
+    words = re.findall(r"\w+", text)
+    assert len(glosses) <= 2 * len(words)
+    assert all(times <= words.count(gloss.lower()) + 2 for gloss, times in Counter(glosses).items())
+
+
+@pytest.mark.parametrize(
+    ("text", "invented"),
+    [
+        ("había desaparecido de allí", {"YO", "TÚ"}),
+        ("Vengo por la baja", {"ELLA", "ÉL"}),
+        ("Ahora está acabada.", {"ÉL", "ELLA", "YO"}),
+        ("actividades formativas complementarias", {"TÚ", "YO"}),
+        ("Para que la casa sea segura", {"YO"}),
+        ("I love my dog y mi perro es my friend", {"PASADO", "YO"}),
+    ],
+)
+def test_nobody_is_named_whom_no_word_names(text: str, invented: set[str]) -> None:
+    assert not invented & {*str(TRANSLATOR.translate(text)).split()}
+
+
+def test_what_no_token_stands_for_is_listed() -> None:
+    (sentence,) = TRANSLATOR.translate("La casa de mi madre está en la calle.").sentences
+    said = [word for token in sentence.tokens for word in token.source_words]
+    assert sorted({*said} | {*sentence.dropped}, key=str.lower) == sorted(
+        ["La", "casa", "de", "mi", "madre", "está", "en", "la", "calle"], key=str.lower
+    )
+    assert {"La", "de", "en"} <= {*sentence.dropped}
+    assert TRANSLATOR.translate("La casa").as_dict()["sentences"][0]["dropped"] == ["La"]
+
+
+def test_substitutes_can_be_switched_off() -> None:
+    signs = {"YO", "FLOR", "MEDICINA", "DINERO", "MÁQUINA"}
+    texts = {"Compré una rosa.": "FLOR", "la medicación": "MEDICINA", "el cajero": "DINERO MÁQUINA"}
+    try:
+        for text, sign in texts.items():
+            TRANSLATOR.substitutes = Substitutes.HYPERNYM
+            assert sign in str(TRANSLATOR.translate(text, signs))
+            TRANSLATOR.substitutes = Substitutes.NONE
+            assert sign not in str(TRANSLATOR.translate(text, signs))
+    finally:
+        TRANSLATOR.substitutes = Substitutes.HYPERNYM
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "No tengo perro.",
+        "¿Tienes perro?",
+        "Si tengo perro, salgo.",
+        "Los perros ladran.",
+        "Todo perro ladra.",
+        "Solo tengo un perro.",
+        "Salgo sin perro.",
+        "Me gusta el perro.",
+        "Tengo más perros.",
+        "¡Compra un perro!",
+        "El perro es fiel.",
+        "Tengo un perro y un animal.",
+    ],
+)
+def test_nothing_general_is_signed_where_the_sentence_would_change(text: str) -> None:
+    tokens = [
+        token for sentence in TRANSLATOR.translate(text, {"ANIMAL"}).sentences for token in sentence.tokens
+    ]
+    assert all(token.gloss != "ANIMAL" for token in tokens if {*token.source_words} & {"perro", "perros"})
+
+
+def test_something_general_is_signed_where_it_stays_true() -> None:
+    assert "ANIMAL" in str(TRANSLATOR.translate("Tengo un perro.", {"YO", "ANIMAL"}))
