@@ -81,6 +81,11 @@ def read_hands(symbols: tuple[Symbol, ...], movements: tuple[Movement, ...]) -> 
     )
 
 
+def _are_aslant_mirrors(first: Symbol, second: Symbol) -> bool:
+    """Whether one drawing is turned as far to the left as the other to the right."""
+    return (first.rotation + second.rotation) % 8 == 0 and first.rotation % 4 != 0
+
+
 def _can_be_either(symbol: Symbol) -> bool:
     """Whether a drawing may be either hand: one seen on its edge, or one that looks the same mirrored."""
     return symbol.fill in EDGE_SHOWN or looks_like_other_side(symbol)
@@ -129,6 +134,9 @@ def _two_of_one_side(
     try:
         _comes_later(pair[0], pair[1], side, movements)
     except UnreadableError:
+        first, second = pair
+        if (first.base, first.fill) == (second.base, second.fill) and _are_aslant_mirrors(first, second):
+            return [own], [other]
         # A flat hand that shows palm or back is drawn alike as either hand: then it is the other one.
         for symbol in (other, own):
             if looks_like_other_side(symbol):
