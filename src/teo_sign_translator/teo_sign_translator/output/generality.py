@@ -6,8 +6,8 @@
 generalised where its place is upward monotone: not under negation, `sin`, `si` or a comparison, not among all
 of a kind or the only ones (`todos`, `solo`), not of a kind as such ("los perros ladran", "me gustan las
 rosas"), and not in what is asked or told to be done, which is neither true nor false. It is enough that one
-such word stands in the sentence: what it governs is not looked for. Source of the rule: J. van Benthem,
-"Essays in Logical Semantics", 1986, chapter 6.
+such word stands in the sentence: what it governs is not looked for. This is what logic calls
+upward monotonicity; the lists of words are our own.
 """
 
 from __future__ import annotations
