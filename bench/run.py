@@ -21,6 +21,7 @@ import robot_model
 import spelling
 import text_to_trajectory
 import translation
+import words
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -34,6 +35,7 @@ BENCHES = (
     lifting,
     driver_rate,
     translation,
+    words,
     text_to_trajectory,
     limbs,
     retargeting,

@@ -45,5 +45,6 @@ setup(
             "compare = teo_sign_translator.cli.compare:main",
             "reproduce_paper = teo_sign_translator.cli.reproduce_paper:main",
         ],
+        "teo_lut_executor.lut_commands": ["coverage = teo_sign_translator.cli.coverage:coverage"],
     },
 )

@@ -240,7 +240,9 @@ class _Reader:
                     "times_not_increasing", f"{field}times[{index}]", expected, f"{times[index]:g} s"
                 )
 
-    def _check_rows(self, joints: list[str], times: list[float], given: list[list[float]], field: str) -> None:
+    def _check_rows(
+        self, joints: list[str], times: list[float], given: list[list[float]], field: str
+    ) -> None:
         if len(given) != len(times):
             self._refuse("wrong_length", field, f"{len(times)} rows, one a time", f"{len(given)}")
         for index, row in enumerate(given):

@@ -34,6 +34,15 @@ add_plugins(app)
 _output = Console(highlight=False)
 
 
+@app.callback()
+def _remember_table(context: typer.Context) -> None:
+    """Look into a table of signs."""
+    try:
+        context.obj = default_lut_directory()
+    except LutError:  # other tables can be looked into all the same
+        context.obj = None
+
+
 @app.command("list")
 def list_signs(
     lut: TableDirectory = None,

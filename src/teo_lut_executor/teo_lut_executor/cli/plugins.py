@@ -6,22 +6,35 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib.metadata import EntryPoint, entry_points
+from typing import NamedTuple
 
 import typer
 
 from teo_lut_executor.cli.options import fail
 from teo_signs.errors import LutError
 
-# Entry points of this group are commands: name, and a function with typer's annotations.
+# Entry points of this group are commands: name, and a function with typer's annotations. The directory of the
+# package's table is its context's `obj`.
 GROUP = "teo_lut_executor.lut_commands"
 
-# Commands that belong to `lut` for its users though another package has them, and what each does.
+
+class _Known(NamedTuple):
+    """A command that belongs to `lut` for its users though another package has it."""
+
+    does: str
+    provider: str
+    requirements: str
+
+
+_CAPTURE = ("teo_sign_capture", "requirements/capture.txt")
 _KNOWN = {
-    "capture": "A sign from recordings of a person.",
-    "import": "A sign from a clip in which a person's points were found.",
-    "record": "A sign from the person before the camera, now.",
+    "capture": _Known("A sign from recordings of a person.", *_CAPTURE),
+    "coverage": _Known("What of a text has signs.", "teo_sign_translator", "requirements/run.txt"),
+    "import": _Known(
+        "Signs from a clip in which a person's points were found, or from SignWriting.", *_CAPTURE
+    ),
+    "record": _Known("A sign from the person before the camera, now.", *_CAPTURE),
 }
-_PROVIDER = "teo_sign_capture"
 
 
 def add_plugins(app: typer.Typer) -> None:
@@ -33,24 +46,27 @@ def add_plugins(app: typer.Typer) -> None:
         except ImportError as error:
             _add_placeholder(app, name, _reason_not_loaded(point, error))
     for name in _KNOWN.keys() - found.keys():
+        known = _KNOWN[name]
         _add_placeholder(
             app,
             name,
-            f"lut {name}: expected the package {_PROVIDER}, which is not installed; "
-            "install requirements/capture.txt and build the package",
+            f"lut {name}: expected the package {known.provider}, which is not installed; "
+            f"install {known.requirements} and build the package",
         )
 
 
 def _reason_not_loaded(point: EntryPoint, error: ImportError) -> str:
     provider = point.module.partition(".")[0]
-    return f"lut {point.name}: expected what {provider} needs, got: {error}; install requirements/capture.txt"
+    install = f"; install {_KNOWN[point.name].requirements}" if point.name in _KNOWN else ""
+    return f"lut {point.name}: expected what {provider} needs, got: {error}{install}"
 
 
 def _add_placeholder(app: typer.Typer, name: str, reason: str) -> None:
     def missing() -> None:
         fail(LutError("not_installed", reason))
 
-    missing.__doc__ = f"{_KNOWN.get(name, 'A command of another package.')} (not installed)"
+    does = _KNOWN[name].does if name in _KNOWN else "A command of another package."
+    missing.__doc__ = f"{does} (not installed)"
     anything = {"allow_extra_args": True, "ignore_unknown_options": True}
     command: Callable[[], None] = missing
     app.command(name, context_settings=anything)(command)

@@ -121,12 +121,14 @@ def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> 
     try:
         written = Score(
             gloss=gloss,
+            kind="lexical",
             standing="described",
             source=source,
             face=face,
             notes="; ".join(dict.fromkeys(losses)),
             hands="mirrored" if mirrored else "both" if lefts else "right",
             steps=list(steps),
+            forms=None,
         )
     except ValidationError as error:
         raise UnreadableError("posture", error.errors()[0]["msg"].removeprefix("Value error, ")) from error
@@ -228,6 +230,7 @@ def _steps(rights: list[Beat], lefts: list[Beat], pace: float) -> list[Step]:
         arc = None if lefts or right.arc is None else displacement_words(right.arc) or None
         touches = right.touches or (left is not None and left.touches)
         swing = right.swing or (left.swing if left else None)
+        both_swing = left is None or (right.swing is not None and left.swing is not None)
         steps.append(
             Step(
                 time=round(pace * time, 2),
@@ -243,6 +246,7 @@ def _steps(rights: list[Beat], lefts: list[Beat], pace: float) -> list[Step]:
                     angle=_SWINGS[swing.joint],
                     times=swing.times,
                     time=round(pace * _SWING_TIME * swing.times, 2),
+                    hand=None if both_swing else "right" if right.swing else "left",
                 ),
             )
         )
@@ -296,6 +300,7 @@ def _circle(beat: Beat, pace: float) -> Circle | None:
         start=direction_words(first),
         clockwise=clockwise,
         time=round(pace * _ROUND_TIME * beat.circle.turns, 2),
+        hand=None,
     )
 
 

@@ -14,10 +14,9 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
 from teo_sign_translator.output.sign_coverage import Coverage, Showing, most_wanted, shown_words
-from teo_sign_translator.output.table_signs import LEAST_STANDINGS, read_table
 from teo_sign_translator.output.translation import Sentence
-from teo_sign_translator.pipeline.translator import Translator
 
 #: Lines of a file that are translated together [lines]: the bar moves, and more are no faster.
 _TOGETHER = 64
@@ -53,8 +52,9 @@ def coverage(
         Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
     ] = None,
     least_standing: Annotated[
-        str, typer.Option(help=f"Signs that are less well founded are not counted: {', '.join(LEAST_STANDINGS)}.")
-    ] = "described",
+        str,
+        typer.Option(help=f"Signs that are less well founded do not count, one of {', '.join(STANDINGS)}."),
+    ] = LEAST_STANDING,
     wanted: Annotated[
         int, typer.Option(min=0, help="How many of the missing signs to list, the most frequent first.")
     ] = _DEFAULT_WANTED,
@@ -64,10 +64,18 @@ def coverage(
 
     Exit status: 0, 1 if a line could not be translated or a file not be read, 2 wrong options.
     """
+    from teo_sign_translator.pipeline.translator import Translator  # slow to load: not for every `lut`
+
     if (file is None) == (text is None):
         raise typer.BadParameter("expected either a file or --text")
     try:
-        table = read_table(lut or context.obj, least_standing)
+        table = lut or context.obj
+        if table is None:
+            raise TranslationError(
+                "invalid_data", "expected a table of signs, found none: name one with --lut"
+            )
+        signs = read_signs(table, least_standing)
+        guesses = read_signs(table, STANDINGS[-1]) - signs
         lines = [text] if text is not None else _lines(file)
         translator = Translator.load()
     except TranslationError as error:
@@ -76,19 +84,19 @@ def coverage(
     lines = [line for line in lines if line.strip()]
     batches = [lines[start : start + _TOGETHER] for start in range(0, len(lines), _TOGETHER)]
     for batch in track(batches, "translating", console=_errors, disable=not _errors.is_terminal):
-        for line, answer in zip(batch, translator.translate_all(batch, table.signs), strict=True):
+        for line, answer in zip(batch, translator.translate_all(batch, signs), strict=True):
             if isinstance(answer, TranslationError):
                 refused += 1
                 _errors.print(f"{answer.code}: {answer}: {line[:60]}", markup=False, soft_wrap=True)
                 continue
-            counted.add(answer, table.guesses)
+            counted.add(answer, guesses)
             sentences += answer.sentences
     if as_json:
         print(json.dumps(_as_dict(counted, refused), ensure_ascii=False))
     else:
         if text is not None:
             for sentence in sentences:
-                _print_sentence(sentence, table.guesses)
+                _print_sentence(sentence, guesses)
         _print_counts(counted, wanted)
     raise typer.Exit(int(refused > 0))
 
@@ -104,7 +112,9 @@ def _lines(file: Path | None) -> list[str]:
 def _print_sentence(sentence: Sentence, guesses: frozenset[str]) -> None:
     table = Table("word", "shown by", "how", box=None, title=sentence.text, title_justify="left")
     for word in shown_words(sentence, guesses):
-        signs = ("-" if word.showing in (Showing.LETTERS, Showing.GUESS, Showing.NAME) else " ").join(word.signs)
+        signs = ("-" if word.showing in (Showing.LETTERS, Showing.GUESS, Showing.NAME) else " ").join(
+            word.signs
+        )
         style = _STYLES[word.showing]
         table.add_row(word.gloss, f"[{style}]{signs}[/{style}]", _MEANINGS[word.showing])
     _output.print(table)
@@ -128,8 +138,8 @@ def _print_counts(counted: Coverage, wanted: int) -> None:
         table = Table("wanted next", "times", "of all words", "first in", box=None)
         for gloss, times in missing:
             name = f"{gloss} (a guess so far)" if gloss in counted.guessed else gloss
-            share = f"{100 * times / counted.words:.1f} %"
-            table.add_row(name, str(times), share, counted.examples[gloss][:60])
+            of_all = f"{100 * times / counted.words:.1f} %"
+            table.add_row(name, str(times), of_all, counted.examples[gloss][:60])
         _output.print(table)
 
 

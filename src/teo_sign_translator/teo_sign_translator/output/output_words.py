@@ -34,6 +34,7 @@ class OutputWord:
         origin: Where it comes from.
         is_name: Whether its one gloss is somebody's name, spelled unless it has a sign.
         inflection: Form of its one sign: "2>1" from the addressee to the signer; empty for the citation form.
+        meant: The gloss that it shows, if that is not its own; empty for a gloss's own sign and for names.
         said: What a word without a sign of its own says; spelled if nothing else of its sentence is signed.
     """
 
@@ -44,6 +45,7 @@ class OutputWord:
     origin: Origin
     is_name: bool = False
     inflection: str = ""
+    meant: str = ""
     said: str = ""
 
 
@@ -177,6 +179,7 @@ def number_tokens(output_words: Iterable[OutputWord]) -> tuple[Token, ...]:
             source_words=output_word.words,
             origin=output_word.origin,
             inflection=output_word.inflection,
+            meant=output_word.meant,
         )
         for index, output_word in enumerate(output_words)
         for sign in output_word.signs

@@ -52,7 +52,7 @@ class SignChooser:
         for word in words:
             chosen = self._choose(word, signs, taken if general else None)
             taken |= {each.signs[0] for each in chosen if each.origin is Origin.HYPERNYM}
-            result += chosen
+            result += (_shows(each, word) for each in chosen)
         return result
 
     def _choose(
@@ -139,6 +139,13 @@ class SignChooser:
         readings = self._morphology.readings(gloss.lower())
         lemmas = (reading.lemma.upper() for reading in readings if reading.exact)
         return tuple(dict.fromkeys(lemma for lemma in lemmas if lemma != gloss))
+
+
+def _shows(chosen: OutputWord, word: OutputWord) -> OutputWord:
+    """What was chosen, with the gloss that it shows if that is another's and no name."""
+    if word.kind is not Kind.LEXICAL or word.is_name or chosen.signs == word.signs:
+        return chosen
+    return replace(chosen, meant=word.signs[0])
 
 
 def _letters(output_word: OutputWord) -> list[OutputWord]:

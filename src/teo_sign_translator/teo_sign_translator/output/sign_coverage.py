@@ -52,17 +52,13 @@ def shown_words(sentence: Sentence, guesses: Set[str] = frozenset()) -> list[Sho
         guesses: Glosses of that table whose form has no source: as many as these were signed if guesses were
             allowed, and are spelled if not.
     """
-    return [
-        _shown(tuple(run), guesses)
-        for (_, meant), run in groupby(
-            (token for token in sentence.tokens if token.kind is not Kind.PAUSE), key=_word
-        )
-    ]
+    tokens = (token for token in sentence.tokens if token.kind is not Kind.PAUSE)
+    return [_shown(tuple(run), guesses) for _, run in groupby(tokens, key=_word)]
 
 
-def _word(token: Token) -> tuple[int | None, str]:
-    """What tokens of one output word share: the word's number, or the gloss that a paraphrase says."""
-    return (None if token.origin is Origin.PARAPHRASE else token.word_index), token.meant
+def _word(token: Token) -> str | int:
+    """What the tokens of one word share: the gloss that they show together, else the word's number."""
+    return token.meant or token.word_index
 
 
 def _shown(tokens: tuple[Token, ...], guesses: Set[str]) -> ShownWord:
@@ -71,7 +67,7 @@ def _shown(tokens: tuple[Token, ...], guesses: Set[str]) -> ShownWord:
     gloss = first.meant or "".join(signs)
     if first.kind is Kind.NUMBER:
         showing = Showing.NUMBER
-    elif first.kind is Kind.LETTER:
+    elif any(token.kind is Kind.LETTER for token in tokens):
         showing = Showing.NAME if not first.meant else Showing.GUESS if gloss in guesses else Showing.LETTERS
     else:
         showing = Showing.SUBSTITUTE if first.origin in _SUBSTITUTES else Showing.SIGN

@@ -52,6 +52,8 @@ class Token:
         source_words: Words of the text, as typed, that the token stands for.
         origin: How it came about.
         inflection: Form of the sign: "2>1" from the addressee to the signer; empty for the citation form.
+        meant: The gloss that it shows together with its neighbours of the same, if that is not its own: of a
+            substitute, or of a spelled word that is no name; else empty.
     """
 
     gloss: str
@@ -62,6 +64,7 @@ class Token:
     origin: Origin
     duration_scale: float = 1.0
     inflection: str = ""
+    meant: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,6 +139,7 @@ class Translation:
                             "source_words": list(token.source_words),
                             "origin": token.origin.name.lower(),
                             "inflection": token.inflection,
+                            "meant": token.meant,
                         }
                         for token in sentence.tokens
                     ],
