@@ -126,6 +126,8 @@ def test_a_leak_is_found_wherever_it_is(tmp_path: Path, path: Path, content: str
 
 @pytest.mark.parametrize("name", MOST_ACCEPTED)
 def test_each_sentence_has_translations_but_not_too_many(name: str) -> None:
+    if name == "blind" and not (ROOT / SENTENCES / "blind.txt").is_file():
+        pytest.skip("the blind sentences are used up: test/data/README.md says who writes new ones")
     counts = [len(accepted(pattern)) for pattern in lines(ROOT, f"{name}.glosses")]
     assert len(counts) == len(lines(ROOT, f"{name}.txt"))
     assert min(counts) >= 1

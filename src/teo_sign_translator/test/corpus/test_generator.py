@@ -270,6 +270,34 @@ def test_negation_comes_last_in_statements(train):
     assert not wrong
 
 
+def test_nothing_is_signed_that_signers_leave_out(train):
+    """Counted on elicited phrases and the LSE-RADIS narratives: see the corpus README."""
+    ours = [pair for pair in train if pair.rule != "paper"]
+    for pair in ours:
+        words = pair.spanish.lower()
+        if {"PASADO", "FUTURO"} & set(pair.glosses):
+            assert re.search(r"pasad|hace|dentro|\bde (peque|jov|niñ)|futuro", words), pair
+        assert "SENTIR" not in pair.glosses, pair
+        doubled = {gloss for gloss, after in pairwise(pair.glosses) if gloss == after}
+        assert not doubled or "MAÑANA" in doubled or pair.spanish.count("y") or "cada dos" in words, pair
+
+
+def test_a_translation_is_about_as_long_as_signers_make_it(train):
+    """4.2 signs for 5.8 words, 0.72 signs a word."""
+    words = sum(len(re.findall(r"\w+", pair.spanish)) for pair in train)
+    assert 0.68 < sum(len(pair.glosses) for pair in train) / words < 0.80
+
+
+def test_numbers_stand_before_what_they_count(train):
+    counted = [
+        pair
+        for pair in train
+        if pair.rule.startswith(("possession.have_number", "numbers.costs", "weather.degrees"))
+    ]
+    assert len(counted) > 10
+    assert not [pair for pair in counted if pair.glosses[-1].isdigit() and "con" not in pair.spanish]
+
+
 def test_time_comes_first_and_replaces_the_mark_of_tense(train):
     timed = [pair for pair in train if pair.rule.startswith(("statement.", "yes_no.when."))]
     for spanish, gloss in (("ayer", "AYER"), ("anoche", "ANOCHE"), ("hoy", "HOY")):
