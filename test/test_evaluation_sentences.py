@@ -27,10 +27,9 @@ PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the
 # others were written more generously.
 MOST_ACCEPTED = {"blind": 6, "known": 200}
-# Known sentences that must come out as accepted. The shipped translator has 403 of the 465, what it was
-# not sure of drafted and nobody named whom only an ambiguous ending names (419 without either): a mend of one
+# Known sentences that must come out as accepted. The shipped translator has 522 of the 644: a mend of one
 # sentence may cost another one or two, what costs more is a loss.
-FLOOR = 400
+FLOOR = 519
 
 
 def lines(root: Path, name: str) -> list[str]:
@@ -127,6 +126,8 @@ def test_a_leak_is_found_wherever_it_is(tmp_path: Path, path: Path, content: str
 
 @pytest.mark.parametrize("name", MOST_ACCEPTED)
 def test_each_sentence_has_translations_but_not_too_many(name: str) -> None:
+    if name == "blind" and not (ROOT / SENTENCES / "blind.txt").is_file():
+        pytest.skip("the blind sentences are used up: test/data/README.md says who writes new ones")
     counts = [len(accepted(pattern)) for pattern in lines(ROOT, f"{name}.glosses")]
     assert len(counts) == len(lines(ROOT, f"{name}.txt"))
     assert min(counts) >= 1

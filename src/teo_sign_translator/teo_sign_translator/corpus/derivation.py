@@ -15,7 +15,7 @@ from teo_sign_translator.corpus.sides import Sides
 from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tenses import Tenses
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, looked_up
-from teo_sign_translator.corpus.verb_phrase import marked_once, marks_ambiguous
+from teo_sign_translator.corpus.verb_phrase import without_addressee
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
@@ -74,9 +74,7 @@ class Derivation:
         phrase = self._phrase(rule, {}, "", spread)
         stressed = frozenset(self.grammar.word_lists.get("stressed_a", ()))
         text, places = write(phrase.tokens, stressed)
-        signs = marked_once(phrase.signs)
-        if marks_ambiguous(signs, self.words.morphology):
-            raise NoFillerError(f"{rule.where}: present or past")
+        signs = without_addressee(phrase.signs, asked="?" in text)
         lost = [sign.gloss for sign in signs if any(id(token) not in places for token in sign.sources)]
         if lost:
             raise TranslationError(
@@ -105,7 +103,9 @@ class Derivation:
             else:
                 chosen = self._alternative(slot.category, arguments, place, spread.get(slot.name), rule)
                 slots[slot.name] = self._phrase(chosen, arguments, place, {})
-        tokens, signs = Sides(rule, slots, features, self.words, self.grammar.paradigms).said()
+        tokens, signs = Sides(
+            rule, slots, features, self.words, self.grammar.paradigms, self.grammar.word_lists
+        ).said()
         head = slots.get(rule.head)
         taken = {**(head.features if head else {})}
         for key, value in rule.features:

@@ -180,6 +180,7 @@ class _Seen:
 def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
     """Content words that only tests see: by hash, except those that the grammar itself names."""
     named = {item.word for rule in grammar.rules() for item in rule.spanish}
+    named |= {item.gloss.lower() for rule in grammar.rules() for item in rule.glosses}
     named |= {
         value
         for rule in grammar.rules()

@@ -104,7 +104,6 @@ class Shape:
         weight: How often, among those that fit.
         mood: ind, sub, sub_past, inf, imp, neg_imp or ger.
         time: past, present or future.
-        mark: Whether PASADO or FUTURO is said where no time word says it.
         kind: "event": only of verbs that are events; else empty.
         dated: Whether it is said with a past date: not the perfect ("ayer he ido").
         parts: Words.
@@ -116,7 +115,6 @@ class Shape:
     weight: float
     mood: str
     time: str
-    mark: bool
     kind: str
     dated: bool
     parts: tuple[ShapePart, ...]

@@ -34,7 +34,7 @@ from teo_sign_translator.errors import TranslationError
 
 _SECTIONS = ("families", "categories", "shapes", "paradigms", "word_lists", "held_out", "constructions")
 _RULE_KEYS = ("weight", "when", "pick", "es", "lse", "set", "head", "example", "repeat")
-_SHAPE_KEYS = ("weight", "mood", "time", "mark", "kind", "dated", "es", "lse")
+_SHAPE_KEYS = ("weight", "mood", "time", "kind", "dated", "es", "lse")
 _MOODS = ("ind", "sub", "sub_past", "inf", "imp", "neg_imp", "ger")
 _TIMES = ("past", "present", "future")
 _PART = re.compile(r"(?P<lemma>\w*)(?P<main>\*?)/(?P<tag>[\w:]+)(?P<enclitic>\+?)")
@@ -189,7 +189,7 @@ def _check_sides(
     counted = Counter(item.word for item in spanish)
     words = {f"{word}#{n}" if n > 1 else word for word, count in counted.items() for n in range(1, count + 1)}
     for gloss in glosses:
-        for slot in (gloss.slot, gloss.also, gloss.tense):
+        for slot in (gloss.slot, gloss.also):
             if slot and slot not in names:
                 _fail(where, f"slots {sorted(names)} in 'lse', got '{slot}'")
         for source in gloss.sources:
@@ -224,7 +224,6 @@ def _shape(where: str, name: str, body: Any) -> Shape:
         _number(where, body.get("weight", 1)),
         mood,
         time,
-        bool(body.get("mark", time != "present")),
         _text(where, body.get("kind", "")),
         bool(body.get("dated", True)),
         tuple(parts),

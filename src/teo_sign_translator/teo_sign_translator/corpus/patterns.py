@@ -5,11 +5,10 @@
 Spanish: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
 `un~n` the paradigm word "un" agreeing with slot n.
 
-LSE: `{X}` the glosses of slot X, `{n*}` the same twice where slot n is plural, `{n+V}` the same, which the
-head of slot V says too ("da miedo": MIEDO), `{T/V}` the time expression T and, unless it says the tense,
-PASADO or FUTURO by verb V; `{/V}` the latter alone. `GLOSS` is a gloss that no word says, `GLOSS=word+word`
-one that those words of the Spanish side say (`word#2` the second of them, `{X}` the head of a slot),
-`GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a clitic pronoun says.
+LSE: `{X}` the glosses of slot X, `{n+V}` the same, which the head of slot V says too ("da miedo": MIEDO).
+`GLOSS` is a gloss that no word says, `GLOSS=word+word` one that those words of the Spanish side say (`word#2`
+the second of them, `{X}` the head of a slot), `GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a
+clitic pronoun says.
 """
 
 from __future__ import annotations
@@ -22,8 +21,7 @@ from teo_sign_translator.errors import TranslationError
 _SLOT = re.compile(r"\{(?P<slot>\w+)(?::(?P<agree>\w+))?\}")
 _AGREEING = re.compile(r"(?P<word>\w+)~(?P<agree>\w+)")
 _LITERAL = re.compile(r"\w+|[¿?¡!,.:]")
-_GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?P<twice>\*?)(?:\+(?P<also>\w+))?\}")
-_TENSE = re.compile(r"\{(?P<time>\w*)/(?P<verb>\w+)\}")
+_GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?:\+(?P<also>\w+))?\}")
 _GLOSS = re.compile(r"(?P<gloss>[A-ZÁÉÍÓÚÜÑ0-9_]+)(?:=(?P<sources>\S+))?")
 
 #: Sources of a gloss that the verb's ending or a clitic says.
@@ -47,21 +45,17 @@ class SpanishItem:
 
 @dataclass(frozen=True, slots=True)
 class GlossItem:
-    """One item of the LSE side: a slot, a tense or a gloss.
+    """One item of the LSE side: a slot or a gloss.
 
     Attributes:
-        slot: Name of the slot; of the time slot for a tense; else empty.
-        twice: Whether the slot's glosses are said twice where it is plural.
+        slot: Name of the slot; else empty.
         also: Slot whose head says the glosses too; empty for none.
-        tense: Verb slot whose tense is said; else empty.
-        gloss: The gloss; empty for slot and tense.
+        gloss: The gloss; empty for a slot.
         sources: Words of the Spanish side, `{slot}`s, `VERB` or `CLITIC`.
     """
 
     slot: str = ""
-    twice: bool = False
     also: str = ""
-    tense: str = ""
     gloss: str = ""
     sources: tuple[str, ...] = ()
 
@@ -97,14 +91,12 @@ def parse_glosses(text: str) -> tuple[GlossItem, ...]:
     items: list[GlossItem] = []
     for written in text.split():
         if match := _GLOSS_SLOT.fullmatch(written):
-            items.append(GlossItem(match["slot"], bool(match["twice"]), match["also"] or ""))
-        elif match := _TENSE.fullmatch(written):
-            items.append(GlossItem(slot=match["time"], tense=match["verb"]))
+            items.append(GlossItem(match["slot"], match["also"] or ""))
         elif match := _GLOSS.fullmatch(written):
             sources = tuple(match["sources"].split("+")) if match["sources"] else ()
             items.append(GlossItem(gloss=match["gloss"], sources=sources))
         else:
             raise TranslationError(
-                "invalid_grammar", f"expected GLOSS, GLOSS=word, {{slot}} or {{time/verb}}, got '{written}'"
+                "invalid_grammar", f"expected GLOSS, GLOSS=word or {{slot}}, got '{written}'"
             )
     return tuple(items)

@@ -11,11 +11,13 @@ from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.grammar import Rule
 from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem, SpanishItem
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
-from teo_sign_translator.corpus.verb_phrase import say_verb, tense_signs, verb_signs
+from teo_sign_translator.corpus.verb_phrase import say_verb, verb_signs
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
 _COLUMNS = ("ms", "fs", "mp", "fp")
+#: Clitics that LSE never says: what has just been spoken of is known.
+_THINGS = frozenset(("lo", "la", "los", "las"))
 
 
 @dataclass
@@ -28,6 +30,8 @@ class Sides:
         handed: Features handed down to the rule: the person of a verb without a subject of its own.
         words: Inflects.
         paradigms: Forms of agreeing words, in the order masculine and feminine singular, then plural.
+        lists: Lists of verbs that say less in LSE, by name: `unsaid_verbs` have no sign beside what they
+            govern ("tengo fiebre"), the path of `directed_verbs` shows whom a clitic means ("te ayudo").
     """
 
     rule: Rule
@@ -35,6 +39,7 @@ class Sides:
     handed: Mapping[str, str]
     words: WordLists
     paradigms: Mapping[str, tuple[str, str, str, str]]
+    lists: Mapping[str, tuple[str, ...]]
     _literals: dict[str, Token] = field(default_factory=dict)
 
     def said(self) -> tuple[list[Token], list[Sign]]:
@@ -88,17 +93,19 @@ class Sides:
             raise TranslationError(error.code, f"{self.rule.where}: {error}") from error
         verb.said = said
         phrase.tokens = said.tokens
-        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said)
+        alone = verb.word.lemma not in self.lists.get("unsaid_verbs", ())
+        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone)
         phrase.head = said.main
+        directed = verb.word.lemma in self.lists.get("directed_verbs", ())
         for carrier, token in zip(carrying, said.clitics, strict=True):
+            shown = directed and "feels" not in carrier.features
+            if shown or carrier.features["clitic"] in _THINGS:
+                carrier.leave_out(CLITIC)
             carrier.say(CLITIC, token)
         if subject:
             subject.say(VERB, said.finite)
 
     def _signs(self, item: GlossItem) -> list[Sign]:
-        if item.tense:
-            says = [phrase.features.get("says", "") for phrase in self.slots.values()]
-            return tense_signs(self.slots[item.tense].verb, self.slots.get(item.slot), says)
         return self._of_slot(item) if item.slot else [self._gloss(item)]
 
     def _of_slot(self, item: GlossItem) -> list[Sign]:
@@ -107,8 +114,7 @@ class Sides:
         also = self.slots[item.also].head if item.also else None
         if also:
             signs = [replace(sign, sources=[*sign.sources, also]) for sign in signs]
-        several = phrase.features.get("number") == "p" and "plural_only" not in phrase.features
-        return [*signs, *signs] if item.twice and several else signs
+        return signs
 
     def _gloss(self, item: GlossItem) -> Sign:
         sign = Sign(item.gloss)

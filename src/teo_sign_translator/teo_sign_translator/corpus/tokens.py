@@ -33,14 +33,11 @@ class Sign:
         gloss: Upper case.
         sources: The words that it stands for.
         pending: What else will say it, once that is known: `patterns.VERB` or `CLITIC`.
-        tense: Time that it marks for all that follows: "past" or "future"; empty for other glosses. One
-            without a gloss marks that a time word has said so.
     """
 
     gloss: str
     sources: list[Token] = field(default_factory=list)
     pending: str = ""
-    tense: str = ""
 
 
 class VerbPhrase(NamedTuple):
@@ -85,6 +82,10 @@ class Phrase:
             if sign.pending == pending:
                 sign.sources.append(token)
                 sign.pending = ""
+
+    def leave_out(self, pending: str) -> None:
+        """Take away the signs that are pending for a word: another sign shows what they say."""
+        self.signs = [sign for sign in self.signs if sign.pending != pending]
 
 
 @dataclass(slots=True, eq=False)

@@ -4,17 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Sequence
 
 from teo_sign_translator.corpus.grammar import Shape
-from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token, VerbPhrase
+from teo_sign_translator.corpus.tokens import Sign, Token, VerbPhrase
 from teo_sign_translator.corpus.words import WordLists
-from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.enclitics import attach_pronouns
 
-_TENSE_SIGNS = {"past": "PASADO", "future": "FUTURO"}
-#: First person plural of the present.
-_WE_NOW = "V:ind:pres:1p"
+_CAN = "PODER"
+_ADDRESSEES = frozenset(("TÚ", "USTED", "VOSOTROS", "USTEDES"))
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
 #: Reflexive pronoun by person.
@@ -82,58 +80,27 @@ def in_order(clitics: Sequence[str]) -> tuple[str, ...]:
     return ordered
 
 
-def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase) -> list[Sign]:
-    """The glosses of a verb and of what its shape adds."""
+def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase, *, said_alone: bool = True) -> list[Sign]:
+    """The glosses of a verb, unless others say it (not `said_alone`), and of what its shape adds."""
     signs: list[Sign] = []
     for gloss, source in shape.glosses:
+        if gloss == "*" and not said_alone:
+            continue
         said = [phrase.parts[source]] if source else []
         signs.append(Sign(lemma.upper(), [*said, phrase.main]) if gloss == "*" else Sign(gloss, said))
     return signs
 
 
-def tense_signs(verb: SaidVerb | None, time: Phrase | None, says: Collection[str]) -> list[Sign]:
-    """The time expression, and before it the mark of tense.
+def without_addressee(signs: Sequence[Sign], *, asked: bool) -> list[Sign]:
+    """The signs without TÚ or USTED where somebody is asked to do something: "¿Puedes venir?" is VENIR PODER.
 
-    Args:
-        verb: Whose tense it is.
-        time: The expression, if there is one.
-        says: Times that words of the clause make clear ("any": whichever it is); then the mark has no gloss.
+    Left out is who is addressed, if only the ending of the verb that PODER stands for says so and PODER ends
+    the question: signers leave the addressee out in 5 of 6 of such requests.
     """
-    said = time.signs if time else []
-    gloss = _TENSE_SIGNS.get(verb.shape.time) if verb and verb.shape.mark else None
-    if verb is None or gloss is None:
-        clear = time.features.get("says", "") if time else ""  # "si mañana hace sol": what follows is to come
-        return [Sign("", tense=clear), *said] if clear in _TENSE_SIGNS else said
-    if "any" in says or verb.shape.time in says:
-        return [Sign("", tense=verb.shape.time), *said]
-    sources = [verb.said.finite] if verb.said else []
-    return [Sign(gloss, sources, tense=verb.shape.time), *said]
-
-
-def marked_once(signs: Sequence[Sign]) -> list[Sign]:
-    """The signs without PASADO or FUTURO where that time has been said already.
-
-    LSE sets the time once, for all that follows.
-    """
-    kept: list[Sign] = []
-    marked = ""
-    for sign in signs:
-        if sign.gloss and not (sign.tense and sign.tense == marked):
-            kept.append(sign)
-        marked = sign.tense or marked
-    return kept
-
-
-def marks_ambiguous(signs: Iterable[Sign], morphology: Morphology) -> bool:
-    """Whether PASADO is said for a form that is the present too: "quedamos" needs a time word to be past."""
-    return any(
-        token.text.endswith("mos")
-        and token.text != "hemos"  # "hemos comido" is past
-        and any(reading.tag == _WE_NOW and reading.exact for reading in morphology.readings(token.text))
-        for sign in signs
-        if sign.tense == "past"
-        for token in sign.sources
-    )
+    if not asked or not signs or signs[-1].gloss != _CAN:
+        return list(signs)
+    finite = signs[-1].sources
+    return [sign for sign in signs if not (sign.gloss in _ADDRESSEES and sign.sources == finite[:1])]
 
 
 def _carriers(

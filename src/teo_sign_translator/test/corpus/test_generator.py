@@ -115,7 +115,7 @@ def test_constructions_held_out_are_said_in_a_split_of_their_own_alone(generator
     assert not [spanish for spanish in taught if SAYS_A_CONSTRUCTION.search(spanish.lower())]
     conditional = [spanish for spanish in taught if re.search(r"\bsi\b", spanish.lower())]
     assert all(spanish.lower().startswith("a ver si ") for spanish in conditional)  # a wish
-    assert len([pair for pair in held if SAYS_A_CONSTRUCTION.search(pair.spanish.lower())]) > 10
+    assert len([pair for pair in held if SAYS_A_CONSTRUCTION.search(pair.spanish.lower())]) > 5
     assert [pair for pair in held if pair.spanish.startswith("Si ")]
 
 
@@ -202,6 +202,7 @@ def test_articles_agree_with_their_nouns(pairs, morphology):
         "hacha",
         "ancla",
         "arca",
+        "ave",
     }
     checked = 0
     for pair in pairs:
@@ -254,7 +255,7 @@ def test_the_question_word_is_last(train):
         and pair.spanish.endswith("?")
         and "qué tal" not in pair.spanish.lower()
     ]
-    assert len(questions) > 500
+    assert len(questions) > 300
     assert not [pair for pair in questions if pair.glosses[-1] not in QUESTION_GLOSSES]
 
 
@@ -265,9 +266,37 @@ def test_negation_comes_last_in_statements(train):
         if pair.rule.startswith("statement.")
         and pair.spanish.lower().startswith(("no ", "nunca ", "tampoco "))
     ]
-    assert len(statements) > 10
+    assert len(statements) > 5
     wrong = [pair for pair in statements if not set(pair.glosses[-2:]) & set(NEGATIONS)]
     assert not wrong
+
+
+def test_nothing_is_signed_that_signers_leave_out(train):
+    """Counted on elicited phrases and the LSE-RADIS narratives: see the corpus README."""
+    ours = [pair for pair in train if pair.rule != "paper"]
+    for pair in ours:
+        words = pair.spanish.lower()
+        if {"PASADO", "FUTURO"} & set(pair.glosses):
+            assert re.search(r"pasad|hace|dentro|\bde (peque|jov|niñ)|futuro", words), pair
+        assert "SENTIR" not in pair.glosses, pair
+        signs = list(zip(pair.glosses, pair.alignment, strict=True))
+        assert not [sign for sign, after in pairwise(signs) if sign == after and sign[1]], pair
+
+
+def test_a_translation_is_about_as_long_as_signers_make_it(train):
+    """4.2 signs for 5.8 words, 0.72 signs a word."""
+    words = sum(len(re.findall(r"\w+", pair.spanish)) for pair in train)
+    assert 0.68 < sum(len(pair.glosses) for pair in train) / words < 0.80
+
+
+def test_numbers_stand_before_what_they_count(train):
+    counted = [
+        pair
+        for pair in train
+        if pair.rule.startswith(("possession.have_number", "numbers.costs", "weather.degrees"))
+    ]
+    assert len(counted) > 10
+    assert not [pair for pair in counted if pair.glosses[-1].isdigit() and "con" not in pair.spanish]
 
 
 def test_time_comes_first_and_replaces_the_mark_of_tense(train):
@@ -275,7 +304,8 @@ def test_time_comes_first_and_replaces_the_mark_of_tense(train):
     for spanish, gloss in (("ayer", "AYER"), ("anoche", "ANOCHE"), ("hoy", "HOY")):
         found = [pair for pair in timed if spanish in pair.spanish.lower().strip("¿?.").split()]
         assert found
-        assert all(pair.glosses[0] == gloss for pair in found if spanish != "ayer" or "AYER" in pair.glosses)
+        first = [pair for pair in found if f"desde {spanish}" not in pair.spanish.lower()]
+        assert all(pair.glosses[0] == gloss for pair in first if spanish != "ayer" or "AYER" in pair.glosses)
         assert not [pair for pair in found if "PASADO" in pair.glosses[:1] or "FUTURO" in pair.glosses]
 
 

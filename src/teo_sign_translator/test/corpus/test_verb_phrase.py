@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Tense in LSE: marked once, and not where a time word says it."""
+"""What a verb says in LSE: not its tense, not whom its path shows, not that one has what is named."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ import pytest
 from example_chooser import ExampleChooser
 
 from teo_sign_translator.corpus.derivation import Derivation
-from teo_sign_translator.corpus.fillers import NoFillerError
 from teo_sign_translator.corpus.generator import Generator
-from teo_sign_translator.corpus.tokens import Sign
-from teo_sign_translator.corpus.verb_phrase import marked_once
+from teo_sign_translator.corpus.tokens import Sign, Token
+from teo_sign_translator.corpus.verb_phrase import without_addressee
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 
@@ -34,72 +33,80 @@ def say(generator):
     return say
 
 
-def glosses(*signs):
-    return [sign.gloss for sign in marked_once(signs)]
+@pytest.mark.parametrize(
+    ("shape", "spanish"),
+    [
+        ("preterite", "Trabajé."),
+        ("perfect", "He trabajado."),
+        ("pluperfect", "Había trabajado."),
+        ("future", "Trabajaré."),
+        ("going_to", "Voy a trabajar."),
+    ],
+)
+def test_a_tense_has_no_sign(say, shape, spanish):
+    made = say("statement", "plain", P="intransitive", P_V="trabajar", P_V_shape=shape)
+    assert made == (spanish, "YO IR TRABAJAR" if "IR" in made[1] else "YO TRABAJAR")
 
 
-def test_a_second_mark_of_the_same_tense_is_left_out():
-    past, future = Sign("PASADO", tense="past"), Sign("FUTURO", tense="future")
-    assert glosses(past, Sign("IR"), past, Sign("VER")) == ["PASADO", "IR", "VER"]
-    assert glosses(past, Sign("IR"), future, Sign("VER")) == ["PASADO", "IR", "FUTURO", "VER"]
-
-
-def test_a_time_word_marks_the_tense_of_what_follows_and_other_glosses_of_that_name_stay():
-    said = Sign("", tense="past")
-    assert glosses(said, Sign("AYER"), Sign("PASADO", tense="past"), Sign("VER")) == ["AYER", "VER"]
-    assert glosses(said, Sign("AÑO"), Sign("PASADO"), Sign("VER")) == ["AÑO", "PASADO", "VER"]
-
-
-def test_the_clause_of_a_cause_does_not_mark_again_what_the_time_word_says(say):
+def test_a_time_word_alone_says_when(say):
     made = say(
         "cause", "because_tomorrow", T="yesterday", N="no", P="goal", P_V="ir", P_V_shape="preterite",
         P_G_n="cine", C_N="pos", C_S="yo_f", C_P="feeling", C_P_V_shape="imperfect", C_P_A="enfermo",
     )  # fmt: skip
     assert made == (
         "Ayer no fui al cine porque estaba enferma.",
-        "AYER YO CINE IR NO MOTIVO YO ENFERMO",
+        "AYER YO CINE IR NO PORQUE YO ENFERMO",
     )
 
 
 @pytest.mark.parametrize(
-    ("negation", "expected"),
+    ("subject", "negation", "expected"),
     [
-        ("not_yet", ("Todavía no he trabajado.", "YO TRABAJAR TODAVÍA_NO")),
-        ("already", ("Ya he trabajado.", "YO TRABAJAR YA")),
-        ("pos", ("He trabajado.", "PASADO YO TRABAJAR")),
+        ("yo", "pos", ("Tengo un perro.", "YO PERRO")),
+        ("yo", "no", ("No tengo un perro.", "YO PERRO NO")),
+        ("vosotros", "pos", ("Tenéis un perro.", "VOSOTROS PERRO")),
     ],
 )
-def test_already_and_not_yet_say_the_past(say, negation, expected):
-    made = say("statement", "plain", N=negation, P="intransitive", P_V="trabajar", P_V_shape="perfect")
+def test_who_has_something_is_named_beside_it_without_a_verb(say, subject, negation, expected):
+    made = say(
+        "statement", "plain", S=subject, N=negation, P="have_thing", P_V="tener", P_V_shape="present",
+        P_O="a", P_O_n="perro",
+    )  # fmt: skip
     assert made == expected
 
 
-def test_already_does_not_say_the_future(say):
-    made = say("statement", "plain", N="already", P="intransitive", P_V="trabajar", P_V_shape="future")
-    assert made == ("Ya trabajaré.", "FUTURO YO TRABAJAR YA")
-
-
-def test_a_form_that_may_be_present_or_past_is_never_taught_as_past_without_a_time_word(say):
-    with pytest.raises(NoFillerError):
-        say("statement", "plain", S="nosotros", P="intransitive", P_V="trabajar", P_V_shape="preterite")
+def test_a_modal_beside_having_is_said(say):
     made = say(
-        "statement", "time_first", T="yesterday", S="nosotros", P="intransitive", P_V="trabajar",
-        P_V_shape="preterite",
-    )  # fmt: skip
-    assert made == ("Ayer trabajamos.", "AYER NOSOTROS TRABAJAR")
+        "statement", "plain", P="have_thing", P_V="tener", P_V_shape="imperfect", P_O="a", P_O_n="perro"
+    )
+    assert made == ("Tenía un perro.", "YO PERRO")
 
 
-def test_the_perfect_is_past_in_every_person(say):
-    made = say("statement", "plain", S="nosotros", P="intransitive", P_V="trabajar", P_V_shape="perfect")
-    assert made == ("Hemos trabajado.", "PASADO NOSOTROS TRABAJAR")
+def test_having_is_said_where_what_one_has_is_not_named(say):
+    assert say("questions_what", "what_have", S="tú") == ("¿Qué tienes?", "TÚ TENER QUÉ")
 
 
-def test_a_time_word_beside_a_present_marks_what_follows(say):
-    made = say(
-        "in_case", "if_then", T="tomorrow", D="rain", D_V="llover", P="intransitive", P_V="trabajar",
-        P_V_shape="future",
-    )  # fmt: skip
-    assert made == ("Si mañana llueve, trabajaré.", "SI MAÑANA LLOVER YO TRABAJAR")
+def test_the_path_of_a_directed_verb_shows_whom_a_clitic_means(say):
+    made = say("statement", "call", T="none", S="yo", N="pos", V="llamar", V_shape="present", O="you")
+    assert made == ("Te llamo.", "YO LLAMAR")
+    made = say("statement", "call", T="none", S="yo", N="pos", V="ver", V_shape="present", O="you")
+    assert made == ("Te veo.", "YO TÚ VER")
+
+
+def test_who_feels_is_said_beside_a_directed_verb_too(say):
+    assert say("felt", "gives_it", E="you", n="miedo") == ("Te da miedo.", "TÚ MIEDO")
+
+
+def test_the_addressee_of_a_request_is_left_out_unless_a_word_says_it():
+    you, can, say_you = Token("puedes"), Sign("PODER"), Token("tú")
+    can.sources = [you]
+    silent = [Sign("TÚ", [you]), Sign("VENIR"), can]
+    said = [Sign("TÚ", [say_you]), Sign("VENIR"), can]
+    assert without_addressee(silent, asked=True) == silent[1:]
+    assert without_addressee(silent, asked=False) == silent
+    assert without_addressee(said, asked=True) == said
+    assert without_addressee([*silent, Sign("NO")], asked=True)[0] is silent[0]
+    assert without_addressee([], asked=True) == []
 
 
 def test_the_pronoun_of_a_clause_stays_in_it(say):

@@ -60,7 +60,9 @@ def test_the_projects_pairs_come_out_exactly() -> None:
         ("Quiero comer una manzana.", "YO MANZANA COMER QUERER"),
         ("¿Dónde vive tu hermana?", "HERMANA TU VIVIR DÓNDE"),
         ("Mi hermano trabaja en un hospital.", "HERMANO MI HOSPITAL TRABAJAR"),
-        ("Tengo dos gatos.", "YO GATO 2 TENER"),
+        ("Tengo dos gatos.", "YO 2 GATO"),
+        ("Ayer tuve fiebre.", "AYER YO FIEBRE"),
+        ("¿Puedes abrir la puerta?", "PUERTA ABRIR PODER"),
     ],
 )
 def test_everyday_sentences_come_out_in_signing_order(sentence: str, glosses: str) -> None:
