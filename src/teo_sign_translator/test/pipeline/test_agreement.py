@@ -31,7 +31,7 @@ def inflection(sentence: str, gloss: str) -> str:
     ("sentence", "gloss", "expected"),
     [
         ("¿Me ayudas?", "AYUDAR", "2>1"),
-        ("¿Puedes ayudarme?", "AYUDAR", "2>1"),
+        ("¿Puedes ayudarme con esto?", "AYUDAR", "2>1"),
         ("¿Me puedes ayudar?", "AYUDAR", "2>1"),
         ("Ayúdame.", "AYUDAR", "2>1"),
         ("No me ayudes.", "AYUDAR", "2>1"),

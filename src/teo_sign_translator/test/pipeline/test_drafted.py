@@ -39,7 +39,7 @@ def _draft(sentence: str) -> str:
         ("Fui a Madrid el lunes.", "LUNES YO IR MADRID"),
         ("No puedo dormir.", "YO DORMIR PODER NO"),
         ("No como carne.", "YO COMER NO CARNE"),
-        ("¿Puedes ayudarme?", "AYUDAR PODER"),
+        ("¿Puedes ayudarme con esto?", "AYUDAR ESTO PODER"),
         ("¿Dónde está mi libro?", "LIBRO MI DÓNDE"),
         ("¿Qué autobús va al hospital?", "AUTOBÚS IR HOSPITAL CUÁL"),
         ("Me duele la cabeza.", "YO DOLER CABEZA"),
