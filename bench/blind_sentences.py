@@ -18,10 +18,8 @@ from typing import Any
 from glosses.measures import fewest_edits
 from glosses.systems import SENTENCES, judged, systems
 from report import Figure, share
-from words import covered, founded_signs
 
 from teo_sign_translator.model_files import models_directory
-from teo_sign_translator.output.substitutes import Substitutes
 
 _RECORD = SENTENCES / "blind.json"
 _SENTENCES = SENTENCES / "blind.txt"
@@ -44,9 +42,6 @@ def figures() -> Iterable[Figure]:
     yield Figure(f"{what}: accepted (95 % interval), {accepts}", right)
     edits = ", ".join(f"{name} {each['gloss_errors']:.1f}" for name, each in results["systems"].items())
     yield Figure(f"{what}: glosses to edit for the nearest accepted translation [%]", edits)
-    cover = results["coverage"]
-    signed = f"{share(cover['signed'], cover['words'])} of {cover['words']} words signed"
-    yield Figure(f"{what}: what has signs", f"{signed}, {share(cover['whole'], total)} without a spelled word")
 
 
 def main() -> None:
@@ -68,8 +63,6 @@ def main() -> None:
         edits = [fewest_edits(accepted, each) for each, (_, accepted) in zip(got, sentences, strict=True)]
         wrong, glosses = (sum(column) for column in zip(*edits, strict=True))
         results["systems"][name] = {"accepted": right, "gloss_errors": round(100 * wrong / glosses, 1)}
-    counted = covered([sentence for sentence, _ in sentences], founded_signs(), Substitutes.HYPERNYM)
-    results["coverage"] = {"words": counted.words, "signed": counted.signed, "whole": counted.whole}
     record[_shipped()] = results
     _RECORD.write_text(json.dumps(record, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
     for figure in figures():

@@ -48,6 +48,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "rosbags": (None, "rosbags"),
     "ruckig": (None, "ruckig"),
     "sacrebleu": (None, "sacrebleu"),
+    "signwriting": (None, "signwriting"),
     "safetensors": (None, "safetensors"),
     "scipy": ("python3-scipy", "scipy"),
     "simplemma": (None, "simplemma"),

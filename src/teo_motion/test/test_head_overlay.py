@@ -162,7 +162,7 @@ def test_the_head_shakes_over_verb_and_negation(lut: Lut, verb: str) -> None:
 
 
 def test_a_spelled_negation_is_shaken_at_all_along(lut: Lut) -> None:
-    plan = Planner(lut).plan(parse_printed("YO VENIR NUNCA"), form=NEGATED)
+    plan = Planner(lut).plan(parse_printed("YO VENIR TAMPOCO"), form=NEGATED)
     letters = [timing for timing in plan.timings if timing.token.kind == Kind.LETTER]
     times = np.arange(letters[0].start, letters[-1].start + letters[-1].duration, 0.01)
     assert sides(np.degrees(plan.motions[YAW].at(times)[0])) >= (times[-1] - times[0]) / 0.7 - 2.0

@@ -26,7 +26,7 @@ def test_the_letters_of_a_word_belong_together() -> None:
         (1, 3, "ANA"),
         (4, 4, ""),
         (5, 7, "LUZ"),
-        (8, 9, "26"),
+        (8, 8, "26"),
     ]
 
 
