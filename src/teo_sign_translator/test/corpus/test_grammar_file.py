@@ -102,8 +102,8 @@ def test_every_word_of_the_lists_is_in_the_lexicon(generator):
         ),
         (
             "held_out.yaml",
-            "conditions: condition",
-            "conditions: condition vp.nowhere",
+            "    condition in_case.if_then",
+            "    condition vp.nowhere in_case.if_then",
             "vp.nowhere",
         ),
         ("everyday.yaml", "families:", "family:", "everyday.yaml"),

@@ -288,4 +288,5 @@ def test_the_translation_can_be_written_as_json(translator: Translator) -> None:
         "source_words": ["Ana"],
         "origin": "spelled",
         "inflection": "",
+        "meant": "",
     }

@@ -22,10 +22,10 @@ DRAFT = _glosses("NIÑO LECHE BEBER")
     [
         ("NIÑO LECHE BEBER", 0.99, 0, True),
         ("NIÑO LECHE", 0.99, 1, True),  # sure: mended
-        ("NIÑO LECHE BEBER", 0.7, 0, True),
-        ("NIÑO LECHE", 0.7, 1, False),
-        ("MOTIVO ÉL LECHE", 0.7, 0, False),  # hesitates, and the words are not these
-        ("NIÑO LECHE BEBER", 0.3, 0, False),
+        ("NIÑO LECHE BEBER", 0.6, 0, True),
+        ("NIÑO LECHE", 0.6, 1, False),
+        ("MOTIVO ÉL LECHE", 0.6, 0, False),  # hesitates, and the words are not these
+        ("NIÑO LECHE BEBER", 0.2, 0, False),
         ("", 1.0, 0, False),
         ("NIÑO NIÑO NIÑO NIÑO NIÑO NIÑO NIÑO", 1.0, 0, False),  # three words never take seven
     ],
