@@ -148,10 +148,10 @@ def _seconds(texts: Sequence[str], signs: Set[str]) -> list[Figure]:
                 continue
             seconds.append(plan.duration)
             total += plan.duration
-            ends = [0.0, *(token.start + token.duration for token in plan.tokens)]
+            ends = [0.0, *(token.start + token.duration for token in plan.timings)]
             spelling += sum(
                 end - before
-                for token, before, end in zip(plan.tokens, ends, ends[1:], strict=False)
+                for token, before, end in zip(plan.timings, ends, ends[1:], strict=False)
                 if token.token.kind is Kind.LETTER
             )
     return [

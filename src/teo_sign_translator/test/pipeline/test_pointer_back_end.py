@@ -42,7 +42,7 @@ def _only(translator: Translator, text: str) -> Sentence:
         ("Cuesta 12,05 €", "COSTAR 12 5 EURO"),
         ("Cuesta 12,00 euros", "COSTAR 12 EURO"),
         ("Cuesta 1,529 €", "COSTAR 1 COMA 529 EURO"),
-        ("Compra 3,5 metros", "COMPRAR 3 COMA 5 METRO"),
+        ("Comprar 3,5 metros", "COMPRAR 3 COMA 5 METRO"),
         ("Llama al 91 624 99 99", "LLAMAR 91 624 99 99"),
         ("Veo 1 352 gatos", "VER 1352 GATO"),
         ("Veo 1.250.000 gatos", "VER 1250000 GATO"),
