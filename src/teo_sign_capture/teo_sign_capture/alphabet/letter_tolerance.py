@@ -28,16 +28,16 @@ from teo_sign_capture.retarget.quality_figures import least_clearance
 from teo_sign_capture.time_warp import warp
 from teo_signs.sign import Sign
 
-# [rad] The palm turns by this much about any axis: a little more than is just seen, less than half of the
+# [rad] The palm turns by this much about any axis: what is just seen (`teo_signs.likeness`), a third of the
 # 45 deg between a palm to the front and one half to the side.
-_TURN = np.radians(20.0)
+_TURN = np.radians(15.0)
 # [m] A letter has no place of its own; it stays within half a hand's length of where the signer made it.
 _SHIFT = 0.08
-# [m] The end of a finger or thumb is just seen to be elsewhere: the thickness of a finger.
-_BEND = 0.015
+# [m] The end of a finger or thumb moves less than is just seen, the thickness of a finger: two thirds of it.
+_BEND = 0.010
 # [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended
 # finger that bends is soon a hooked one.
-_FOLDED_BEND, _FOLDED = 0.025, np.radians(60.0)
+_FOLDED_BEND, _FOLDED = 0.015, np.radians(60.0)
 # Own recording nearer than any other by this [just seen differences].
 _AHEAD = 0.2
 # Only recordings within this of the own one can come near it [just seen differences].
