@@ -32,6 +32,8 @@ app.command()(export)
 add_plugins(app)
 
 _output = Console(highlight=False)
+# Narrowest column of sources [characters]: their names are not cut on a screen of 80.
+_SOURCE_WIDTH = 17
 
 
 @app.callback()
@@ -52,7 +54,7 @@ def list_signs(
     table = Table(box=None)
     for name in ("gloss", "kind", "hands", "duration [s]", "knots", "standing"):
         table.add_column(name, no_wrap=True)
-    table.add_column("source")
+    table.add_column("source", min_width=_SOURCE_WIDTH)
     standings: Counter[str] = Counter()
     bad = 0
     signs = _open(lut)

@@ -132,6 +132,7 @@ _SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, fl
     "ring": ((_AT_THUMB, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
     "middle_flick": ((_STRAIGHT, _AT_THUMB, _STRAIGHT, _STRAIGHT), "opposed", (8, 0, -8, -16)),
     "two_flick": ((_AT_THUMB, _AT_THUMB, _FOLDED, _FOLDED), "opposed", _TOGETHER),
+    "three_flick": ((_AT_THUMB, _AT_THUMB, _AT_THUMB, _FOLDED), "opposed", _TOGETHER),
 }
 
 FINGERS = ("index", "middle", "ring", "little")
