@@ -72,10 +72,10 @@ def founded_signs() -> frozenset[str]:
 def covered(texts: Sequence[str], signs: Set[str], substitutes: Substitutes) -> Coverage:
     """What of some texts has signs."""
     translator = Translator.load(substitutes=substitutes)
-    counted = Coverage()
+    counted, guesses = Coverage(), frozenset(Lut.open()) - signs
     for answer in translator.translate_all(texts, signs):
         if not isinstance(answer, TranslationError):
-            counted.add(answer)
+            counted.add(answer, guesses)
     return counted
 
 

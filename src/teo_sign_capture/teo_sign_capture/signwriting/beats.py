@@ -13,9 +13,9 @@ from teo_common.arrays import Array
 from teo_sign_capture.notation.score_schema import Part
 from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
 from teo_sign_capture.signing_space.places import find_place, split_place
+from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.hands import WrittenHand
 from teo_sign_capture.signwriting.handshapes import closed, opened
-from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_sign_capture.signwriting.movement import (
     Circling,
     Closing,

@@ -24,10 +24,10 @@ from teo_sign_capture.signwriting.beats import (
     sorted_movements,
 )
 from teo_sign_capture.signwriting.contact import read_contacts
+from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.hands import WrittenHands, read_hands
 from teo_sign_capture.signwriting.handshapes import handshape_of
 from teo_sign_capture.signwriting.head import face_words, head_postures
-from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_sign_capture.signwriting.movement import Circling, Hands, Movement, is_finger_movement, movement_of
 from teo_sign_capture.signwriting.page import SIDES, Side, direction_words, displacement_words
 from teo_sign_capture.signwriting.place import read_landmarks

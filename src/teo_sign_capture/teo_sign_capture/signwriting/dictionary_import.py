@@ -23,8 +23,8 @@ from teo_description.robot import Robot
 from teo_sign_capture.notation.score_retarget import score_sign
 from teo_sign_capture.signwriting.compiler import TOUCHING, Compilation, compile_fsw
 from teo_sign_capture.signwriting.dictionary_file import DictionaryEntry
+from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.glosses import GlossNames, numbered
-from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_sign_capture.signwriting.score_text import score_text
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign

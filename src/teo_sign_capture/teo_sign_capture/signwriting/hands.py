@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.handshapes import handshape_of
-from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_sign_capture.signwriting.movement import Closing, Movement, Path
 from teo_sign_capture.signwriting.orientation import EDGE_SHOWN, Orientation, orientation_of, written_side
 from teo_sign_capture.signwriting.page import Side

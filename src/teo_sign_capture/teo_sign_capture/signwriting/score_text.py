@@ -10,12 +10,11 @@ import yaml
 
 from teo_sign_capture.notation.score_schema import Score
 
-_LICENCE = "# SPDX-FileCopyrightText: 2026 TEO signing project\n# SPDX-License-Identifier: Apache-2.0\n"
 _WIDE = 10_000  # [characters] nothing is broken into lines
 
 
 def score_text(score: Score) -> str:
-    """The text of a score, which `read_score` reads."""
+    """The text of a compiled score, a lexical one without forms, which `read_score` reads."""
     content = score.model_dump(exclude_none=True, exclude_defaults=True)
     lines = [f"{name}: {_flow(content[name])}" for name in ("gloss", "standing", "source", "hands")]
     lines += [f"{name}: {_flow(content[name])}" for name in ("face", "notes") if content.get(name)]
@@ -26,7 +25,7 @@ def score_text(score: Score) -> str:
             continue
         for index, (name, value) in enumerate(fields.items()):
             lines.append(f"  {'- ' if index == 0 else '  '}{name}: {_flow(value)}")
-    return _LICENCE + "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n"
 
 
 _ORDER = ("time", "left", "right", "arc", "circle", "wiggle", "head", "hold")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from teo_sign_capture.notation.score_file import read_score
 from teo_sign_capture.notation.score_schema import Step, flattened
 from teo_sign_capture.signwriting.compiler import Compilation, compile_fsw
-from teo_sign_capture.signwriting.losses import UnreadableError
+from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.score_text import score_text
 from teo_signs.errors import LutError
 

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Signs compiled from SignWriting: how many are read, how fast, and how far they are as measured ones.
 
-`python bench/signwriting_agreement.py FILE`, a dictionary as `lut import --signwriting` reads it. The truth
-are the package's own scores whose form was measured on a dictionary's videos (standing measured or
-recorded): community and normative dictionary may have different signs for a word, so that an agreement of
-all is not to be expected.
+`PYTHONPATH=bench:$PYTHONPATH python -m signs.signwriting_agreement FILE`, with a dictionary as
+`lut import --signwriting` reads it. The truth are the package's own scores whose form was measured on a
+dictionary's videos (standing measured or recorded): community and normative dictionary may have different
+signs for a word, so that an agreement of all is not to be expected.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
 from teo_sign_capture.signwriting.compiler import compile_fsw
 from teo_sign_capture.signwriting.dictionary_file import read_dictionary
+from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.glosses import GlossNames
-from teo_sign_capture.signwriting.losses import UnreadableError
 from teo_signs.errors import LutError
 
 # A place that is nearer is the same part of the body or the space [m]; a palm that is turned less looks the

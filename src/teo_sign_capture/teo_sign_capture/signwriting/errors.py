@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the compiler says of a sign: what is lost, or why it is refused."""
+"""Why a sign in SignWriting is refused."""
 
 from __future__ import annotations
 
