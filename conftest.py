@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import fcntl
+import itertools
 import os
 import signal
 import tempfile
@@ -28,6 +29,10 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # rclpy checks the types of message fields only when asked to; a wrong one can end the process.
 os.environ["ROS_PYTHON_CHECK_FIELDS"] = "1"
 
+# Nobody's own signs are read or written: each test finds its own table at a place that is not there yet.
+_data_homes = tempfile.TemporaryDirectory(prefix="teo_test_data_")
+os.environ["XDG_DATA_HOME"] = _data_homes.name
+
 # Domain IDs up to 101 keep DDS ports below Linux's ephemeral range (ROS 2 documentation, "The
 # ROS_DOMAIN_ID"). 0 to 19 are left to people.
 _DOMAINS = range(20, 102)
@@ -42,6 +47,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if "domain_id" in getattr(item, "fixturenames", ()):
             item.add_marker("dds")
+
+
+@pytest.fixture(autouse=True)
+def data_home(monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A data home of the test's own, in which the user's own table would be."""
+    home = Path(_data_homes.name) / str(next(_tests))
+    monkeypatch.setenv("XDG_DATA_HOME", str(home))
+    return home
 
 
 @pytest.fixture
@@ -65,6 +78,7 @@ def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
     raise RuntimeError(f"expected a free DDS domain in {_DOMAINS}, all are in use by other tests")
 
 
+_tests = itertools.count()
 _counter = 0
 
 

@@ -28,7 +28,7 @@ from teo_sign_capture.alphabet.letter_features import features, recorded_feature
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_sign_capture.time_warp import warp
 from teo_sign_capture.tracks.hand_model import measure_signer
-from teo_signs.look_up_table import Lut
+from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
@@ -103,7 +103,7 @@ def _count(found: list[Likeness]) -> str:
 
 def likenesses() -> list[Likeness]:
     """Every letter of the table against every recording."""
-    robot, lut, clips = Robot.load(), Lut.open(), load_letter_clips()
+    robot, lut, clips = Robot.load(), Lut.open(default_lut_directory()), load_letter_clips()
     scale = FINGER_LENGTH / measure_signer(clip.hand for clip in clips.values()).finger_length
     recorded = {letter: recorded_features(clip, scale) for letter, clip in clips.items()}
     return [

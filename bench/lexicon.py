@@ -16,7 +16,7 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import sample_at
 from teo_signs.errors import PlanError
-from teo_signs.look_up_table import Lut
+from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import STANDINGS
 from teo_signs.tokens import Kind, Token
@@ -38,7 +38,7 @@ _ERRORS = {
 
 def measure() -> list[Figure]:
     """Figures of the package's table."""
-    lut = Lut.open()
+    lut = Lut.open(default_lut_directory())
     words = [sign for sign in lut.values() if sign.kind == "lexical"]
     return [
         _standings(words),
@@ -79,7 +79,7 @@ def _refusals() -> Figure:
 
 def _refused_of_batch(seed: int) -> list[str]:
     """The sentences of a batch that cannot be signed."""
-    lut = Lut.open()
+    lut = Lut.open(default_lut_directory())
     words = [gloss for gloss in lut.glosses() if lut[gloss].kind == "lexical"]
     planner = Planner(lut, robot=Robot.load(), least_standing="sketched")
     random = np.random.default_rng(seed)
@@ -119,7 +119,7 @@ def _violations(lut: Lut) -> Figure:
 
 def _bad_of_batch(glosses: list[str]) -> list[str]:
     """Entries of a batch with something wrong, and what."""
-    lut = Lut.open()
+    lut = Lut.open(default_lut_directory())
     planner, second_look = Planner(lut, robot=Robot.load(), least_standing="sketched"), SecondLook()
     bad: list[str] = []
     for gloss in glosses:

@@ -24,7 +24,7 @@ from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError
-from teo_signs.look_up_table import Lut
+from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed
 
@@ -94,7 +94,7 @@ def measure(plans: int = PLANS) -> list[Figure]:
 
 def _times() -> list[Figure]:
     """Planning time of typical sentences, self-collision included."""
-    planner = Planner(Lut.open(), robot=Robot.load())
+    planner = Planner(Lut.open(default_lut_directory()), robot=Robot.load())
     sentences = [parse_printed(text) for text in _PRINTED]
     for sentence in sentences:
         planner.plan(sentence)  # reads the entries
@@ -117,9 +117,9 @@ def _times() -> list[Figure]:
 
 
 def _planning_of_letters() -> Figure:
-    planner = Planner(Lut.open(), robot=Robot.load())
+    planner = Planner(Lut.open(default_lut_directory()), robot=Robot.load())
     generator = np.random.default_rng(0)
-    letters = [gloss for gloss, sign in Lut.open().items() if sign.kind == "letter"]
+    letters = [gloss for gloss, sign in Lut.open(default_lut_directory()).items() if sign.kind == "letter"]
     seconds = []
     for _ in range(SENTENCES // 4):
         word = generator.choice(letters, _LETTERS).tolist()
@@ -134,7 +134,7 @@ def _random_plans(numbers: range) -> Broken:
     """Plans of one random table, or in some batches of the package's own."""
     generator = np.random.default_rng(numbers.start)
     own = (numbers.start // _BATCH) % _OWN == 0
-    table = dict(Lut.open()) if own else _random_table(generator)
+    table = dict(Lut.open(default_lut_directory())) if own else _random_table(generator)
     # Every sign of the table, whatever its standing: numbers that are only sketched cannot be spelled.
     robot = Robot.load() if own else None
     planner = Planner(table, robot=robot, max_duration=1e4, least_standing="sketched")
@@ -212,7 +212,7 @@ def _random_tokens(generator: np.random.Generator, table: dict[str, Sign]) -> li
 
 def _random_table(generator: np.random.Generator) -> dict[str, Sign]:
     """Signs anywhere within the limits, on them, shaking, or with a knot for every frame of a video."""
-    donor = next(iter(Lut.open().values()))
+    donor = next(iter(Lut.open(default_lut_directory()).values()))
     groups = [
         tuple(name for name in COMMANDED_JOINTS if "Right" in name),
         tuple(name for name in COMMANDED_JOINTS if "Left" in name),

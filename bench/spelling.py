@@ -31,7 +31,7 @@ from teo_motion.sentence.posture_choice import choose_postures
 from teo_sign_translator.data_files import data_file
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import Lexicon
-from teo_signs.look_up_table import Lut
+from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
@@ -165,7 +165,7 @@ def _robot() -> Robot:
 
 @cache
 def _alphabet() -> dict[str, Sign]:
-    return {gloss: sign for gloss, sign in Lut.open().items() if sign.kind == "letter"}
+    return {gloss: sign for gloss, sign in Lut.open(default_lut_directory()).items() if sign.kind == "letter"}
 
 
 @cache

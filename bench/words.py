@@ -33,7 +33,7 @@ from teo_sign_translator.output.translation import Sentence
 from teo_sign_translator.pipeline.translator import Translator
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import DEFAULT_STANDING
-from teo_signs.look_up_table import Lut
+from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign_schema import STANDINGS
 from teo_signs.tokens import Kind, Token
 
@@ -64,7 +64,7 @@ def founded_signs() -> frozenset[str]:
     founded = STANDINGS[: STANDINGS.index(DEFAULT_STANDING) + 1]
     return frozenset(
         gloss
-        for gloss, sign in Lut.open().items()
+        for gloss, sign in Lut.open(default_lut_directory()).items()
         if sign.kind == "lexical" and sign.provenance.standing in founded
     )
 
@@ -72,7 +72,7 @@ def founded_signs() -> frozenset[str]:
 def covered(texts: Sequence[str], signs: Set[str], substitutes: Substitutes) -> Coverage:
     """What of some texts has signs."""
     translator = Translator.load(substitutes=substitutes)
-    counted, guesses = Coverage(), frozenset(Lut.open()) - signs
+    counted, guesses = Coverage(), frozenset(Lut.open(default_lut_directory())) - signs
     for answer in translator.translate_all(texts, signs):
         if not isinstance(answer, TranslationError):
             counted.add(answer, guesses)
@@ -134,7 +134,7 @@ def _frequent_lemmas(signs: Set[str]) -> Figure:
 
 def _seconds(texts: Sequence[str], signs: Set[str]) -> list[Figure]:
     """How long TEO signs a sentence, and how much of that time it spells."""
-    planner = Planner(Lut.open(), robot=Robot.load(), max_duration=1e4)
+    planner = Planner(Lut.open(default_lut_directory()), robot=Robot.load(), max_duration=1e4)
     translator = Translator.load()
     seconds, spelling, total, refused = [], 0.0, 0.0, 0
     for answer in translator.translate_all(texts, signs):

@@ -4,7 +4,7 @@
 
 from teo_signs.errors import LutError, PlanError
 from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
-from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.look_up_table import Lut, default_lut_directory, user_lut_directory
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import STANDINGS, Provenance, Standing, sign_json_schema
@@ -29,4 +29,5 @@ __all__ = [
     "read_sign",
     "save_sign",
     "sign_json_schema",
+    "user_lut_directory",
 ]

@@ -1,10 +1,15 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The look-up table: a directory with one JSON file for each sign, read when a sign is first asked for."""
+"""The look-up table: directories with one JSON file for each sign, read when a sign is first asked for.
+
+Signs that a user makes go to a table of his own, which is searched before the one that comes with the
+package: what is installed stays as it was, and an update takes nobody's signs away.
+"""
 
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -13,7 +18,7 @@ from teo_signs.errors import LutError
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 
-__all__ = ["LANGUAGE", "Lut", "LutError", "Sign", "default_lut_directory", "save_sign"]
+__all__ = ["LANGUAGE", "Lut", "LutError", "Sign", "default_lut_directory", "save_sign", "user_lut_directory"]
 
 LANGUAGE = "lse"
 
@@ -30,6 +35,33 @@ def default_lut_directory() -> Path:
         raise LutError("no_directory", str(error)) from error
 
 
+def user_lut_directory() -> Path:
+    """The user's own table, which need not be there: ``teo/lut`` of the data home (XDG base directories)."""
+    base = os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share"
+    return Path(base) / "teo" / "lut"
+
+
+def held_entry(table: Path, gloss: str) -> Path | None:
+    """The file that a gloss has in a table; None if it has none.
+
+    Args:
+        table: Directory of the entries. What the package's table holds counts as well for the user's own, as
+            it is signed where that has nothing.
+        gloss: Name of the sign.
+
+    Raises:
+        LutError: The directory cannot be looked at ("no_directory").
+    """
+    name = f"{gloss_key(gloss)}.json"
+    for directory in (table, *((default_lut_directory(),) if table == user_lut_directory() else ())):
+        try:
+            if (directory / name).exists():
+                return directory / name
+        except OSError as error:
+            raise _unlisted(directory, error) from error
+    return None
+
+
 class Lut(Mapping[str, Sign]):
     """Signs by gloss. Opening lists names only; an entry is read and checked when it is first asked for.
 
@@ -37,12 +69,17 @@ class Lut(Mapping[str, Sign]):
     kept once read; what changed on disk since is seen with `refresh` or `reload`.
     """
 
-    def __init__(self, directory: Path) -> None:
-        """List a directory; see `open`."""
-        self._directory = directory
+    def __init__(self, directory: Path, *, own: Path | None = None) -> None:
+        """List directories; see `open`.
+
+        Args:
+            directory: Of the entries; must be there.
+            own: Of entries that take the place of those; may be missing.
+        """
+        self._directory, self._own = directory, own
         self._paths: dict[str, Path] = {}
         self._signs: dict[str, Sign] = {}
-        self._modified = 0  # of the directory, when it was listed [ns]
+        self._modified: tuple[int, ...] = ()
         self.reload()
 
     @classmethod
@@ -50,54 +87,56 @@ class Lut(Mapping[str, Sign]):
         """Open a table.
 
         Args:
-            directory: Directory of the entries; None for the table of the package.
+            directory: Directory of the entries; None for the user's own table and, for what it does not hold,
+                the table of the package.
 
         Raises:
             LutError: No such directory ("no_directory"), or two files of one gloss ("duplicate_gloss").
         """
-        return cls(default_lut_directory() if directory is None else Path(directory))
+        if directory is None:
+            return cls(default_lut_directory(), own=user_lut_directory())
+        return cls(Path(directory))
 
     @property
-    def directory(self) -> Path:
-        """Where the entries are."""
-        return self._directory
+    def directories(self) -> tuple[Path, ...]:
+        """Where the entries are, in the order in which a gloss is sought there."""
+        if self._own is None or not self._own.is_dir():
+            return (self._directory,)
+        return (self._own, self._directory)
+
+    @property
+    def place(self) -> str:
+        """Where the entries are, for messages; of several directories, how many signs each gives."""
+        directories = self.directories
+        if len(directories) == 1:
+            return str(directories[0])
+        found = Counter(path.parent for path in self._paths.values())
+        return " and ".join(f"{directory} ({found[directory]})" for directory in directories)
 
     def reload(self) -> None:
-        """List the directory again and forget what was read."""
+        """List the directories again and forget what was read."""
+        modified = self._stamps()
         paths: dict[str, Path] = {}
-        try:
-            modified = self._directory.stat().st_mtime_ns
-            entries = sorted(entry.name for entry in os.scandir(self._directory))
-        except OSError as error:
-            raise LutError(
-                "no_directory", f"{self._directory}: expected a directory of signs, got: {error.strerror}"
-            ) from error
-        for name in entries:
-            # Names that begin with a dot are files on their way to being saved.
-            if name.startswith(".") or not name.endswith(".json"):
-                continue
-            gloss = gloss_key(name.removesuffix(".json"))
-            if gloss in paths:
-                both = f"{paths[gloss].name!r} and {name!r}"
-                message = f"{self._directory}: expected one file for {gloss!r}, got {both}"
-                raise LutError("duplicate_gloss", message)
-            paths[gloss] = self._directory / name
+        for directory in reversed(self.directories):
+            paths |= _listed(directory)
         self._paths, self._signs, self._modified = paths, {}, modified
 
     def refresh(self) -> str:
-        """Reload the table if a sign was saved or removed since it was listed; else it costs one `stat`.
+        """Reload the table if a sign was saved or removed since it was listed; else it costs a `stat` or two.
 
         Returns:
             Why the table could not be read, in which case it stays as it was; else empty.
         """
         try:
-            if self._directory.stat().st_mtime_ns != self._modified:
+            if self._stamps() != self._modified:
                 self.reload()
-        except OSError as error:
-            return f"{self._directory}: expected a directory of signs, got: {error.strerror}"
         except LutError as error:
             return str(error)
         return ""
+
+    def _stamps(self) -> tuple[int, ...]:
+        """When each directory was last changed [ns]."""
+        return tuple(_stamp(directory) for directory in self.directories)
 
     def glosses(self) -> tuple[str, ...]:
         """Every gloss of the table, sorted."""
@@ -114,7 +153,7 @@ class Lut(Mapping[str, Sign]):
         except KeyError:
             raise LutError(
                 "unknown_sign",
-                f"expected a gloss that the table {self._directory} holds ({len(self)} signs), got {gloss!r}",
+                f"expected a gloss that the table {self.place} holds ({len(self)} signs), got {gloss!r}",
             ) from None
 
     def __getitem__(self, gloss: str) -> Sign:
@@ -140,3 +179,34 @@ class Lut(Mapping[str, Sign]):
     def __len__(self) -> int:
         """How many signs the table lists."""
         return len(self._paths)
+
+
+def _stamp(directory: Path) -> int:
+    try:
+        return directory.stat().st_mtime_ns
+    except OSError as error:
+        raise _unlisted(directory, error) from error
+
+
+def _listed(directory: Path) -> dict[str, Path]:
+    """The files of a directory's signs by gloss."""
+    paths: dict[str, Path] = {}
+    try:
+        names = sorted(entry.name for entry in os.scandir(directory))
+    except OSError as error:
+        raise _unlisted(directory, error) from error
+    for name in names:
+        # Names that begin with a dot are files on their way to being saved.
+        if name.startswith(".") or not name.endswith(".json"):
+            continue
+        gloss = gloss_key(name.removesuffix(".json"))
+        if gloss in paths:
+            both = f"{paths[gloss].name!r} and {name!r}"
+            message = f"{directory}: expected one file for {gloss!r}, got {both}"
+            raise LutError("duplicate_gloss", message)
+        paths[gloss] = directory / name
+    return paths
+
+
+def _unlisted(directory: Path, error: OSError) -> LutError:
+    return LutError("no_directory", f"{directory}: expected a directory of signs, got: {error.strerror}")

@@ -7,9 +7,10 @@ from __future__ import annotations
 import unicodedata
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from teo_signs.look_up_table import Lut, LutError, default_lut_directory
+from teo_signs.look_up_table import Lut, LutError, default_lut_directory, held_entry, user_lut_directory
 from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
 
@@ -51,6 +52,7 @@ LETTERS = [
 
 def copy_of(gloss: str, directory: Path, name: str) -> None:
     text = (TABLE / f"{gloss}.json").read_text(encoding="utf-8")
+    directory.mkdir(parents=True, exist_ok=True)
     (directory / f"{name}.json").write_text(
         text.replace(f'"gloss": "{gloss}"', f'"gloss": "{name}"'), "utf-8"
     )
@@ -126,6 +128,43 @@ def test_a_missing_directory_is_refused(tmp_path: Path) -> None:
     with pytest.raises(LutError) as caught:
         Lut.open(tmp_path / "nowhere")
     assert caught.value.code == "no_directory"
+
+
+def test_the_users_own_signs_come_before_those_of_the_package(data_home: Path) -> None:
+    lut = Lut.open()
+    shipped = lut["A"]
+    assert lut.directories == (TABLE,)
+    copy_of("B", user_lut_directory(), "A")
+    copy_of("B", user_lut_directory(), "MÍA")
+    assert user_lut_directory() == data_home / "teo" / "lut"
+    assert lut.refresh() == ""  # a table that was not there is seen once it is
+    assert lut.directories == (user_lut_directory(), TABLE)
+    assert "MÍA" in lut
+    assert lut.path("A").parent == user_lut_directory()
+    assert lut.path("B").parent == TABLE
+    assert not np.array_equal(lut["A"].knots, shipped.knots)
+    assert lut.place == f"{user_lut_directory()} (2) and {TABLE} ({len(Lut.open(TABLE)) - 1})"
+
+
+def test_a_sign_that_is_taken_away_gives_way_to_the_packages() -> None:
+    copy_of("B", user_lut_directory(), "A")
+    lut = Lut.open()
+    (user_lut_directory() / "A.json").unlink()
+    assert lut.refresh() == ""
+    assert lut.path("A").parent == TABLE
+
+
+def test_a_table_that_is_named_is_read_alone(tmp_path: Path) -> None:
+    copy_of("A", user_lut_directory(), "A")
+    copy_of("B", tmp_path, "B")
+    assert Lut.open(tmp_path).glosses() == ("B",)
+
+
+def test_a_gloss_of_the_package_is_held_for_the_users_own_table_alone(tmp_path: Path) -> None:
+    assert held_entry(user_lut_directory(), "A") == TABLE / "A.json"
+    assert held_entry(tmp_path, "A") is None
+    copy_of("A", user_lut_directory(), "A")
+    assert held_entry(user_lut_directory(), "A") == user_lut_directory() / "A.json"
 
 
 def test_the_package_finds_its_own_table() -> None:

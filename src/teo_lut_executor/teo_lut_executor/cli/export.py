@@ -46,10 +46,10 @@ def export(
     from teo_motion.planner import Planner
     from teo_signs.export.play_motion2 import play_motion2_parameters
     from teo_signs.export.playback_thread import playback_mask, save_playback_tables
-    from teo_signs.look_up_table import Lut, default_lut_directory
+    from teo_signs.look_up_table import Lut
 
     try:
-        signs = Lut.open(lut or default_lut_directory())
+        signs = Lut.open(lut)
         chosen = [signs[gloss] for gloss in dict.fromkeys(glosses)]
         if format_ is ExportFormat.PLAY_MOTION2 and out.exists() and not replace:
             raise LutError("exists", f"{out}: expected a file that is not there, or --replace")

@@ -17,7 +17,7 @@ from rich.table import Table
 from teo_lut_executor.cli.export import export
 from teo_lut_executor.cli.options import TableDirectory, fail
 from teo_lut_executor.cli.plugins import add_plugins
-from teo_signs.look_up_table import Lut, LutError, Sign, default_lut_directory
+from teo_signs.look_up_table import Lut, LutError, Sign
 from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
 from teo_signs.sign_schema import STANDINGS, Kind, sign_json_schema
@@ -40,9 +40,9 @@ _SOURCE_WIDTH = 17
 def _remember_table(context: typer.Context) -> None:
     """Look into a table of signs."""
     try:
-        context.obj = default_lut_directory()
+        context.obj = Lut.open().directories
     except LutError:  # other tables can be looked into all the same
-        context.obj = None
+        context.obj = ()
 
 
 @app.command("list")
@@ -73,7 +73,7 @@ def list_signs(
     _output.print(table)
     counts = ", ".join(f"{standings[standing]} {standing}" for standing in STANDINGS if standings[standing])
     _output.print(
-        f"{standings.total()} signs in {signs.directory}: {counts}"
+        f"{standings.total()} signs in {signs.place}: {counts}"
         + (f"; {bad} entries not valid" if bad else ""),
         soft_wrap=True,
     )
@@ -87,13 +87,15 @@ def show(
 ) -> None:
     """Everything that an entry says."""
     try:
-        sign = _open(lut)[gloss]
+        signs = _open(lut)
+        sign, path = signs[gloss], signs.path(gloss)
     except LutError as error:
         fail(error)
     if as_json:
         print(format_sign(sign), end="")
         return
     _output.print(f"{sign.gloss}: {sign.kind} of {sign.language}, {sign.handedness}, {sign.duration:.2f} s")
+    _output.print(f"  file: {path}", markup=False, soft_wrap=True)
     for name, value in sign.provenance.model_dump().items():
         _output.print(f"  {name}: {value if value not in (None, '') else '-'}", markup=False)
     for name, figure in sign.quality.items():
@@ -110,7 +112,8 @@ def show(
 @app.command()
 def validate(
     directory: Annotated[
-        Path | None, typer.Argument(help="Directory of the table; the package's without it.")
+        Path | None,
+        typer.Argument(help="Directory of the table; your own and, beneath it, the package's without it."),
     ] = None,
 ) -> None:
     """Read every entry; exit status 1 if one is not valid."""
@@ -126,9 +129,7 @@ def validate(
         for warning in sign_warnings(sign):
             odd += 1
             _output.print(f"warning: {warning}", markup=False, soft_wrap=True)
-    _output.print(
-        f"{len(signs)} entries in {signs.directory}: {wrong} errors, {odd} warnings", soft_wrap=True
-    )
+    _output.print(f"{len(signs)} entries in {signs.place}: {wrong} errors, {odd} warnings", soft_wrap=True)
     if wrong:
         raise typer.Exit(1)
 
@@ -218,7 +219,7 @@ def main() -> None:
 
 def _open(directory: Path | None) -> Lut:
     try:
-        return Lut.open(directory or default_lut_directory())
+        return Lut.open(directory)
     except LutError as error:
         fail(error)
 

@@ -13,7 +13,8 @@ from rich.console import Console
 from teo_signs.errors import LutError
 
 TableDirectory = Annotated[
-    Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
+    Path | None,
+    typer.Option("--lut", help="Directory of the table; your own and, beneath it, the package's without it."),
 ]
 Replace = Annotated[bool, typer.Option("--replace", help="Replace what is there already.")]
 

@@ -13,8 +13,8 @@ import typer
 from teo_lut_executor.cli.options import fail
 from teo_signs.errors import LutError
 
-# Entry points of this group are commands: name, and a function with typer's annotations. The directory of the
-# package's table is its context's `obj`.
+# Entry points of this group are commands: name, and a function with typer's annotations. Its context's `obj`
+# are the directories of the table that is used without --lut, in the order in which a gloss is sought there.
 GROUP = "teo_lut_executor.lut_commands"
 
 
@@ -33,6 +33,7 @@ _KNOWN = {
     "import": _Known(
         "Signs from a clip in which a person's points were found, or from SignWriting.", *_CAPTURE
     ),
+    "recognise": _Known("Which signs of the table a demonstration may be.", *_CAPTURE),
     "record": _Known("A sign from the person before the camera, now.", *_CAPTURE),
 }
 

@@ -122,7 +122,7 @@ class ExecutorNode(Node):
         )
         self.create_timer(1.0 / _STEP_RATE, self._step)
         self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback)
-        self.get_logger().info(f"ready with {len(self._lut)} signs of {self._lut.directory}")
+        self.get_logger().info(f"ready with {len(self._lut)} signs of {self._lut.place}")
         self._step()
 
     def _on_tokens(self, message: SignSentence) -> None:

@@ -30,7 +30,7 @@ PARAMETERS = (
     ParameterRow(
         name="lut_directory",
         default="",
-        description="Directory of the look-up table; empty for the package's table of LSE.",
+        description="Directory of the look-up table; empty for the user's own, then the package's.",
         read_only=True,
     ),
     ParameterRow(

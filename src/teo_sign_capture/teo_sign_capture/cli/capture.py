@@ -14,7 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import default_lut_directory
+from teo_signs.look_up_table import user_lut_directory
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
     from teo_sign_capture.entries.bag_capture import Job, Saved, Settings
@@ -33,7 +33,7 @@ Gloss = Annotated[str | None, typer.Option(help="Name of the sign; not with a fo
 Start = Annotated[float | None, typer.Option(help="Look at the recording from this second on.")]
 End = Annotated[float | None, typer.Option(help="Look at the recording up to this second.")]
 TableDirectory = Annotated[
-    Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
+    Path | None, typer.Option("--lut", help="Directory of the table; your own without it.")
 ]
 Replace = Annotated[bool, typer.Option("--replace", help="Take the place of an entry that is there.")]
 Person = Annotated[int | None, typer.Option(help="Id of the person; the signer without it.")]
@@ -104,7 +104,7 @@ def capture(
     from teo_sign_capture.recordings.recording import default_cache, is_bag
 
     try:
-        table = lut or default_lut_directory()
+        table = lut or user_lut_directory()
         settings = Settings(
             table=table,
             replace=replace,

@@ -111,9 +111,9 @@ def import_pose(
     from teo_sign_capture.entries.bag_capture import Job, Settings
     from teo_sign_capture.entries.pose_capture import capture_pose_file
     from teo_sign_capture.entries.take import Cut
-    from teo_signs.look_up_table import default_lut_directory
+    from teo_signs.look_up_table import user_lut_directory
 
-    table = lut or default_lut_directory()
+    table = lut or user_lut_directory()
     settings = Settings(
         table=table,
         replace=replace,

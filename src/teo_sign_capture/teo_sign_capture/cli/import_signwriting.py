@@ -17,7 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from teo_sign_capture.cli.capture import fail
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import default_lut_directory
+from teo_signs.look_up_table import user_lut_directory
 
 if TYPE_CHECKING:
     from teo_sign_capture.signwriting.dictionary_import import ImportJob, ImportOutcome, ImportSettings
@@ -45,7 +45,7 @@ def import_signwriting(
 
     Args:
         file: SPML, or term and FSW in a table of tab-separated values.
-        table: Directory of the table; the package's if None.
+        table: Directory of the table; the user's own if None.
         scores: Directory for the scores as well.
         replace: Whether to make entries anew that are there and no better founded.
         source: What entries name as their source.
@@ -64,7 +64,7 @@ def import_signwriting(
             raise LutError("bad_arguments", f"--report: expected a file .tsv or .json, got {report.name}")
         found = find_jobs(read_dictionary(file), GlossNames(any_term=any_term), only)
         settings = ImportSettings(
-            table=table or default_lut_directory(),
+            table=table or user_lut_directory(),
             scores=scores,
             replace=replace,
             source=source,

@@ -25,7 +25,7 @@ from teo_sign_capture.cli.capture import (
     tell,
 )
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import default_lut_directory
+from teo_signs.look_up_table import user_lut_directory
 
 if TYPE_CHECKING:
     from teo_sign_capture.recordings.live_take import LiveState, LiveTake
@@ -57,7 +57,7 @@ def record(
     from teo_sign_capture.entries.live_capture import default_recordings, keep_and_capture
 
     try:
-        table = lut or default_lut_directory()
+        table = lut or user_lut_directory()
         settings = Settings(
             table=table,
             replace=replace,

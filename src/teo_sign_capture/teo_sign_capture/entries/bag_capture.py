@@ -17,6 +17,7 @@ from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
 from teo_sign_capture.entries.take import Cut, Take, capture_take
 from teo_sign_capture.recordings.recording import Recording, default_cache, open_recording, track_of
 from teo_signs.errors import LutError
+from teo_signs.look_up_table import held_entry
 from teo_signs.sign import gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
@@ -160,17 +161,14 @@ def check_free(gloss: str, settings: Settings) -> None:
     except ValidationError as error:
         reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
         raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
-    path = settings.table / f"{gloss_key(gloss)}.json"
     try:
-        taken = path.exists()
-    except OSError as error:
-        raise LutError(
-            "not_written", f"{settings.table}: expected a place to write to, got: {error}"
-        ) from error
-    if taken and not settings.replace:
+        taken = held_entry(settings.table, gloss)
+    except LutError as error:
+        raise LutError("not_written", f"expected a place to write to, got: {error}") from error
+    if taken is not None and not settings.replace:
         raise LutError(
             "exists",
-            f"{path.name}: expected a gloss that {settings.table} does not hold, got {gloss!r}: --replace "
+            f"{taken.name}: expected a gloss that {taken.parent} does not hold, got {gloss!r}: --replace "
             "takes its place",
         )
 

@@ -29,7 +29,7 @@ from teo_sign_capture.entries.live_capture import default_recordings, keep_and_c
 from teo_sign_capture.node.parameters import CAPTURE_PARAMETERS
 from teo_sign_capture.recordings.live_take import LiveTake, Phase
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import default_lut_directory
+from teo_signs.look_up_table import user_lut_directory
 from teo_signs.sign_schema import STANDINGS
 
 _STEP_RATE = 10.0  # [Hz] at which the countdown is looked at
@@ -157,7 +157,7 @@ class CaptureNode(Node):
             self.get_logger().info(state)
 
     def _settings(self, replace: bool) -> Settings:
-        table = Path(self._value("lut_directory") or default_lut_directory())
+        table = Path(self._value("lut_directory") or user_lut_directory())
         return Settings(
             table=table,
             replace=replace,

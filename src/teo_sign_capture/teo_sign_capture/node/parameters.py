@@ -12,7 +12,7 @@ CAPTURE_PARAMETERS = (
     ParameterRow(
         name="lut_directory",
         default="",
-        description="Directory of the look-up table; empty for the package's table of LSE.",
+        description="Directory that entries go to; empty for the user's own table.",
     ),
     ParameterRow(
         name="recordings_directory",

@@ -27,6 +27,7 @@ from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.glosses import GlossNames, numbered
 from teo_sign_capture.signwriting.score_text import score_text
 from teo_signs.errors import LutError
+from teo_signs.look_up_table import held_entry
 from teo_signs.sign import Sign
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import STANDINGS
@@ -210,8 +211,8 @@ def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compila
 
 def _kept(gloss: str, settings: ImportSettings) -> str:
     """Why the entry that is there stays; empty if there is none, or it is to be replaced."""
-    path = settings.table / f"{gloss}.json"
-    if not path.exists():
+    path = held_entry(settings.table, gloss)
+    if path is None:
         return ""
     if not settings.replace:
         return "the table has it"

@@ -50,6 +50,20 @@ def test_several_signs_are_listed_and_what_is_suggested_works(tmp_path: Path) ->
     assert run("capture", bag, "--gloss", "SIGNO", "--lut", tmp_path, "--no-draw", *suggested).exit_code == 0
 
 
+def test_without_a_table_a_sign_goes_to_the_users_own_and_is_found_there_first(
+    bag: Path, data_home: Path
+) -> None:
+    own = data_home / "teo" / "lut"
+    assert run("capture", bag, "--gloss", "SIGNO", "--no-draw").exit_code == 0
+    assert [path.name for path in own.iterdir()] == ["SIGNO.json"]
+    assert str(own / "SIGNO.json") in run("show", "SIGNO").output
+    taken = run("capture", bag, "--gloss", "CASA", "--no-draw")
+    assert taken.exit_code == 1
+    assert taken.output.startswith("exists")
+    assert run("capture", bag, "--gloss", "CASA", "--no-draw", "--replace").exit_code == 0
+    assert Lut.open().path("CASA") == own / "CASA.json"
+
+
 def test_a_folder_ends_with_a_table_of_failures_and_resumes(tmp_path: Path) -> None:
     folder, table = tmp_path / "recordings", tmp_path / "lut"
     write_bag(folder / "HOLA.mcap", signing(rate=15.0))

@@ -49,7 +49,10 @@ def coverage(
     file: Annotated[Path | None, typer.Argument(help="A text; each line is translated for itself.")] = None,
     text: Annotated[str | None, typer.Option(help="A text instead of a file.")] = None,
     lut: Annotated[
-        Path | None, typer.Option("--lut", help="Directory of the table; the package's without it.")
+        Path | None,
+        typer.Option(
+            "--lut", help="Directory of the table; your own and, beneath it, the package's without it."
+        ),
     ] = None,
     least_standing: Annotated[
         str,
@@ -69,13 +72,16 @@ def coverage(
     if (file is None) == (text is None):
         raise typer.BadParameter("expected either a file or --text")
     try:
-        table = lut or context.obj
-        if table is None:
+        tables = (lut,) if lut is not None else tuple(context.obj or ())
+        if not tables:
             raise TranslationError(
                 "invalid_data", "expected a table of signs, found none: name one with --lut"
             )
-        signs = read_signs(table, least_standing)
-        guesses = read_signs(table, STANDINGS[-1]) - signs
+        signs: frozenset[str] = frozenset()
+        guesses: frozenset[str] = frozenset()
+        for table in reversed(tables):  # the first, which is sought first, has the last word
+            held, good = read_signs(table, STANDINGS[-1]), read_signs(table, least_standing)
+            signs, guesses = (signs - held) | good, (guesses - good) | (held - good)
         lines = [text] if text is not None else _lines(file)
         translator = Translator.load()
     except TranslationError as error:
