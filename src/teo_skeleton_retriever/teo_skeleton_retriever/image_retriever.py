@@ -16,6 +16,7 @@ from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
 from teo_skeleton_retriever.compat.original_parameters import original_parameters_from
 from teo_skeleton_retriever.detectors import Detector
 from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.empty_space import median_depth
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
@@ -34,6 +35,7 @@ class Retrieved:
         people: What the detector saw, in pixels.
         skeletons: Everybody who is followed, in space.
         depth_share: Part of the pixels with a depth, 0 to 1.
+        depth_median: Of the depths [m]; NaN if there is none.
         detector_time: What the detector took [s].
         own_time: What all after it took [s].
     """
@@ -41,6 +43,7 @@ class Retrieved:
     people: tuple[Person2D, ...]
     skeletons: tuple[Skeleton, ...]
     depth_share: float
+    depth_median: float
     detector_time: float
     own_time: float
 
@@ -68,6 +71,10 @@ class FrameRetriever(Protocol):
 
     def lock_signer(self, track_id: int | None) -> None:
         """Follow this person as the signer; None chooses by the rule again."""
+
+    @property
+    def newcomer_images(self) -> int | None:
+        """Images in which someone must be seen to become a person; None if the question is another."""
 
 
 def make_retriever(
@@ -113,6 +120,11 @@ class ImageRetriever:
         """Follow this person as the signer; None chooses by the rule again."""
         self._retriever.lock_signer(track_id)
 
+    @property
+    def newcomer_images(self) -> int | None:
+        """Images in which someone must be seen to become a person; None if it is the original's question."""
+        return self._retriever.newcomer_images
+
     def process(self, image: RgbdImage) -> Retrieved:
         """Take one image.
 
@@ -137,7 +149,8 @@ class ImageRetriever:
         )
         self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
         share = float(np.count_nonzero(np.isfinite(image.depth)) / image.depth.size)
-        return Retrieved(people, skeletons, share, detected.time, time.perf_counter() - began)
+        median = median_depth(image.depth)
+        return Retrieved(people, skeletons, share, median, detected.time, time.perf_counter() - began)
 
     def close(self) -> None:
         """Release what the detector holds."""

@@ -18,6 +18,7 @@ from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import Topics, choose_topics
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.empty_space import nobody_in_space
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved
 from teo_skeleton_retriever.output.messages import skeleton_array
@@ -40,8 +41,9 @@ class RetrievalReport:
         detector_time: Median time of the detector for an image [s]; NaN without images.
         own_time: Median time of the rest for an image [s]; NaN without images.
         left_out: Number of colour images that could not be used, by reason code.
-        reasons: A sentence for the first image of a reason code. Images without a depth image, as at the
-            ends of recordings, are in `left_out` alone.
+        reasons: A sentence for the first image of a reason code. Where only few images are without a depth
+            image, as at the ends of recordings, these are in `left_out` alone.
+        nobody: Why nobody is in space although the detector saw people; empty if somebody is, or nobody was.
         damage: What is wrong with the bag, of which the rest was used; empty if nothing is.
     """
 
@@ -55,6 +57,7 @@ class RetrievalReport:
     own_time: float
     left_out: Mapping[str, int]
     reasons: Mapping[str, str]
+    nobody: str
     damage: str
 
     @property
@@ -66,6 +69,8 @@ class RetrievalReport:
         ]
         if self.damage:
             said.append(f"{self.recording}: {self.damage}")
+        if self.nobody:
+            said.append(self.nobody)
         if not self.images:
             left_out = dict(self.left_out) or "there is none"
             said.append(f"no image of {self.topics.color} could be used: {left_out}")
@@ -140,7 +145,7 @@ def retrieve_recording(
                 header = Header(frame_id=found.frame_id)
                 header.stamp.sec, header.stamp.nanosec = divmod(found.stamp, 1_000_000_000)
                 skeletons.write(skeleton_array(retrieved.skeletons, header), found.time)
-    return tally.report(recording, topics, reader, bag)
+    return tally.report(recording, topics, reader, bag, images.newcomer_images)
 
 
 class _Tally:
@@ -151,12 +156,16 @@ class _Tally:
         self._with_people = 0
         self._ids: set[int] = set()
         self._times: list[tuple[float, float]] = []
+        self._most_people = 0
+        self._depths: list[tuple[float, float]] = []
         self._statuses: dict[str, Counter[int]] = {"body": Counter(), "hands": Counter(), "face": Counter()}
 
     def add(self, retrieved: Retrieved) -> None:
         """Count an image."""
         self._with_people += bool(retrieved.skeletons)
         self._times.append((retrieved.detector_time, retrieved.own_time))
+        self._most_people = max(self._most_people, len(retrieved.people))
+        self._depths.append((retrieved.depth_share, retrieved.depth_median))
         for skeleton in retrieved.skeletons:
             self._ids.add(skeleton.track_id)
             if skeleton.is_signer:
@@ -165,7 +174,22 @@ class _Tally:
                 self._statuses["hands"].update(skeleton.right_hand.status.tolist())
                 self._statuses["face"].update(skeleton.face.status.tolist())
 
-    def report(self, recording: Path, topics: Topics, reader: BagImages, bag: Bag) -> RetrievalReport:
+    def _nobody(self, least_images: int | None) -> str:
+        if self._ids or not self._most_people:
+            return ""
+        shares, medians = np.transpose(self._depths)
+        known = medians[np.isfinite(medians)]
+        return nobody_in_space(
+            images=len(self._times),
+            most_people=self._most_people,
+            share=float(shares.mean()),
+            median=float(np.median(known)) if len(known) else float("nan"),
+            least_images=least_images,
+        )
+
+    def report(
+        self, recording: Path, topics: Topics, reader: BagImages, bag: Bag, least_images: int | None
+    ) -> RetrievalReport:
         """Sum up, after the last image."""
         detector, own = np.median(self._times, axis=0) if self._times else (np.nan, np.nan)
         return RetrievalReport(
@@ -179,5 +203,6 @@ class _Tally:
             own_time=float(own),
             left_out=dict(reader.dropped),
             reasons=dict(reader.reasons),
+            nobody=self._nobody(least_images),
             damage=bag.problem,
         )

@@ -78,6 +78,11 @@ class Retriever:
         """Id of the signer, seen or waited for; None if there is none."""
         return self._signer.signer
 
+    @property
+    def newcomer_images(self) -> int:
+        """Images in which someone must be seen to become a person."""
+        return int(self._parameters.newcomer_images)
+
     def lock_signer(self, track_id: int | None) -> None:
         """Follow this person as the signer and nobody else; None chooses by the rule again."""
         if track_id is None:

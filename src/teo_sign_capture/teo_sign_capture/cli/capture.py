@@ -15,6 +15,7 @@ from rich.table import Table
 
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
     from teo_sign_capture.entries.bag_capture import Job, Saved, Settings
@@ -53,6 +54,12 @@ StandingOption = Annotated[
 Licence = Annotated[str, typer.Option(help="Terms of the recording, for the entry.")]
 Notes = Annotated[str, typer.Option(help="What a reader must know, for the entry.")]
 Topic = Annotated[str | None, typer.Option(help="Topic of the skeletons; found by itself.")]
+Slop = Annotated[
+    float,
+    typer.Option(
+        min=0.0, max=1.0, help="Greatest difference between the stamps of colour and depth images [s]."
+    ),
+]
 Cache = Annotated[
     Path | None, typer.Option(help="Where skeletons found in images are kept; the user's cache without it.")
 ]
@@ -86,6 +93,7 @@ def capture(
     licence: Licence = "not stated: ask the person who signs before passing it on",
     notes: Notes = "",
     topic: Topic = None,
+    slop: Slop = DEFAULT_SLOP,
     cache: Cache = None,
     picture: Picture = None,
     draw: Draw = True,
@@ -113,6 +121,7 @@ def capture(
             licence=licence,
             notes=notes,
             topic=topic,
+            slop=slop,
             cache=cache or default_cache(),
             pictures=(picture or table) if draw else None,
             film=film,

@@ -21,6 +21,7 @@ from teo_signs.look_up_table import held_entry
 from teo_signs.sign import gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 # Hexadecimal digits of SHA-256 that tell one recording from another.
 DIGEST = 16
@@ -61,6 +62,8 @@ class Settings:
         licence: Terms of the recordings.
         notes: For every entry.
         topic: Topic of the skeletons; None finds it.
+        slop: Greatest difference between the stamps of colour and depth, where skeletons are made of images
+            [s].
         cache: Directory of skeletons found in images.
         pictures: Directory of the pictures; None makes none.
         film: Whether a film is made beside each picture.
@@ -73,6 +76,7 @@ class Settings:
     licence: str = "not stated: ask the person who signs before passing it on"
     notes: str = ""
     topic: str | None = None
+    slop: float = DEFAULT_SLOP
     cache: Path = field(default_factory=default_cache)
     pictures: Path | None = None
     film: bool = False
@@ -109,7 +113,7 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
             good are left out, with the reason in the entry's notes.
     """
     check_free(job.gloss, settings)
-    recordings = [open_recording(bag) for bag in job.bags]
+    recordings = [open_recording(bag, slop=settings.slop) for bag in job.bags]
     takes: list[Take] = []
     warnings: list[str] = []
     failed: list[LutError] = []

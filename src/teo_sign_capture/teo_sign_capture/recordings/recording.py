@@ -17,6 +17,7 @@ from teo_sign_capture.recordings.retrieval import retrieve_apart
 from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 BAG_SUFFIXES = (".mcap", ".db3", ".bag")
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
@@ -32,12 +33,15 @@ class Recording:
         digest: SHA-256 of its content, hexadecimal.
         has_skeletons: Whether it holds skeletons that were found in images, or only the images.
         rendered: Whether a program drew it.
+        slop: Greatest difference between the stamps of colour and depth, where skeletons are made of images
+            [s].
     """
 
     path: Path
     digest: str
     has_skeletons: bool
     rendered: bool
+    slop: float = DEFAULT_SLOP
 
     @property
     def name(self) -> str:
@@ -51,8 +55,12 @@ def default_cache() -> Path:
     return Path(base) / "teo_lut_executor" / "skeletons"
 
 
-def open_recording(path: Path) -> Recording:
+def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
     """Look into a bag.
+
+    Args:
+        path: The bag.
+        slop: Greatest difference between the stamps of colour and depth [s].
 
     Raises:
         LutError: "no_bag" if there is none, "unreadable_bag", or "no_skeletons" if it holds neither
@@ -75,6 +83,7 @@ def open_recording(path: Path) -> Recording:
         digest=digest_of(path),
         has_skeletons=skeletons,
         rendered=is_rendered(kinds, begins),
+        slop=slop,
     )
 
 
@@ -128,7 +137,7 @@ def track_of(
     if not recording.has_skeletons and topic is None:
         bag = _cached(recording, cache)
         if not bag.is_file():
-            _fill_cache(recording.path, bag, on_progress)
+            _fill_cache(recording, bag, on_progress)
         warnings = _warnings_of(bag).read_text("utf-8") if _warnings_of(bag).is_file() else ""
     track = read_skeletons(bag, topic=topic, signer=person)
     # A rendered recording has stamps, but no day on which anybody stood before a camera.
@@ -143,7 +152,9 @@ def skeletons_of(recording: Recording, cache: Path) -> Path:
 
 
 def _cached(recording: Recording, cache: Path) -> Path:
-    return cache / f"{recording.path.stem}-{recording.digest[:12]}.mcap"
+    # Other pairs of colour and depth make other skeletons.
+    paired = "" if recording.slop == DEFAULT_SLOP else f"-slop{recording.slop:g}"
+    return cache / f"{recording.path.stem}-{recording.digest[:12]}{paired}.mcap"
 
 
 def _warnings_of(skeletons: Path) -> Path:
@@ -161,14 +172,14 @@ def _topics(path: Path) -> tuple[dict[str, str], float]:
         ) from error
 
 
-def _fill_cache(bag: Path, out: Path, on_progress: Callable[[int, int], None] | None) -> None:
+def _fill_cache(recording: Recording, out: Path, on_progress: Callable[[int, int], None] | None) -> None:
     """Make skeletons of a bag's images, and beside them a text of what could not be used."""
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         # Two captures of one bag at a time must not write one file.
         with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
             made = Path(folder) / "skeletons.mcap"
-            complaints = retrieve_apart(bag, made, on_progress)
+            complaints = retrieve_apart(recording.path, made, on_progress, slop=recording.slop)
             if complaints:  # what is left of a recording that was cut off is worth a look
                 _warnings_of(made).write_text("\n".join(complaints), "utf-8")
                 _warnings_of(made).replace(_warnings_of(out))

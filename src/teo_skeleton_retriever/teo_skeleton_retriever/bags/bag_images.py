@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
@@ -12,11 +13,15 @@ from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import Topics
 from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, stamp_of
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
-from teo_skeleton_retriever.camera.synchroniser import NO_COLOR, Pair, Synchroniser
+from teo_skeleton_retriever.camera.synchroniser import NO_COLOR, NO_DEPTH, Pair, Synchroniser
 from teo_skeleton_retriever.errors import BagError, RetrieverError
 
 # In a recording nothing is late: this bounds the memory where a topic has long gaps.
 _CAPACITY = 30
+# Part of the colour images that may be without depth: those at the ends of a recording, and a frame lost.
+_FEW = 0.1
+# Part of the images without depth that the proposed bound is to pair.
+_MOST = 0.9
 
 
 class BagImage(NamedTuple):
@@ -51,6 +56,7 @@ class BagImages:
         """Colour images that could not be used, by reason."""
         self.reasons: dict[str, str] = {}
         """A sentence for the first of each reason."""
+        self._paired = 0
 
     def images(self, on_message: Callable[[], None] = lambda: None) -> Iterator[BagImage]:
         """Give the images in order.
@@ -75,10 +81,12 @@ class BagImages:
             add = synchroniser.add_color if topic == self._topics.color else synchroniser.add_depth
             yield from self._usable(add(stamp_of(message), message), info, time)
         yield from self._usable(synchroniser.finish(), info, time)
+        self._note_misses(synchroniser)
         self.dropped += Counter({k: n for k, n in synchroniser.dropped.items() if k != NO_COLOR})
 
     def _usable(self, pairs: list[Pair], info: Any, time: int) -> Iterator[BagImage]:
         for pair in pairs:
+            self._paired += 1
             try:
                 image = self._image(pair, info)
             except RetrieverError as error:
@@ -86,6 +94,19 @@ class BagImages:
                 continue
             frame_id = pair.color.header.frame_id or info.header.frame_id
             yield BagImage(image, pair.stamp, time, frame_id)
+
+    def _note_misses(self, synchroniser: Synchroniser) -> None:
+        """Explain colour images without depth, unless they are as few as at the ends of any recording."""
+        missed = synchroniser.dropped[NO_DEPTH]
+        if missed <= _FEW * (missed + self._paired) or not synchroniser.misses:
+            return
+        gaps = sorted(synchroniser.misses)
+        most = math.ceil(gaps[int(_MOST * (len(gaps) - 1))] * 1e-6) * 1e-3
+        self.reasons[NO_DEPTH] = (
+            f"expected a depth image within {self._slop * 1e-9:.3g} s of each colour image, got the nearest "
+            f"{gaps[0] * 1e-9:.3f} s away; --slop {most:.3f} pairs nine of ten, and what moves "
+            "meanwhile is that much out of place"
+        )
 
     def _image(self, pair: Pair, info: Any) -> RgbdImage:
         return RgbdImage(

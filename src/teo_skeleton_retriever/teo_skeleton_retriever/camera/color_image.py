@@ -38,6 +38,9 @@ _ENCODINGS = {
     "yuv422_yuy2": _Encoding(2, cv2.COLOR_YUV2RGB_YUY2),
     "yuyv": _Encoding(2, cv2.COLOR_YUV2RGB_YUY2),
 }
+# What the encodings of raw sensors begin with, of which each pixel holds one colour, and what to do.
+BAYER = "bayer_"
+DEBAYER = "run image_proc's debayer node while recording, and use its image_color topic"
 # Encodings of sensor_msgs/Image that are understood.
 COLOR_ENCODINGS = tuple(_ENCODINGS)
 
@@ -58,6 +61,11 @@ def decode_color(data: Bytes, *, width: int, height: int, encoding: str, step: i
     Raises:
         ImageError: The encoding is not known, or the sizes do not fit together.
     """
+    if encoding.startswith(BAYER):
+        raise ImageError(
+            "wrong_encoding",
+            f"expected a colour image, got the raw mosaic {encoding!r:.40}: {DEBAYER}",
+        )
     if encoding not in _ENCODINGS:
         raise ImageError(
             "wrong_encoding",

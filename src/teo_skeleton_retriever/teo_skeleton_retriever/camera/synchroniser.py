@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, deque
 from typing import Any, NamedTuple
 
 # Colour images for which there is no depth image near enough.
@@ -17,6 +17,7 @@ OVERTAKEN = "overtaken"
 # [s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart.
 DEFAULT_SLOP = 0.017
 
+_MISSES = 300  # Ten seconds at 30 Hz say how far apart two cameras are.
 _BACKWARDS = 1_000_000_000  # [ns] A stamp so much earlier is a clock or a bag set back, not a late message.
 
 
@@ -65,6 +66,8 @@ class Synchroniser:
         self._given: int | None = None
         self.dropped: Counter[str] = Counter()
         """How many images were dropped, by reason."""
+        self.misses: deque[int] = deque(maxlen=_MISSES)
+        """How far the nearest depth image was from each of the latest colour images that found none [ns]."""
 
     def add_color(self, stamp: int, color: Any) -> list[Pair]:
         """Take a colour image; give the pairs that it completes, at most one."""
@@ -114,6 +117,8 @@ class Synchroniser:
         nearest = min(self._depths, key=lambda depth: abs(depth.stamp - color.stamp), default=None)
         if nearest is None or abs(nearest.stamp - color.stamp) > self._slop:
             self.dropped[NO_DEPTH] += 1
+            if nearest is not None:
+                self.misses.append(abs(nearest.stamp - color.stamp))
             return None
         before = self._depths.index(nearest)
         self.dropped[NO_COLOR] += before

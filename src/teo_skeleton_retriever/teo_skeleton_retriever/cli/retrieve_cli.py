@@ -18,8 +18,10 @@ from rich.table import Table
 
 from teo_skeleton_retriever.bags.bag_images import BagImage
 from teo_skeleton_retriever.camera.image_files import read_rgbd_image
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS, make_detector
+from teo_skeleton_retriever.empty_space import nobody_in_space
 from teo_skeleton_retriever.errors import RetrieverError, TopicError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES, ImageRetriever, Retrieved, make_retriever
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
@@ -82,8 +84,8 @@ def _retrieve(
 ) -> None:
     """Find people's bodies, hands and faces in space.
 
-    Exit status: 0 if all went well, 1 if something could not be read or written (what could be was), 2 for
-    wrong options.
+    Exit status: 0 if all went well, 1 if something could not be read or written (what could be was) or nobody
+    of those whom the detector saw is in space, 2 for wrong options.
 
     Examples: retrieve take/ --out skeletons.mcap --video overlay.mp4
 
@@ -130,8 +132,8 @@ def _retrieve(
     except OSError as error:
         _complain(f"cannot write {error.filename}: {error.strerror}")
         raise typer.Exit(1) from None
-    film_path = video if report.images else None
-    _tell(_table(report), [path for path in (out, film_path) if path is not None], quiet=as_lines)
+    written = [path for path in (out, video if report.images else None) if path is not None]
+    _tell(_table(report), written, quiet=as_lines)
     for complaint in report.complaints:
         _complain(complaint)
     if report.complaints:
@@ -156,7 +158,22 @@ def _one(images: ImageRetriever, color: Path, depth: Path, camera_info: Path, as
     result = images.process(image)
     if as_lines:
         print(json.dumps(as_json(image.stamp, result.skeletons)))
-        return
+    else:
+        _show_one(image, result)
+    if result.people and not result.skeletons:
+        _complain(
+            nobody_in_space(
+                images=1,
+                most_people=len(result.people),
+                share=result.depth_share,
+                median=result.depth_median,
+                least_images=images.newcomer_images,
+            )
+        )
+        raise typer.Exit(1)
+
+
+def _show_one(image: RgbdImage, result: Retrieved) -> None:
     for skeleton in result.skeletons:
         table = Table(
             "keypoint", r"x \[m]", r"y \[m]", r"z \[m]", "status", title=f"person {skeleton.track_id}"

@@ -61,6 +61,11 @@ class CompatRetriever:
         signer = self._signer.step(frame.stamp, _places(found))
         return tuple(_skeleton(i, i == signer, found[i]) for i in sorted(found))
 
+    @property
+    def newcomer_images(self) -> None:
+        """The original asks for no number of images."""
+        return None
+
     def lock_signer(self, track_id: int | None) -> None:
         """Follow this person as the signer; None chooses by the rule again."""
         if track_id is None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from teo_common.diagnostics import Diagnosis, Level
+from teo_skeleton_retriever.empty_space import depth_fault
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.node.stream_stats import Percentiles, StreamReport
 
@@ -43,8 +44,9 @@ def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None
         message = f"{problem.code}: {problem.sentence}"
     elif silent:
         level, message = Level.WARN, f"nothing comes on {', '.join(silent)}"
-    elif report.depth_share == 0.0:
-        level, message = Level.WARN, "no_depth_measured: no pixel of the depth image has a depth"
+    elif fault := depth_fault(report.depth_share, report.depth_median):
+        code = "wrong_depth" if report.depth_share else "no_depth_measured"
+        level, message = Level.WARN, f"{code}: {fault}"
     elif report.rates["results"] < _SLOW * report.rates["color"]:
         level = Level.WARN
         message = (
@@ -68,6 +70,7 @@ def _values(report: StreamReport) -> dict[str, str]:
         "people": str(report.people),
         "signer": "" if report.signer is None else str(report.signer),
         "depth known [%]": f"{100.0 * report.depth_share:.0f}",
+        "median depth [m]": f"{report.depth_median:.2f}",
         "dropped": str(sum(report.dropped.values())),
     }
     return values | {f"dropped {reason}": str(count) for reason, count in sorted(report.dropped.items())}

@@ -235,6 +235,7 @@ class RetrieverNode(Node):
                 own=result.own_time,
                 people=len(result.skeletons),
                 depth_share=result.depth_share,
+                depth_median=result.depth_median,
                 signer=next((s.track_id for s in result.skeletons if s.is_signer), None),
             )
         )

@@ -37,6 +37,7 @@ class StreamReport:
         results: Since the start.
         people: In the last image.
         depth_share: Part of its pixels with a depth, 0 to 1; NaN before the first.
+        depth_median: Of its depths [m]; NaN if it has none.
         signer: Id of its signer, None if there is none.
     """
 
@@ -50,6 +51,7 @@ class StreamReport:
     results: int
     people: int
     depth_share: float
+    depth_median: float
     signer: int | None
 
 
@@ -63,6 +65,7 @@ class Result(NamedTuple):
     own: float
     people: int
     depth_share: float
+    depth_median: float
     signer: int | None
 
 
@@ -119,6 +122,7 @@ class StreamStats:
             results=count,
             people=last.people if last else 0,
             depth_share=last.depth_share if last else float("nan"),
+            depth_median=last.depth_median if last else float("nan"),
             signer=last.signer if last else None,
         )
 

@@ -181,3 +181,66 @@ def test_a_film_without_an_image_is_not_said_to_be_written(seen, tmp_path):
 def test_nothing_half_written_is_left_behind(bag, seen, tmp_path):
     run(bag, "--out", tmp_path / "x.mcap", "--video", tmp_path / "none" / "x.mp4", *seen)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["keypoints", "take"]
+
+
+def changed(tmp_path, name, change, images=IMAGES):
+    """A bag whose depth messages are others."""
+    stored = [
+        (topic, kind, time, change(time) if topic == bag_take.DEPTH else message)
+        for topic, kind, time, message in bag_take.messages(images)
+    ]
+    return bag_take.write_ros2(tmp_path / name, stored)
+
+
+@pytest.mark.parametrize(
+    ("cause", "pixels", "encoding"),
+    [
+        ("no pixel of the depth image has a depth", lambda metres: 0 * metres.astype(np.uint16), "16UC1"),
+        ("units? 32FC1 is to be in metres", lambda metres: 1000 * metres, "32FC1"),
+        ("units? 16UC1 is to be in millimetres", lambda metres: metres.astype(np.uint16), "16UC1"),
+        ("between min_depth and max_depth", lambda metres: 6 + metres, "32FC1"),
+    ],
+)
+def test_people_whom_no_depth_places_are_told_with_the_likely_cause(tmp_path, seen, cause, pixels, encoding):
+    bag = changed(tmp_path, "odd", lambda time: take.image_message(pixels(take.depth()), encoding, time))
+    code, _, stderr = run(bag, "--json", *seen)
+    assert code == 1
+    assert f"1 person in colour, nobody in space, in {IMAGES} images" in stderr
+    assert cause in stderr
+
+
+def test_a_recording_shorter_than_a_newcomers_trial_says_so(tmp_path, seen):
+    bag = bag_take.write_ros2(tmp_path / "short", list(bag_take.messages(2)))
+    code, _, stderr = run(bag, *seen)
+    assert (code, "-p newcomer_images=1" in stderr) == (1, True)
+    assert run(bag, "-p", "newcomer_images=1", *seen)[0] == 0
+
+
+def test_stamps_too_far_apart_are_told_with_the_bound_that_pairs_them(tmp_path, seen):
+    def later(time):
+        return take.depth_message(time + take.PERIOD // 2 + 8_000_000)
+
+    bag = changed(tmp_path, "late", later)
+    code, _, stderr = run(bag, "--slop", "0.005", *seen)
+    assert code == 1
+    assert "got the nearest 0.0" in stderr
+    proposed = stderr.partition("--slop ")[2].split()[0]
+    assert run(bag, "--slop", proposed, *seen)[0] == 0
+
+
+def test_a_raw_mosaic_is_explained(tmp_path, seen):
+    stored = [
+        (
+            topic,
+            kind,
+            time,
+            take.image_message(take.color()[..., 0], "bayer_rggb8", time)
+            if topic == bag_take.COLOR
+            else message,
+        )
+        for topic, kind, time, message in bag_take.messages(2)
+    ]
+    bag = bag_take.write_ros2(tmp_path / "bayer", stored)
+    for options in ([], ["--color-topic", bag_take.COLOR]):
+        code, _, stderr = run(bag, *options, *seen)
+        assert (code, "debayer" in stderr) == (1, True)

@@ -16,7 +16,7 @@ TOPICS = {"color": "/c", "depth": "/d", "camera_info": "/i"}
 
 def result(now: float, **changes: object) -> Result:
     values = {"delay": 0.02, "age": 0.05, "detector": 0.015, "own": 0.004, "people": 1, "depth_share": 0.8}
-    return Result(now=now, **({"signer": 3} | values | changes))
+    return Result(now=now, **({"signer": 3, "depth_median": 1.6} | values | changes))
 
 
 def streaming(seconds: float, rate: float = 30.0, results: float = 30.0, **changes: object) -> StreamStats:
@@ -60,6 +60,13 @@ def test_what_is_wrong_is_told():
     assert (slow.level, "too slow" in slow.message) == (Level.WARN, True)
     blind = assess(streaming(10.0, depth_share=0.0).report(10.0), TOPICS, None)
     assert blind.message.startswith("no_depth_measured")
+    for median in (0.0016, 1600.0):
+        odd = assess(streaming(10.0, depth_median=median).report(10.0), TOPICS, None)
+        assert (odd.level, odd.message.startswith("wrong_depth"), "units?" in odd.message) == (
+            Level.WARN,
+            True,
+            True,
+        )
 
 
 def test_a_problem_is_told_before_anything_else_and_a_fault_of_its_own_is_an_error():
