@@ -52,6 +52,10 @@ StandingOption = Annotated[
 ]
 Licence = Annotated[str, typer.Option(help="Terms of the recording, for the entry.")]
 Notes = Annotated[str, typer.Option(help="What a reader must know, for the entry.")]
+Accept = Annotated[
+    bool,
+    typer.Option("--accept", help="Take a sign beyond a gate as it is, one level less well founded."),
+]
 Topic = Annotated[str | None, typer.Option(help="Topic of the skeletons; found by itself.")]
 Cache = Annotated[
     Path | None, typer.Option(help="Where skeletons found in images are kept; the user's cache without it.")
@@ -85,6 +89,7 @@ def capture(
     standing: StandingOption = None,
     licence: Licence = "not stated: ask the person who signs before passing it on",
     notes: Notes = "",
+    accept: Accept = False,
     topic: Topic = None,
     cache: Cache = None,
     picture: Picture = None,
@@ -112,6 +117,7 @@ def capture(
             standing=standing,
             licence=licence,
             notes=notes,
+            accept=accept,
             topic=topic,
             cache=cache or default_cache(),
             pictures=(picture or table) if draw else None,
