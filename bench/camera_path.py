@@ -169,6 +169,7 @@ def _sampled(sign: Sign) -> RobotMotion:
         joints=sign.joints,
         positions=positions,
         place_error=unknown,
+        contact=unknown,
         palm_error=unknown,
         finger_error=unknown,
         flexion_error=unknown,

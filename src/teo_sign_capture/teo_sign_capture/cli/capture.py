@@ -53,6 +53,10 @@ StandingOption = Annotated[
 ]
 Licence = Annotated[str, typer.Option(help="Terms of the recording, for the entry.")]
 Notes = Annotated[str, typer.Option(help="What a reader must know, for the entry.")]
+Accept = Annotated[
+    bool,
+    typer.Option("--accept", help="Take a sign beyond a gate as it is, one level less well founded."),
+]
 Topic = Annotated[str | None, typer.Option(help="Topic of the skeletons; found by itself.")]
 Slop = Annotated[
     float,
@@ -92,6 +96,7 @@ def capture(
     standing: StandingOption = None,
     licence: Licence = "not stated: ask the person who signs before passing it on",
     notes: Notes = "",
+    accept: Accept = False,
     topic: Topic = None,
     slop: Slop = DEFAULT_SLOP,
     cache: Cache = None,
@@ -120,6 +125,7 @@ def capture(
             standing=standing,
             licence=licence,
             notes=notes,
+            accept=accept,
             topic=topic,
             slop=slop,
             cache=cache or default_cache(),

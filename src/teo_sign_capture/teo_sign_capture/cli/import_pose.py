@@ -12,6 +12,7 @@ import typer
 from rich.console import Console
 
 from teo_sign_capture.cli.capture import (
+    Accept,
     Draw,
     End,
     Hands,
@@ -57,6 +58,7 @@ def import_pose(
         str | None, typer.Option(help="Terms of the recording or the dictionary; 'not stated' without it.")
     ] = None,
     notes: Notes = "",
+    accept: Accept = False,
     picture: Picture = None,
     draw: Draw = True,
     scores: Annotated[
@@ -121,6 +123,7 @@ def import_pose(
         standing=standing,
         licence=licence or _NO_LICENCE,
         notes=notes,
+        accept=accept,
         pictures=(picture or table) if draw else None,
     )
     job = Job(gloss=gloss, bags=(), cut=Cut(start=start, end=end), handedness=hands, person=person)

@@ -14,6 +14,7 @@ from rich.live import Live
 from rich.text import Text
 
 from teo_sign_capture.cli.capture import (
+    Accept,
     KindOption,
     Licence,
     Notes,
@@ -43,6 +44,7 @@ def record(
     standing: StandingOption = "recorded",
     licence: Licence = "not stated: ask the person who signs before passing it on",
     notes: Notes = "",
+    accept: Accept = False,
     picture: Picture = None,
     keep: Annotated[
         Path | None, typer.Option(help="Where the recording is kept; the user's cache without it.")
@@ -65,6 +67,7 @@ def record(
             standing=standing,
             licence=licence,
             notes=notes,
+            accept=accept,
             pictures=picture or table,
         )
         check_free(gloss, settings)

@@ -61,6 +61,7 @@ class Settings:
         standing: How well founded the forms are; None for "recorded", or "sketched" of what a program drew.
         licence: Terms of the recordings.
         notes: For every entry.
+        accept: Whether signs beyond a gate are taken all the same, one level less well founded.
         topic: Topic of the skeletons; None finds it.
         slop: Greatest difference between the stamps of colour and depth, where skeletons are made of images
             [s].
@@ -75,6 +76,7 @@ class Settings:
     standing: Standing | None = None
     licence: str = "not stated: ask the person who signs before passing it on"
     notes: str = ""
+    accept: bool = False
     topic: str | None = None
     slop: float = DEFAULT_SLOP
     cache: Path = field(default_factory=default_cache)
@@ -135,7 +137,7 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
         raise failed[0]
     left_out = [f"Left out: {error.code}: {error}" for error in failed]
     origin = _origin(job, settings, recordings, left_out)
-    captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind)
+    captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind, accept=settings.accept)
     path = save_captured(captured, settings)
     saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out))
     return saved if settings.pictures is None else _with_picture(saved, recordings, settings)

@@ -49,7 +49,7 @@ def capture_pose_file(
         licence=settings.licence,
         notes=" ".join(filter(None, (settings.notes, LIFTED))),
     )
-    captured = make_sign(robot, job.gloss, [take], origin, kind=settings.kind)
+    captured = make_sign(robot, job.gloss, [take], origin, kind=settings.kind, accept=settings.accept)
     saved = Saved(captured=captured, path=save_captured(captured, settings), picture=None, warnings=())
     if settings.pictures is None:
         return saved

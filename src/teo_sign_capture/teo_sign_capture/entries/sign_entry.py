@@ -13,6 +13,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description import description_hash
 from teo_description.robot import Robot
+from teo_sign_capture.entries.gates import Objection, accepted_standing, objections
 from teo_sign_capture.entries.playback import Playback, play
 from teo_sign_capture.entries.take import Take
 from teo_sign_capture.entries.take_combination import Combined, combine
@@ -28,6 +29,9 @@ from teo_signs.sign_schema import Kind, Provenance, Standing
 _SAID_OUT_OF_REACH = 0.12
 # [%] Percentile over the frames that errors are given at, so that a single one decides nothing.
 _SHARE = 95.0
+# How much a hand is on the body, 0 to 1, from which on its place counts as a contact's: a keypoint is within
+# 5 cm of the skin, as those of finger tips and palms that touch are.
+_TOUCHING = 0.9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +72,13 @@ class Captured:
 
 
 def make_sign(
-    robot: Robot, gloss: str, takes: Sequence[Take], origin: Origin, *, kind: Kind = "lexical"
+    robot: Robot,
+    gloss: str,
+    takes: Sequence[Take],
+    origin: Origin,
+    *,
+    kind: Kind = "lexical",
+    accept: bool = False,
 ) -> Captured:
     """Make an entry of takes of one sign.
 
@@ -78,9 +88,11 @@ def make_sign(
         takes: At least one.
         origin: For the provenance.
         kind: Of the sign.
+        accept: Whether a sign beyond a gate is taken all the same, one level less well founded.
 
     Raises:
-        LutError: "takes_differ", or what the planner says of a sign that it cannot play.
+        LutError: "takes_differ", what the planner says of a sign that it cannot play, or the code of an
+            `Objection` to a sign that is not accepted.
     """
     combined = combine(robot, [take.motion for take in takes], [take.source for take in takes])
     used = [takes[index] for index in combined.used]
@@ -98,7 +110,20 @@ def make_sign(
     sign, playback = _played(robot, sign)
     away = deviations(combined.times, combined.positions, sign.times, sign.knots).max(axis=0)
     quality = _quality(used, sign, playback, away) | {"takes_count": float(len(takes))}
-    return Captured(sign=replace(sign, quality=quality), takes=tuple(takes), combined=combined)
+    # A letter is a posture that is held: clips of the alphabet begin and end with the hand raised.
+    has_rest = kind == "letter" or any(take.has_rest for take in used)
+    against = objections(quality, duration=sign.duration, has_rest=has_rest)
+    standing = accepted_standing(sign.gloss, origin.standing, against, accept=accept)
+    sign = replace(sign, quality=quality, provenance=_accepted(sign.provenance, standing, against))
+    return Captured(sign=sign, takes=tuple(takes), combined=combined)
+
+
+def _accepted(provenance: Provenance, standing: Standing, against: Sequence[Objection]) -> Provenance:
+    """The provenance of a sign that was taken though something speaks against it."""
+    reasons = "; ".join(objection.message for objection in against)
+    though = f"Accepted by a person beyond a gate: {reasons}." if reasons else ""
+    notes = " ".join(filter(None, (though, provenance.notes)))
+    return provenance.model_copy(update={"standing": standing, "notes": notes})
 
 
 def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
@@ -152,6 +177,7 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
     fingers = np.array([is_finger(joint) for joint in sign.joints])
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
+        **_contact_figure(takes),
         "palm_error_p95_deg": np.degrees(usual("palm_error")),
         "finger_error_p95_deg": np.degrees(usual("finger_error")),
         "flexion_error_p95_deg": np.degrees(usual("flexion_error")),
@@ -170,3 +196,12 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
         name: round(float(value), 2 if name == "stretch_times" else 1) + 0.0
         for name, value in figures.items()
     }
+
+
+def _contact_figure(takes: Sequence[Take]) -> dict[str, float]:
+    """The error of the place where a hand is on the body; nothing of a sign that touches nothing."""
+    off = [take.motion.place_error[take.motion.contact > _TOUCHING] for take in takes]
+    touching = [errors for errors in off if errors.size]
+    if not touching:
+        return {}
+    return {"contact_error_p95_mm": 1000.0 * float(np.mean([np.percentile(e, _SHARE) for e in touching]))}

@@ -48,6 +48,8 @@ class Take:
         source: Name of the recording.
         recorded: Day of the recording if it is known.
         span: Where the sign is in the recording.
+        has_rest: Whether the hands are seen at rest before or after it, or somebody chose where it begins or
+            ends.
         track: The person during the stroke, smoothed; its times begin at 0.
         motion: TEO during the stroke.
         gaps: Times in the recording in which a hand that signs was lost and is filled in.
@@ -58,6 +60,7 @@ class Take:
     source: str
     recorded: str | None
     span: SignSpan
+    has_rest: bool
     track: SkeletonTrack
     motion: RobotMotion
     gaps: tuple[Gap, ...]
@@ -100,6 +103,7 @@ def capture_take(
         source=track.source,
         recorded=track.recorded,
         span=_moved(span, offset),
+        has_rest=not (span.cut_start and span.cut_end) or cut != Cut(),
         track=stroke,
         motion=motion,
         gaps=tuple(replace(gap, start=gap.start + offset, end=gap.end + offset) for gap in gaps),

@@ -18,6 +18,8 @@ from teo_sign_capture.tracks.person import Person
 # [rad] A head or trunk that never leaves straight by more than this does not sign: people sway by 3 deg and
 # nod by 4 deg while they sign.
 _MOVES = np.radians(8.0)
+# Share of the frames in which a head must be seen to take part: else most of its motion would be made up.
+_SEEN = 0.5
 
 
 class HeadMotion(NamedTuple):
@@ -43,9 +45,14 @@ class HeadMotion(NamedTuple):
 
 
 def follow_head(robot: Robot, head: HeadPose, person: Person) -> HeadMotion:
-    """Let TEO's head follow, as far as its two joints go; it cannot tilt to the side."""
+    """Let TEO's head follow, as far as its two joints go; it cannot tilt to the side.
+
+    A head that is not seen in half of the frames takes no part.
+    """
     places = np.where(np.isfinite(head.places), head.places, person.head)
-    axes, turns, moves, error = _followed(Rotation.from_matrix(head.turns), HEAD)
+    axes, turns, moves, error = _followed(
+        Rotation.from_matrix(head.turns), HEAD, taking_part=float(head.seen.mean()) >= _SEEN
+    )
     pivot = robot.placement(robot.configuration({}), f"{HEAD[1]}_link")[:3, 3]
     return HeadMotion(head.turns, places, turns.as_matrix(), pivot, axes, moves, error)
 
@@ -74,12 +81,15 @@ def follow_trunk(trunk: Array) -> TrunkMotion:
     return TrunkMotion(axes, moves, error)
 
 
-def _followed(person: Rotation, joints: tuple[str, ...]) -> tuple[Array, Rotation, bool, Array]:
+def _followed(
+    person: Rotation, joints: tuple[str, ...], *, taking_part: bool = True
+) -> tuple[Array, Rotation, bool, Array]:
     """Two joints that yaw and pitch, their turn, whether they move, and the angle left to the person's.
 
     Args:
         person: T turns of the person's.
         joints: `HEAD` or `TRUNK`.
+        taking_part: Whether they may move at all.
 
     Returns:
         Positions of the joints [rad], shape (T, 2), T turns, whether any moves, and angles [rad], shape (T,).
@@ -87,7 +97,7 @@ def _followed(person: Rotation, joints: tuple[str, ...]) -> tuple[Array, Rotatio
     yaw, pitch, _ = person.as_euler("ZYX").T
     wanted = np.stack([yaw, pitch], axis=1)
     limits = joint_limits(joints)
-    moves = bool(np.abs(wanted).max() >= _MOVES)
+    moves = taking_part and bool(np.abs(wanted).max() >= _MOVES)
     axes = np.clip(wanted, limits.lower, limits.upper) if moves else np.zeros_like(wanted)
     turns = Rotation.from_euler("ZY", axes)
     return axes, turns, moves, (turns.inv() * person).magnitude()

@@ -50,6 +50,7 @@ class RobotMotion:
         joints: The m joints that take part: arm and hand of each side that signs; head, trunk if they move.
         positions: Within the limits, clear of the robot's own body [rad]. Shape (T, m).
         place_error: Distance of the hand from where the person's hand belongs on TEO [m].
+        contact: How much the person's hand is on the body, 0 to 1.
         palm_error: Angle between the ways the palms face [rad].
         finger_error: Angle between the ways from wrist to knuckles [rad].
         flexion_error: Mean over the four fingers of the difference of bends, of one joint's share [rad].
@@ -62,6 +63,7 @@ class RobotMotion:
     joints: tuple[str, ...]
     positions: Array
     place_error: Array
+    contact: Array
     palm_error: Array
     finger_error: Array
     flexion_error: Array
@@ -117,11 +119,14 @@ def retarget_motion(
     joints = tuple(joint for side in sides for joint in _JOINTS[side]) + tuple(others)
     parts = [_limb(side, arms[:, at : at + JOINTS], shapes[side]) for at, side in _starts(sides)]
     place, palm, fingers, flexion = _errors(chain, sides, goals, shapes, arms)
+    contact = np.full((len(arms), 2), np.nan)
+    contact[:, [_COLUMN[side] for side in sides]] = np.stack([wanted.contact for wanted in goals], axis=1)
     return RobotMotion(
         times=track.times,
         joints=joints,
         positions=np.concatenate([*parts, *(values[:, None] for values in others.values())], axis=1),
         place_error=place,
+        contact=contact,
         palm_error=palm,
         finger_error=fingers,
         flexion_error=flexion,

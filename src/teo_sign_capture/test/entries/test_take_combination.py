@@ -48,6 +48,7 @@ def motion(
         joints=joints,
         positions=positions,
         place_error=errors,
+        contact=errors,
         palm_error=errors,
         finger_error=errors,
         flexion_error=errors,

@@ -92,6 +92,77 @@ def test_a_head_that_is_never_seen_is_held_straight(robot):
     assert not follow_head(robot, pose, person).moves
 
 
+# Nose, eyes, ears of the body; all of the face.
+HEAD_ROWS = [0, 15, 16, 17, 18, *range(25, 95)]
+
+
+def whole_face(robot, yaw, rng):
+    """A person whose whole face is seen, with a centimetre of noise, and the head's true turns."""
+    body, left, right, face = keypoints(robot, RIGHT_ARM, np.zeros((FRAMES, 6)))
+    # Over the front of an ellipsoid of a head's size before the neck, and outwards of it a nose.
+    along, around = rng.uniform(-1.2, 1.2, 70), rng.uniform(-0.9, 0.9, 70)
+    front = np.stack([np.cos(along) * np.cos(around), np.sin(along), np.sin(around)], axis=1)
+    face[:] = np.array([0.0, 0.0, 0.70]) + front * (0.10, 0.08, 0.11)
+    turns = Rotation.from_euler("z", yaw[:, None]).as_matrix()
+    points = np.concatenate([body, face], axis=1)
+    points[:, HEAD_ROWS] = np.einsum("tij,tkj->tki", turns, points[:, HEAD_ROWS] - NECK) + NECK
+    points[:, HEAD_ROWS] += rng.normal(0.0, 0.006, (FRAMES, len(HEAD_ROWS), 3))
+    return (points[:, :25], left, right, points[:, 25:]), turns
+
+
+def yaws_of(track):
+    return Rotation.from_matrix(head_pose(track, head_shape(track)).turns).as_euler("ZYX")[:, 0]
+
+
+def test_an_arm_before_the_face_turns_no_head(robot):
+    rng = np.random.default_rng(3)
+    yaw = np.radians(8.0) * np.sin(2.0 * np.pi * TIMES)
+    points, _ = whole_face(robot, yaw, rng)
+    # The arm's depth for the left third of the head, as a depth camera has it: 30 to 60 cm before the face.
+    hidden = points[3][:, :, 1] > 0.03
+    points[3][10:20][hidden[10:20]] += np.array([0.45, 0.0, 0.0]) + rng.normal(0.0, 0.05, 3)
+    assert yaws_of(track_of(TIMES, points)) == pytest.approx(yaw, abs=np.radians(5.0))
+
+
+def test_a_head_that_is_turned_as_no_neck_turns_is_filled_in(robot):
+    rng = np.random.default_rng(4)
+    yaw = np.radians(10.0) * np.sin(2.0 * np.pi * TIMES)
+    points, _ = whole_face(robot, yaw, rng)
+    wrong = np.radians([178.0, 169.0, 58.0, -58.0])
+    for frame, turn in zip((6, 12, 18, 19), wrong, strict=True):
+        about = Rotation.from_euler("z", turn).as_matrix()
+        for part, rows in ((points[0], [0, 15, 16, 17, 18]), (points[3], range(70))):
+            part[frame, rows] = (part[frame, rows] - NECK) @ about.T + NECK
+    found = yaws_of(track_of(TIMES, points))
+    assert found == pytest.approx(yaw, abs=np.radians(5.0))
+    assert np.abs(np.diff(found)).max() * 30.0 <= np.radians(780.0)
+
+
+def test_keypoints_count_by_their_sigma(robot):
+    rng = np.random.default_rng(5)
+    yaw = np.radians(15.0) * np.sin(2.0 * np.pi * TIMES)
+    points, _ = whole_face(robot, yaw, rng)
+    poor = points[3][:, :, 1] > 0.0
+    poor[:10] = poor[20:] = False
+    points[3][poor] += (0.012, 0.0, 0.0)
+    said, unsaid = track_of(TIMES, points), track_of(TIMES, points)
+    said.face.sigma[poor] = 0.03
+    error = [np.abs(yaws_of(track) - yaw)[10:20].mean() for track in (said, unsaid)]
+    assert error[0] < 0.7 * error[1]
+
+
+def test_a_face_that_is_mostly_held_is_not_followed(robot):
+    yaw = np.radians(30.0) * np.sin(2.0 * np.pi * TIMES)
+    points, _ = whole_face(robot, yaw, np.random.default_rng(6))
+    track = track_of(TIMES, points)
+    shape, person = head_shape(track), measure_person(track)
+    track.face.status[:20, :60] = 2
+    pose = head_pose(track, shape)
+    assert not pose.seen[:20].any()
+    assert pose.seen[20:].all()
+    assert not follow_head(robot, pose, person).moves
+
+
 def test_a_trunk_follows_within_its_limits_and_reports_the_rest():
     lean = np.radians(np.array([0.0, 10.0, 30.0]))
     side = Rotation.from_euler("x", 12.0, degrees=True).as_rotvec()

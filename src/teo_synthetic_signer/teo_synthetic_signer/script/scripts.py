@@ -27,6 +27,7 @@ from teo_synthetic_signer.script.signs import (
     SWING_OUT,
     THANKS,
     THINK,
+    WAVE,
     spelled,
 )
 
@@ -47,6 +48,7 @@ _TURN = math.radians(30.0)
 
 SCRIPTS: dict[str, tuple[Key, ...]] = {
     "signing": (REST, *HELLO, *BOOK, *THANKS, *STAMP, *spelled(("l", "o", "v")), REST),
+    "greeting": (REST, *WAVE, REST),
     "hello": (REST, *HELLO, *THANKS, REST),
     "face": (REST, *THINK, *COVER, *EAT, REST),
     "crossing": (REST, *LOVE, *STACKED, *BEHIND, *BOOK, REST),
@@ -97,6 +99,7 @@ SCRIPTS: dict[str, tuple[Key, ...]] = {
 }
 _ABOUT = {
     "signing": "a greeting, two-handed signs, one hand on the other, and spelling",
+    "greeting": "one sign: a hand that waves before the shoulder",
     "hello": "a greeting and thanks, one hand",
     "face": "hands at and before the face",
     "crossing": "arms crossed, forearms stacked, a hand behind the other arm",

@@ -80,6 +80,8 @@ HELLO = beaten(
     1,
     (0.0, 0.07, 0.0),
 )
+# A greeting with the hand well before the shoulder, where a robot with long upper arms can hold it as well.
+WAVE = beaten(Key(right=neutral("open", at=(0.38, 0.05, 0.08)), face=_SMILE), 2, (0.0, 0.09, 0.0), move=0.22)
 THINK = [
     Key(
         right=ArmKey(

@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What a captured sign must keep to be taken without asking: gates over its figures, each with what to do.
+
+A sign beyond a gate is refused, or, where somebody who has looked at it accepts it, written as one level less
+well founded with the reasons in its notes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from teo_signs.errors import LutError
+from teo_signs.sign_schema import STANDINGS, Standing
+
+
+class _Gate(NamedTuple):
+    """The most that a figure of an entry's quality may be."""
+
+    code: str
+    figure: str
+    most: float
+    unit: str
+    expected: str
+    remedy: str
+
+
+# The most of each figure. Why these: a fifth of the frames filled in is a beat of a repeated sign that nobody
+# saw; 45 deg is half-way to the palm's next cardinal direction, at which signs differ; at a sixth of the pace
+# a stroke of half a second lasts three, and reads as several; of a sign whose major place is wrong in a tenth
+# of the stroke the wrong place is held long enough to be read; 50 mm is from chin to nose.
+_GATES = (
+    _Gate(
+        "much_lost",
+        "lost_percent",
+        20.0,
+        " %",
+        "frames in which a hand that signs is lost",
+        "record it again with both hands in the picture and in good light",
+    ),
+    _Gate(
+        "palm_off",
+        "palm_error_p95_deg",
+        45.0,
+        " deg",
+        "a palm's error",
+        "show it with a straighter wrist, or cut the way up and down off with --start and --end",
+    ),
+    _Gate(
+        "contact_off",
+        "contact_error_p95_mm",
+        50.0,
+        " mm",
+        "a contact's error",
+        "show the touch before the body, not beside or behind it",
+    ),
+    _Gate(
+        "wrong_place",
+        "major_place_wrong",
+        0.10,
+        " of the stroke",
+        "a major place that differs from the person's in",
+        "show it farther before the body and nearer to the middle, where TEO's arms reach",
+    ),
+    _Gate(
+        "too_slow",
+        "stretch_times",
+        6.0,
+        " times",
+        "a stretch",
+        "show it slower and without a tremble, or record it at a higher rate of images",
+    ),
+)
+# [s] A shorter stroke is a piece of one: four frames of a hand's beat at 15 Hz.
+_LEAST_DURATION = 0.25
+
+
+@dataclass(frozen=True, kw_only=True)
+class Objection:
+    """Why a sign should not be taken as it is.
+
+    Attributes:
+        code: Stable reason: "much_lost", "palm_off", "contact_off", "wrong_place", "too_slow", "too_short" or
+            "no_rest".
+        message: What was expected and what came.
+        remedy: What to do.
+    """
+
+    code: str
+    message: str
+    remedy: str
+
+
+def objections(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> tuple[Objection, ...]:
+    """Everything that speaks against a captured sign.
+
+    Args:
+        quality: Figures of its entry; one that is not there is not judged.
+        duration: Of the stroke, as the person made it [s].
+        has_rest: Whether the hands were seen at rest before or after it, or somebody chose where it begins or
+            ends.
+    """
+    found = [
+        Objection(
+            code=gate.code,
+            message=f"expected {gate.expected} of at most {gate.most:g}{gate.unit}, got "
+            f"{quality[gate.figure]:g}{gate.unit}",
+            remedy=gate.remedy,
+        )
+        for gate in _GATES
+        if quality.get(gate.figure, 0.0) > gate.most
+    ]
+    if duration < _LEAST_DURATION:
+        found.append(
+            Objection(
+                code="too_short",
+                message=f"expected a stroke of {_LEAST_DURATION:g} s or more, got {duration:.2f} s",
+                remedy="let the hands rest before and after it, or say where it is with --start and --end",
+            )
+        )
+    if not has_rest:
+        found.append(
+            Objection(
+                code="no_rest",
+                message="expected hands at rest before or after the sign, got a recording that begins and "
+                "ends within it",
+                remedy="record it from rest to rest, or say with --start and --end where the sign is",
+            )
+        )
+    return tuple(found)
+
+
+def accepted_standing(
+    gloss: str, standing: Standing, against: tuple[Objection, ...], *, accept: bool
+) -> Standing:
+    """How well founded a sign is after what speaks against it: as before, or one level lower if accepted.
+
+    Raises:
+        LutError: The first objection's code and all their messages, if the sign is not accepted.
+    """
+    if not against:
+        return standing
+    if not accept:
+        reasons = "; ".join(f"{objection.message}: {objection.remedy}" for objection in against)
+        raise LutError(
+            against[0].code, f"{gloss}: {reasons}. --accept takes it as it is, one level of evidence lower"
+        )
+    return STANDINGS[min(STANDINGS.index(standing) + 1, len(STANDINGS) - 1)]

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Which captured signs are refused, and what accepting one costs it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from made_bags import OUT, REST, signing, write_bag
+from typer.testing import CliRunner, Result
+
+from teo_description.robot import Robot
+from teo_lut_executor.cli.lut import app
+from teo_sign_capture.entries.gates import accepted_standing, objections
+from teo_sign_capture.entries.sign_entry import Origin, make_sign
+from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut
+
+GOOD = {
+    "lost_percent": 20.0,
+    "palm_error_p95_deg": 45.0,
+    "contact_error_p95_mm": 50.0,
+    "major_place_wrong": 0.1,
+    "stretch_times": 6.0,
+}
+ORIGIN = Origin(source="made, sha256 0123456789abcdef", standing="recorded", licence="Apache-2.0")
+# Between two places before the body: the recording begins and ends within the sign.
+NO_REST = [(-1.0, -0.5, OUT), (0.3, 0.9, (0.28, -0.06, 0.02)), (1.1, 1.7, OUT)]
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def take(robot: Robot) -> Take:
+    return capture_take(robot, signing(rate=15.0))
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "400"}).invoke(app, [str(argument) for argument in arguments])
+
+
+def test_a_sign_at_every_limit_is_taken() -> None:
+    assert objections(GOOD, duration=0.25, has_rest=True) == ()
+
+
+@pytest.mark.parametrize(
+    ("figure", "value", "code"),
+    [
+        ("lost_percent", 21.0, "much_lost"),
+        ("palm_error_p95_deg", 46.0, "palm_off"),
+        ("contact_error_p95_mm", 51.0, "contact_off"),
+        ("major_place_wrong", 0.11, "wrong_place"),
+        ("stretch_times", 6.1, "too_slow"),
+    ],
+)
+def test_a_sign_just_beyond_a_limit_is_refused_with_the_figure_and_the_limit(
+    figure: str, value: float, code: str
+) -> None:
+    (found,) = objections(GOOD | {figure: value}, duration=1.0, has_rest=True)
+    assert found.code == code
+    assert f"{value:g}" in found.message
+    assert f"{GOOD[figure]:g}" in found.message
+    assert found.remedy
+
+
+def test_everything_that_speaks_against_a_sign_is_said_at_once() -> None:
+    against = objections({"palm_error_p95_deg": 62.0, "lost_percent": 44.0}, duration=0.13, has_rest=False)
+    assert {found.code for found in against} == {"much_lost", "palm_off", "too_short", "no_rest"}
+    with pytest.raises(LutError) as caught:
+        accepted_standing("X", "recorded", against, accept=False)
+    assert caught.value.code == "much_lost"
+    assert all(words in str(caught.value) for words in ("44", "62", "0.13", "--accept"))
+
+
+@pytest.mark.parametrize(
+    ("standing", "after"),
+    [
+        ("recorded", "measured"),
+        ("measured", "described"),
+        ("described", "sketched"),
+        ("sketched", "sketched"),
+    ],
+)
+def test_accepting_costs_one_level_of_evidence(standing: str, after: str) -> None:
+    against = objections({}, duration=0.1, has_rest=True)
+    assert accepted_standing("X", standing, against, accept=True) == after  # type: ignore[arg-type]
+
+
+def test_a_good_sign_keeps_its_evidence_even_where_any_would_be_accepted(robot: Robot, take: Take) -> None:
+    sign = make_sign(robot, "SIGNO", [take], ORIGIN, accept=True).sign
+    assert sign.provenance.standing == "recorded"
+    assert "Accepted" not in sign.provenance.notes
+
+
+def test_a_hand_that_was_mostly_filled_in_is_refused_or_taken_with_the_reason(
+    robot: Robot, take: Take
+) -> None:
+    lost = replace(take, lost=0.44)
+    with pytest.raises(LutError) as caught:
+        make_sign(robot, "SIGNO", [lost], ORIGIN)
+    assert caught.value.code == "much_lost"
+    sign = make_sign(robot, "SIGNO", [lost], ORIGIN, accept=True).sign
+    assert sign.provenance.standing == "measured"
+    assert "got 44 %" in sign.provenance.notes
+
+
+def test_a_contact_is_judged_where_the_hand_is_on_the_body_alone(robot: Robot, take: Take) -> None:
+    frames = len(take.motion.times)
+    touching = np.zeros((frames, 2))
+    touching[: frames // 2] = 1.0
+    off = np.full((frames, 2), 0.2)
+    off[: frames // 2] = 0.02
+    sign = make_sign(
+        robot,
+        "SIGNO",
+        [replace(take, motion=replace(take.motion, contact=touching, place_error=off))],
+        ORIGIN,
+    ).sign
+    assert sign.quality["contact_error_p95_mm"] == pytest.approx(20.0)
+    assert sign.quality["place_error_p95_mm"] == pytest.approx(200.0)
+    swapped = replace(take, motion=replace(take.motion, contact=1.0 - touching, place_error=off))
+    with pytest.raises(LutError, match="200 mm"):
+        make_sign(robot, "SIGNO", [swapped], ORIGIN)
+
+
+def test_a_recording_without_rest_is_refused_unless_somebody_says_where_the_sign_is(robot: Robot) -> None:
+    track = signing(moves=NO_REST, duration=2.0, rate=15.0)
+    assert not capture_take(robot, track, handedness="right").has_rest
+    assert capture_take(robot, track, handedness="right", cut=Cut(start=0.0, end=1.9)).has_rest
+    back = [*NO_REST, (1.9, 2.5, REST)]
+    assert capture_take(robot, signing(moves=back, duration=3.2, rate=15.0), handedness="right").has_rest
+
+
+def test_a_teacher_is_told_what_to_do_and_may_accept(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "take.mcap", signing(moves=NO_REST, duration=2.0, rate=15.0))
+    arguments = (
+        "capture",
+        bag,
+        "--gloss",
+        "SIGNO",
+        "--hands",
+        "right",
+        "--lut",
+        tmp_path / "lut",
+        "--no-draw",
+    )
+    refused = run(*arguments)
+    assert refused.exit_code == 1
+    assert refused.output.startswith("no_rest: SIGNO: ")
+    assert "from rest to rest" in refused.output
+    assert not (tmp_path / "lut").exists()
+    assert run(*arguments, "--accept").exit_code == 0
+    provenance = Lut.open(tmp_path / "lut")["SIGNO"].provenance
+    assert provenance.standing == "measured"
+    assert "begins and ends within it" in provenance.notes
+
+
+def test_a_stroke_of_an_eighth_of_a_second_is_too_short(robot: Robot) -> None:
+    track = signing(moves=[(0.5, 0.9, OUT), (0.9, 1.3, REST)])
+    take = capture_take(robot, track)
+    with pytest.raises(LutError) as caught:
+        make_sign(robot, "SIGNO", [take], ORIGIN)
+    assert caught.value.code == "too_short"
