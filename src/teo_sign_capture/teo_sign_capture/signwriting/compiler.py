@@ -264,18 +264,19 @@ def _spread(rights: list[Beat], lefts: list[Beat]) -> tuple[list[Beat], list[Bea
 
 
 def _spelled_out(beats: list[Beat]) -> list[Beat]:
-    spelled = [beats[0]]
-    for before, beat in pairwise([beats[0], *beats]):
-        if beat is not beats[0]:
-            if beat.arc is not None and beat.spot.name == before.spot.name:
-                middle = before.spot.moved((beat.spot.offset - before.spot.offset) / 2.0 + beat.arc)
-                spelled.append(replace(beat, spot=middle, arc=None, touches=False, circle=None, swing=None))
-            spelled.append(replace(beat, arc=None, circle=None))
-        if beat.circle is not None:
-            spelled += [
-                replace(beat, spot=spot, circle=None, swing=None, arc=None) for spot in circle_spots(beat)
-            ]
-    return [replace(spelled[0], circle=None, arc=None), *spelled[1:]]
+    spelled = [replace(beats[0], circle=None, arc=None), *_circle_beats(beats[0])]
+    for before, beat in pairwise(beats):
+        if beat.arc is not None and beat.spot.name == before.spot.name:
+            middle = before.spot.moved((beat.spot.offset - before.spot.offset) / 2.0 + beat.arc)
+            spelled.append(replace(beat, spot=middle, arc=None, touches=False, circle=None, swing=None))
+        spelled += [replace(beat, arc=None, circle=None), *_circle_beats(beat)]
+    return spelled
+
+
+def _circle_beats(beat: Beat) -> list[Beat]:
+    if beat.circle is None:
+        return []
+    return [replace(beat, spot=spot, circle=None, swing=None, arc=None) for spot in circle_spots(beat)]
 
 
 def _circle(beat: Beat, pace: float) -> Circle | None:

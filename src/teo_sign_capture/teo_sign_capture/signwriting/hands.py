@@ -18,6 +18,8 @@ from teo_sign_capture.signwriting.written_sign import Symbol, looks_like_other_s
 
 # [px] Hands that are drawn alike on one level, at least a hand's width apart, are two.
 _LEVEL, _APART = 8.0, 12.0
+# [px] Drawings nearer than this touch: the shortest arrow is longer.
+_TOUCHING = 6.0
 _SIDES: tuple[tuple[Side, Side], ...] = (("right", "left"), ("left", "right"))
 # Cosine between an arrow and the way from one drawing of a hand to the other that tells which is first.
 _ALONG = 0.5
@@ -74,7 +76,7 @@ def read_hands(symbols: tuple[Symbol, ...], movements: tuple[Movement, ...]) -> 
     if len(by_side["right"]) == len(by_side["left"]):
         _exchange_sides(by_side)
     elif len(symbols) == 1:
-        by_side = _comfortable_side(symbols[0])
+        by_side = _side_of_arrows(symbols[0], movements) or _comfortable_side(symbols[0])
     return WrittenHands(
         right=_in_order(by_side["right"], "right", movements),
         left=_in_order(by_side["left"], "left", movements),
@@ -100,6 +102,15 @@ def _exchange_sides(by_side: dict[Side, list[Symbol]]) -> None:
         crossed = float(left.middle[0] - right.middle[0]) >= _APART
         if crossed and _can_be_either(right) and _can_be_either(left):
             by_side["right"][index], by_side["left"][index] = left, right
+
+
+def _side_of_arrows(symbol: Symbol, movements: tuple[Movement, ...]) -> dict[Side, list[Symbol]] | None:
+    """The hand that the heads of all arrows say moves; None if they say none, or both."""
+    told = {movement.hands for movement in movements if not _is_of_fingers(movement)}
+    for side, other in _SIDES:
+        if told == {side}:
+            return {side: [symbol], other: []}
+    return None
 
 
 def _comfortable_side(symbol: Symbol) -> dict[Side, list[Symbol]]:
@@ -131,6 +142,8 @@ def _two_of_one_side(
     own, other = (rightmost, leftmost) if side == "right" else (leftmost, rightmost)
     if _are_two(pair, movements):
         return [own], [other]
+    if looks_like_other_side(other) and _leave_no_room_for_an_arrow(pair, movements):
+        return [own], [other]
     try:
         _comes_later(pair[0], pair[1], side, movements)
     except UnreadableError:
@@ -158,6 +171,13 @@ def _are_two(pair: list[Symbol], movements: tuple[Movement, ...]) -> bool:
     return bool(
         alike and apart[1] <= _LEVEL and apart[0] >= _APART and not _arrow_along(first, second, movements)
     )
+
+
+def _leave_no_room_for_an_arrow(pair: list[Symbol], movements: tuple[Movement, ...]) -> bool:
+    """Whether drawings touch and no finger opens or closes: a hand before and after has its way between."""
+    first, second = pair
+    gap = np.abs(first.middle - second.middle) - (first.size + second.size) / 2.0
+    return bool(gap.max() <= _TOUCHING) and not any(map(_is_of_fingers, movements))
 
 
 def _is_of_fingers(movement: Movement) -> bool:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from teo_sign_capture.notation.score_file import read_score
 from teo_sign_capture.notation.score_schema import Step, flattened
+from teo_sign_capture.signing_space.places import split_place
 from teo_sign_capture.signwriting.compiler import Compilation, compile_fsw
 from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.score_text import score_text
@@ -23,6 +24,9 @@ FRIENDSHIP = "M520x520S1ce48480x490S1ce40498x490S20800493x479"
 BLUE = "M535x539S2ff00482x482S14c02465x516S19217516x505S26506500x521"
 BLACK = "M548x536S2ff00482x482S15a10495x504S26b04521x507S20500529x525"
 MINE = "M521x517S36d00479x484S15a11475x494S20600496x494"
+LIKE = "M545x571S33b00482x482S20600490x520S10018499x534S10002515x526S26a02531x544"
+LEAST = "M521x530S15a02491x485S15a06479x501S20e00490x470S22b04505x500"
+ICE = "M529x545S33b00482x482S1850f510x510S26a02487x518"
 SAW = "M543x530S14c02512x472S14c0a456x471S2ea00525x498S2ea40459x499S2fb04492x524"
 
 
@@ -59,6 +63,30 @@ def test_a_hand_drawn_twice_changes_its_shape_along_the_arrow() -> None:
         step.right.shape for step in steps(compiled(BLUE)) if step.right is not None and step.right.shape
     ]
     assert shapes == ["open", "little"]
+
+
+def test_a_movement_drawn_twice_is_made_twice_where_hands_are_no_mirrors() -> None:
+    compilation = compiled(LIKE)
+    assert compilation.score.hands == "both"
+    places = [step.right.place for step in steps(compilation) if step.right is not None]
+    assert len(places) == 4
+    assert places[0] == places[2] != places[1] == places[3]
+
+
+def test_two_flat_hands_that_touch_are_no_hand_before_and_after() -> None:
+    compilation = compiled(LEAST)
+    assert compilation.score.hands == "both"
+    moved = [step for step in steps(compilation)[1:] if step.left is not None]
+    assert not moved, "the hand below is no longer where the arrow leads"
+
+
+def test_the_black_arrow_of_a_lone_hand_is_the_right_hands() -> None:
+    score = compiled(ICE).score
+    assert score.hands == "right"
+    places = [step.right.place for step in flattened(score.steps) if step.right is not None]
+    assert all(place is not None for place in places)
+    sideways = [split_place(str(place))[1][1] for place in places]
+    assert sideways[1] > sideways[0], "the arrow points to the left, the inside of a right hand"
 
 
 @pytest.mark.parametrize(
