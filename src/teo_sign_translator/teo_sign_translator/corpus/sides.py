@@ -98,9 +98,7 @@ class Sides:
         verb.said = said
         phrase.tokens = said.tokens
         alone = verb.word.lemma not in self.lists.get("unsaid_verbs", ())
-        phrase.signs = verb_signs(
-            verb.word.lemma, verb.shape, said, said_alone=alone, denied=self._denies()
-        )
+        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone, denied=self._denies())
         phrase.head = said.main
         directed = verb.word.lemma in self.lists.get("directed_verbs", ())
         for carrier, token in zip(carrying, said.clitics, strict=True):

@@ -85,8 +85,8 @@ def verb_signs(
 ) -> list[Sign]:
     """The glosses of a verb and of what its shape adds.
 
-    What stands before the verb leads its predicate (QUERER PAN COMPRAR): complement verbs follow what governs
-    them in 16 of 17 of the narratives of LSE-RADIS. NO stands behind the verb that it denies, so that this one
+    What stands before the verb leads its predicate (QUERER PAN COMPRAR): complement verbs follow what
+    governs them in 16 of 17 (LSE-RADIS). NO stands behind the verb that it denies, so that this one
     comes last there (PAN COMPRAR QUERER NO).
 
     Args:
