@@ -50,7 +50,11 @@ class Sides:
             TranslationError: "no_form" if it has no other form that it should have.
         """
         tokens = [token for item in self.rule.spanish for token in self._tokens(item)]
-        return tokens, [sign for item in self.rule.glosses for sign in self._signs(item)]
+        signs = [sign for item in self.rule.glosses for sign in self._signs(item)]
+        signs.sort(key=lambda sign: not sign.leads)
+        for sign in signs:
+            sign.leads = False
+        return tokens, signs
 
     def _tokens(self, item: SpanishItem) -> list[Token]:
         if item.word:
@@ -94,7 +98,7 @@ class Sides:
         verb.said = said
         phrase.tokens = said.tokens
         alone = verb.word.lemma not in self.lists.get("unsaid_verbs", ())
-        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone)
+        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone, denied=self._denies())
         phrase.head = said.main
         directed = verb.word.lemma in self.lists.get("directed_verbs", ())
         for carrier, token in zip(carrying, said.clitics, strict=True):
@@ -104,6 +108,13 @@ class Sides:
             carrier.say(CLITIC, token)
         if subject:
             subject.say(VERB, said.finite)
+            for sign in phrase.signs:  # before it stands its subject
+                sign.leads = False
+
+    def _denies(self) -> bool:
+        """Whether the clause is negative: it is told so, or a slot says so."""
+        said = (phrase.features.get("pol") for phrase in self.slots.values())
+        return "neg" in (self.handed.get("pol"), *said)
 
     def _signs(self, item: GlossItem) -> list[Sign]:
         return self._of_slot(item) if item.slot else [self._gloss(item)]

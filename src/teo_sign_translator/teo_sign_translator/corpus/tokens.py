@@ -33,11 +33,13 @@ class Sign:
         gloss: Upper case.
         sources: The words that it stands for.
         pending: What else will say it, once that is known: `patterns.VERB` or `CLITIC`.
+        leads: Whether it governs an infinitive and stands at the front of its predicate.
     """
 
     gloss: str
     sources: list[Token] = field(default_factory=list)
     pending: str = ""
+    leads: bool = False
 
 
 class VerbPhrase(NamedTuple):

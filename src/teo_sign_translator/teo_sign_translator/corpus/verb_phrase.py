@@ -80,15 +80,37 @@ def in_order(clitics: Sequence[str]) -> tuple[str, ...]:
     return ordered
 
 
-def verb_signs(lemma: str, shape: Shape, phrase: VerbPhrase, *, said_alone: bool = True) -> list[Sign]:
-    """The glosses of a verb, unless others say it (not `said_alone`), and of what its shape adds."""
+def verb_signs(
+    lemma: str, shape: Shape, phrase: VerbPhrase, *, said_alone: bool = True, denied: bool = False
+) -> list[Sign]:
+    """The glosses of a verb and of what its shape adds.
+
+    What stands before the verb leads its predicate (QUERER PAN COMPRAR): complement verbs follow what
+    governs them in 16 of 17 (LSE-RADIS). NO stands behind the verb that it denies, so that this one
+    comes last there (PAN COMPRAR QUERER NO).
+
+    Args:
+        lemma: Infinitive without pronoun.
+        shape: Tense and auxiliaries.
+        phrase: The verb as said.
+        said_alone: Whether the verb has a sign, and not only what it governs.
+        denied: Whether the clause is negative.
+    """
+    before: list[Sign] = []
     signs: list[Sign] = []
     for gloss, source in shape.glosses:
-        if gloss == "*" and not said_alone:
-            continue
         said = [phrase.parts[source]] if source else []
-        signs.append(Sign(lemma.upper(), [*said, phrase.main]) if gloss == "*" else Sign(gloss, said))
-    return signs
+        if gloss != "*":
+            signs.append(Sign(gloss, said))
+        else:
+            before, signs = signs, []
+            if said_alone:
+                signs.append(Sign(lemma.upper(), [*said, phrase.main]))
+    if denied:
+        return [*signs, *before]
+    for sign in before:
+        sign.leads = True
+    return [*before, *signs]
 
 
 def without_addressee(signs: Sequence[Sign], *, asked: bool) -> list[Sign]:

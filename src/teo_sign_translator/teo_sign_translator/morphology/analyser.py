@@ -33,6 +33,7 @@ _CACHED_WORDS = 20_000
 _LONGEST_WORD = 40
 
 _NUMBER = re.compile(r"\d+(?:[.,:]\d+)*")
+_SPOKEN_PARTICIPLE = re.compile(r"(?P<stem>\w{2,})ao(?P<plural>s?)")
 #: What a reading comes from, the likeliest first.
 _CLOSED, _ADVERB, _NOUN, _ADJECTIVE, _LATE_ADVERB, _VERB, _NAME, _WITH_PRONOUNS = range(8)
 #: How much a reading asks of the reader, from none: accents left out, an ending taken off, a rare verb.
@@ -125,7 +126,7 @@ class Morphology:
             return (Reading(form, "X", exact=False),)
         capital = word[0].isupper()
         folded = strip_marks(form)
-        candidates = self._candidates(form, folded, capital)
+        candidates = self._candidates(form, folded, capital) or self._spoken_participles(folded)
         if not candidates:
             unknown = guess(form, self._conjugations)
             return (Reading(word, "NAME", exact=False), unknown) if capital else (unknown,)
@@ -179,6 +180,12 @@ class Morphology:
         if verb not in self._everyday:
             effort = _RARE
         return _Candidate(effort, _WITH_PRONOUNS if pronouns else _VERB, reading)
+
+    def _spoken_participles(self, folded: str) -> list[_Candidate]:
+        """Participles in -ado as people say and type them: mandao."""
+        spoken = _SPOKEN_PARTICIPLE.fullmatch(folded)
+        written = f"{spoken['stem']}ado{spoken['plural']}" if spoken else ""
+        return [each for each in self._verbs(written, written) if each.reading.tag.startswith("V:part")]
 
     def _adverbs(self, form: str, folded: str) -> Iterator[_Candidate]:
         """An adverb in -mente, and the adjective that it is made from."""

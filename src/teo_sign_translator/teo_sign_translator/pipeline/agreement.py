@@ -15,6 +15,7 @@ from pathlib import Path
 
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
+from teo_sign_translator.morphology.lexicon import nouns
 from teo_sign_translator.text.source_words import SourceWord
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"
@@ -26,6 +27,12 @@ _THINGS = ("lo", "la", "los", "las")
 _SUBJECTS = {"yo": "1", "nosotros": "1", "tú": "2", "vosotros": "2", "usted": "2", "ustedes": "2"}
 _ENDS = (".", "?", "!")
 _FINITE = ("V:ind", "V:cond", "V:sub", "V:imp")
+_TOWARDS = ("a", "al")
+# Of the verbs that agree, the one whose imperative is no form of the third person: di, dice.
+_OWN_IMPERATIVES = frozenset({"decir"})
+_PEOPLE = frozenset(
+    noun.lemma for noun in nouns() if not {"person", "family", "profession"}.isdisjoint(noun.classes)
+)
 # Whom these verbs please is who acts: "me gustaría ayudarte" is from me to you.
 _EXPERIENCER_VERBS = frozenset({"gustar", "encantar", "apetecer", "costar", "importar", "interesar", "tocar"})
 
@@ -82,7 +89,8 @@ class Agreement:
             if verbs:
                 start, stop = _clause(words, place)
                 ends = next((word.form for word in words[place:] if word.form in _ENDS), "")
-                clause = _Clause(words[start:stop], place - start, verbs, asks=ends == "?")
+                orders = place == start and ends != "?" and not _says_verb(words[:start])
+                clause = _Clause(words[start:stop], place - start, verbs, asks=ends == "?", opens=orders)
                 return clause.place(rule.places) if rule.kind == _BODY else clause.persons(rule.kind)
         return ""
 
@@ -94,11 +102,29 @@ def _clause(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
     return start, stop
 
 
+def _names_person(reading: Reading) -> bool:
+    if reading.tag.startswith("NAME"):
+        return reading.tag != "NAME:place"
+    return reading.tag.startswith("N:") and reading.lemma in _PEOPLE
+
+
+def _says_verb(words: Sequence[SourceWord]) -> bool:
+    """Whether a verb is among the words of the same sentence."""
+    start = max((index + 1 for index, word in enumerate(words) if word.form in _ENDS), default=0)
+    return any(word.readings[0].tag.startswith(_FINITE) for word in words[start:])
+
+
 class _Clause:
     """The words around a verb that agrees."""
 
     def __init__(
-        self, words: Sequence[SourceWord], verb: int, readings: Sequence[Reading], *, asks: bool
+        self,
+        words: Sequence[SourceWord],
+        verb: int,
+        readings: Sequence[Reading],
+        *,
+        asks: bool,
+        opens: bool,
     ) -> None:
         """Take a clause.
 
@@ -107,8 +133,10 @@ class _Clause:
             verb: Place of the verb.
             readings: Those of the verb's word that are this verb.
             asks: Whether its sentence is a question.
+            opens: Whether the verb opens a sentence that is no question.
         """
         self._asks = asks
+        self._opens = opens
         self._words = words
         self._verb = verb
         exact = [reading for reading in readings if reading.exact]
@@ -173,10 +201,8 @@ class _Clause:
     def _prepositional_object(self) -> str:
         """Person behind "a": `ayudo a Ana`, `se lo doy a él`."""
         for place in range(self._verb + 1, len(self._words)):
-            if not self._words[place].readings[0].tag.startswith("PREP") or self._words[place].form not in (
-                "a",
-                "al",
-            ):
+            word = self._words[place]
+            if not word.readings[0].tag.startswith("PREP") or word.form not in _TOWARDS:
                 continue
             for word in self._words[place + 1 : place + 3]:
                 tag = word.readings[0].tag
@@ -204,6 +230,8 @@ class _Clause:
             before = self._words[finite - 1].form if finite else ""
             return _OBJECTS.get(before, "")
         readings = self._finite_readings(finite)
+        if self._orders(readings):
+            return "2"
         if self._clitics(finite)[1]:  # a pronoun before it is never an imperative's
             readings = [reading for reading in readings if not reading.tag.startswith("V:imp")]
         persons = [self._person(reading) for reading in readings]
@@ -225,6 +253,28 @@ class _Clause:
     def _person(reading: Reading) -> str:
         # The imperative of the third person is usted's.
         return "2" if reading.tag.startswith("V:imp") else reading.tag.rsplit(":", 1)[-1][0]
+
+    def _orders(self, readings: Sequence[Reading]) -> bool:
+        """Whether a verb that may be of the third person is an imperative: `Pregunta a tu padre`.
+
+        It opens the sentence, and no third person is named who could do it: no person that does not stand
+        behind "a", and no "su".
+        """
+        if not self._opens or not any(reading.tag == "V:ind:pres:3s" for reading in readings):
+            return False
+        if any(reading.lemma in _OWN_IMPERATIVES for reading in readings):
+            return False
+        towards = False
+        for word in self._words[self._verb + 1 :]:
+            reading = word.readings[0]
+            if reading.lemma == "su" or (reading.tag.startswith("PRON:3") and not towards):
+                return False
+            if _names_person(reading):
+                if not towards:
+                    return False
+                towards = False
+            towards = towards or word.form in _TOWARDS
+        return True
 
     def _asks_politely(self) -> bool:
         """Whether `¿Me ayuda?` is asked of the addressee: a question that names no third person."""

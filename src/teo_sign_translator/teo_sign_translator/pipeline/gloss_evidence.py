@@ -20,6 +20,7 @@ from teo_sign_translator.text.source_words import SourceWord
 _NONE = "-"
 _PAST = "PASADO"
 _NOT = "NO"
+_EVERY = "cada"
 # Tags of words behind which a noun comes, and of what then cannot stand there.
 _NOMINAL = ("PREP", "DET:def", "DET:poss")
 _VERBAL = ("V:ind", "V:cond", "V:sub", "V:imp", "PRON:obj", "PRON:refl")
@@ -166,9 +167,14 @@ def _said_again(place: int, glosses: Sequence[OutputGloss], words: Sequence[Sour
     if len(said) != 1:
         return False
     if again[-1] == place - 1:
-        return True
+        return not any(says_every(each, words) for each in (glosses[place - 1], gloss))
     denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
     return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
+
+
+def says_every(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
+    """Whether a gloss stands for "cada": said again, it says every second one (cada dos días: DÍA DÍA)."""
+    return any(words[place].form == _EVERY for place in gloss.sources)
 
 
 def _listed(text: str) -> list[str]:

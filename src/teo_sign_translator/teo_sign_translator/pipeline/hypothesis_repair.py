@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
+from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence, says_every
 from teo_sign_translator.pipeline.long_sentences import Piece
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -177,7 +177,7 @@ def _said_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> t
     """
     result: list[OutputGloss] = []
     for gloss in glosses:
-        again = bool(result) and result[-1].gloss == gloss.gloss
+        again = bool(result) and result[-1].gloss == gloss.gloss and not says_every(gloss, words)
         if again and sum(_may_be(word, gloss.gloss) for word in words) <= 1:
             sources = tuple(sorted({*result[-1].sources, *gloss.sources}))
             result[-1] = replace(result[-1], sources=sources)

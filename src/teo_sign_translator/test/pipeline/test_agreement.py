@@ -60,6 +60,16 @@ def inflection(sentence: str, gloss: str) -> str:
         ("Nos preguntó la edad.", "PREGUNTAR", "3>1"),
         ("Le voy a pedir dinero.", "PEDIR", "1>3"),
         ("Te invito a comer.", "INVITAR", "1>2"),
+        # An imperative that looks like the third person.
+        ("Pregunta a tu padre.", "PREGUNTAR", "2>3"),
+        ("Por favor, ayuda a tu hermana.", "AYUDAR", "2>3"),
+        ("Explica el problema a los niños.", "EXPLICAR", "2>3"),
+        ("Da el libro a María.", "DAR", "2>3"),
+        ("Pregunta a su padre.", "PREGUNTAR", ""),
+        ("Pregunta Ana a tu padre.", "PREGUNTAR", ""),
+        ("Dice la verdad a Ana.", "DECIR", ""),
+        ("¿Pregunta a tu padre?", "PREGUNTAR", ""),
+        ("Cuando viene, pregunta a tu padre.", "PREGUNTAR", ""),
         # What is given is no person, and nobody is named.
         ("Lo doy.", "DAR", ""),
         ("Doy dinero.", "DAR", ""),
