@@ -11,10 +11,12 @@ from dataclasses import replace
 from teo_synthetic_signer.errors import unknown_name
 from teo_synthetic_signer.script.keys import Key
 from teo_synthetic_signer.script.signs import (
+    ACROSS_FACE,
     BEHIND,
     BOOK,
     COVER,
     EAT,
+    FAR_BEFORE,
     HELLO,
     HIGH,
     HOUSE,
@@ -49,6 +51,7 @@ SCRIPTS: dict[str, tuple[Key, ...]] = {
     "signing": (REST, *HELLO, *BOOK, *THANKS, *STAMP, *spelled(("l", "o", "v")), REST),
     "hello": (REST, *HELLO, *THANKS, REST),
     "face": (REST, *THINK, *COVER, *EAT, REST),
+    "before_face": (REST, *ACROSS_FACE, *FAR_BEFORE, REST),
     "crossing": (REST, *LOVE, *STACKED, *BEHIND, *BOOK, REST),
     "two_hands": (REST, *HOUSE, *STAMP, *BOOK, REST),
     "fast": (REST, *_fast(), REST),
@@ -99,6 +102,7 @@ _ABOUT = {
     "signing": "a greeting, two-handed signs, one hand on the other, and spelling",
     "hello": "a greeting and thanks, one hand",
     "face": "hands at and before the face",
+    "before_face": "forearms across the face, hands far before the face and the shoulders",
     "crossing": "arms crossed, forearms stacked, a hand behind the other arm",
     "two_hands": "two-handed signs and one hand on the other",
     "fast": "wrists faster than 2 m/s",
