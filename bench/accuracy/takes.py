@@ -20,7 +20,7 @@ from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.detectors import make_detector
 from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_synthetic_signer import Truth, render_take
+from teo_synthetic_signer import Companion, Truth, render_take
 
 _STEP = 1e-4  # [m] of stored depth: a twentieth of the camera's own noise, up to 6.5 m
 
@@ -39,6 +39,9 @@ class TakeSettings:
     sensor: str = "d435"
     rate: float = 15.0
     seed: int = 0
+    camera_roll: float = 0.0
+    light: str = "room"
+    companions: tuple[Companion, ...] = ()
 
     def name(self) -> str:
         """Give a name that no other settings have."""
@@ -56,6 +59,8 @@ class TakeFrame:
     camera: CameraModel
     truth: Truth
     people: tuple[Person2D, ...]
+    others: tuple[Truth, ...] = ()
+    """of the companions"""
 
     def color(self) -> NDArray[np.uint8]:
         """Give the image. RGB, shape (height, width, 3)."""
@@ -100,6 +105,9 @@ def _rendered(settings: TakeSettings) -> Iterator[TakeFrame]:
         camera_height=settings.camera_height,
         rate=settings.rate,
         seed=settings.seed,
+        camera_roll=settings.camera_roll,
+        light=settings.light,
+        companions=settings.companions,
     )
     detector = make_detector("mediapipe")
     try:
@@ -115,6 +123,7 @@ def _rendered(settings: TakeSettings) -> Iterator[TakeFrame]:
                 png=cv2.imencode(".png", steps, [cv2.IMWRITE_PNG_COMPRESSION, 1])[1].tobytes(),
                 camera=frame.camera,
                 truth=frame.truth,
+                others=frame.others,
                 people=detector.detect(frame.color, frame.stamp),
             )
     finally:

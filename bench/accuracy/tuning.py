@@ -4,11 +4,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from accuracy.people import random_people
 from accuracy.takes import TakeSettings
-from teo_synthetic_signer.body.body_shapes import BODIES, BodyShape, Color
-from teo_synthetic_signer.body.phenotype import Phenotype
+from teo_synthetic_signer.body.body_shapes import BODIES
 
 _MOTIONS = {
     "signing": (0.4, 2.2, 4.0, 6.2),
@@ -38,42 +36,8 @@ TUNING_TAKES: tuple[TakeSettings, ...] = tuple(
 )
 
 
-def random_people() -> dict[str, BodyShape]:
-    """Adults of all sorts, half of them women: how sizes go together is read off them."""
-    random = np.random.default_rng(_SEED)
-
-    def color() -> Color:
-        red, green, blue = random.uniform(0.1, 0.6, 3).tolist()
-        return red, green, blue
-
-    people = {}
-    for i in range(_PEOPLE):
-        woman = float(i % 2)
-        african, asian, caucasian = random.dirichlet([0.6, 0.6, 0.6]).tolist()
-        phenotype = Phenotype(
-            gender=woman,
-            age=random.uniform(0.6, 0.95),
-            muscle=random.uniform(0.3, 0.7),
-            weight=random.uniform(0.35, 0.85),
-            height=random.uniform(0.3, 0.5) - 0.04 * woman,
-            proportions=random.uniform(0.15, 0.4),
-            african=african,
-            asian=asian,
-            caucasian=caucasian,
-        )
-        tone = random.uniform(0.4, 0.85)
-        people[f"random_{i}"] = BodyShape(
-            phenotype=phenotype,
-            skin=(tone, 0.75 * tone, 0.6 * tone),
-            hair=(0.1, 0.08, 0.06),
-            shirt=color(),
-            sleeve=random.uniform(0.6, 1.9),
-            trousers=color(),
-        )
-    return people
-
-
-BODIES |= random_people()
+# How sizes go together is read off them.
+BODIES |= random_people(_PEOPLE, _SEED, "random")
 PEOPLE_TAKES: tuple[TakeSettings, ...] = tuple(
     TakeSettings(
         script=("signing", "two_hands", "hello", "side_step", "signing", "two_hands")[i % 6],

@@ -15,11 +15,14 @@ from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.depth.face_depth import face_depths
 from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of
 from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
-from teo_skeleton_retriever.depth.skin import HAND_DEPTHS
+from teo_skeleton_retriever.depth.head_depth import EARS, HEAD, HeadDepths, head_depths
+from teo_skeleton_retriever.depth.occluders import occluders
+from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays, viewing_rays
 from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
 from teo_skeleton_retriever.detectors.mediapipe.calibration import (
     BODY_SHIFTS,
+    EAR_BEHIND,
     MEDIAPIPE_HAND_BONES,
     corrected_body,
     corrected_hand,
@@ -56,10 +59,11 @@ _TRUNK = [ROW[name] for name in ("Neck", "RShoulder", "LShoulder", "MidHip")]
 _BEFORE_TRUNK = 1.0  # [m] a long arm and a lean forward reach no farther
 _BEHIND_TRUNK = 0.45  # [m] nor does an arm stretched back: what is farther is background beside a finger
 _SHOULDERS = [ROW["RShoulder"], ROW["LShoulder"]]
-_HEAD = [ROW[name] for name in ("Nose", "REye", "LEye")]
 _HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand away tells nothing of its shape
 _SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
+# Elbows at which the own forearm lies, wrists at which the own hand does as well: these hide nothing there.
+_OWN_LIMBS = {row: rows[1 : i + 1] for rows in ARMS.values() for i, row in enumerate(rows) if i}
 _ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
 
 
@@ -122,12 +126,19 @@ class PersonEstimator:
             rays[HANDS[side]] = fit.points[:, :2] / fit.points[:, 2:]
             depth[HANDS[side]], sigma[HANDS[side]] = fit.points[:, 2] + moved, fit.sigma
             optimised[HANDS[side]] = ~fit.measured
+        hands = {side: fit.points for side, fit in fits.items()}
+        arms = occluders(_in_space(body.rays, body.depths), hands)
+        surfaces = surfaces.without(arms.shown(seen.rays, surfaces.depth))
+        head = self._find_head(surfaces, before, body)
+        depth[HEAD], sigma[HEAD] = head.depths, head.sigma
         if seen.seen[FACE].any():
-            about = _middle(np.append(before.depth[FACE], body.depths[_HEAD]))
-            face = face_depths(seen.rays[FACE], surfaces.part(FACE), about)
+            face = face_depths(seen.rays[FACE], surfaces.part(FACE), head.eyes)
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
+        hidden = np.isfinite(arms.before(rays, near, arms.of(_OWN_LIMBS)))
+        hidden[HEAD] |= head.hidden
+        hidden[_ON_HANDS] = False  # a hand before a hand is the fit's affair
         doubt = np.zeros(N)
         doubt[BODY] = np.maximum(body.across - _SURE, 0.0)
         if self._parameters.detector == "mediapipe":
@@ -144,12 +155,28 @@ class PersonEstimator:
             output,
             seen,
             optimised=optimised,
+            hidden=hidden,
             bias=np.hypot(BIAS, np.column_stack([doubt + carried, carried])),
             max_sigma=self._parameters.max_sigma * np.where(_ON_HANDS, _HAND_SHARE, 1.0),
             memory=self._confidence,
         )
         found = self._with_held_hands(found)
         return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
+
+    def _find_head(self, surfaces: Surfaces, before: FilterOutput, body: BodyDepths) -> HeadDepths:
+        """Find the head in what is not an arm's."""
+        behind = np.zeros(len(HEAD))
+        if self._parameters.skin_offset:
+            behind = BODY_DEPTHS[HEAD] * self._size.scale
+        if self._parameters.detector == "mediapipe":
+            behind[EARS] += EAR_BEHIND
+        return head_depths(
+            surfaces.part(HEAD),
+            behind,
+            surfaces.part(FACE),
+            neck=float(body.depths[ROW["Neck"]]),
+            expected=before.depth[HEAD],
+        )
 
     def _reach(self, before: FilterOutput, distance: float) -> tuple[float, float]:
         """Least and greatest depth of any keypoint of the person [m]."""
@@ -237,6 +264,11 @@ def _unfitted(hand: HandView, scale: float) -> HandFit:
     depths = nearest.depth + scale * HAND_DEPTHS
     points = np.column_stack([hand.rays, np.ones(len(depths))]) * depths[:, None]
     return HandFit(points, nearest.sigma, np.isfinite(depths))
+
+
+def _in_space(rays: FloatArray, depths: FloatArray) -> FloatArray:
+    points: FloatArray = np.column_stack([rays, np.ones(len(rays))]) * depths[:, None]
+    return points
 
 
 def _middle(values: FloatArray) -> float:

@@ -1,5 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
+from .take.take import Companion as Companion
 from .take.take import Take as Take
 from .take.take import TakeOptions as TakeOptions
 from .take.take import render_take as render_take

@@ -48,6 +48,7 @@ _EVEN_SIGMA = 0.03  # [m] how evenly shoulders lie about the neck
 _ACROSS = np.full(_N, 0.012)  # [m] how far the detector's keypoints are from the joints
 _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
+_ACROSS[[ROW[f"{side}Ear"] for side in "LR"]] = 0.035  # seen at the cheek, 2 cm beside and below
 _SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
 _HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
 

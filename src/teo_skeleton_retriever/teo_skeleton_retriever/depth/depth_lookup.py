@@ -55,18 +55,21 @@ class Surfaces(NamedTuple):
     support: FloatArray
     """share of the measured pixels around that belong to each, 0 to 1. Shape (n, 3)"""
 
-    def part(self, rows: slice) -> Surfaces:
+    def part(self, rows: slice | list[int]) -> Surfaces:
         """Keep some of the keypoints."""
         return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
 
     def between(self, near: float, far: float) -> Surfaces:
         """Drop surfaces that are nearer or farther [m]; a NaN bound drops none."""
         with np.errstate(invalid="ignore"):
-            beyond = (self.depth < near) | (self.depth > far)
+            return self.without((self.depth < near) | (self.depth > far))
+
+    def without(self, dropped: BoolArray) -> Surfaces:
+        """Drop surfaces. Shape (n, 3)."""
         return Surfaces(
-            np.where(beyond, np.nan, self.depth),
-            np.where(beyond, np.nan, self.sigma),
-            np.where(beyond, 0.0, self.support),
+            np.where(dropped, np.nan, self.depth),
+            np.where(dropped, np.nan, self.sigma),
+            np.where(dropped, 0.0, self.support),
         )
 
     def nearest(self) -> DepthSamples:

@@ -23,6 +23,7 @@ def keypoints_of(
     seen: ViewingRays,
     *,
     optimised: BoolArray,
+    hidden: BoolArray,
     bias: FloatArray,
     max_sigma: FloatArray,
     memory: FloatArray,
@@ -33,6 +34,8 @@ def keypoints_of(
         output: Of the filter.
         seen: By the detector in this image.
         optimised: Keypoints whose depth of this image follows from others. Shape (n,).
+        hidden: Keypoints before which something else lies in this image: held, though the detector guesses
+            them. Shape (n,).
         bias: Standard deviation across the ray and along it of what no averaging removes: how the detector
             and the skin differ from person to person [m]. Shape (n, 2).
         max_sigma: Keypoints less certain than this are lost [m]. Shape (n,).
@@ -45,7 +48,7 @@ def keypoints_of(
     with np.errstate(invalid="ignore"):
         lost = ~(sigma.max(axis=1) <= max_sigma)
     status = np.where(
-        seen.seen & output.fresh,
+        seen.seen & output.fresh & ~hidden,
         np.where(optimised, KeypointStatus.OPTIMISED, KeypointStatus.MEASURED),
         KeypointStatus.HELD,
     )

@@ -11,12 +11,10 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.ray_caster import Hits
 from teo_synthetic_signer.body.rotations import unit
 from teo_synthetic_signer.body.surface import Material, Surface
+from teo_synthetic_signer.camera.light import Light
 
 Floats = NDArray[np.float32]
 
-# Strength of each light, chosen so that white paper that faces the lamp is just not burnt out.
-_LAMP = unit(np.array([0.62, 0.38, 0.68])).astype(np.float32)  # from before, from the left and above
-_LAMP_STRENGTH, _SKY, _GROUND, _FILL = 0.50, 0.34, 0.14, 0.14
 # How far the lamp reaches round edges: it is wide.
 _WIDE = np.float32(0.25)
 _IRIS = np.array([0.20, 0.13, 0.08], dtype=np.float32)
@@ -28,18 +26,21 @@ _GAMMA = np.float32(1.0 / 2.2)  # of displays
 class Painter:
     """Paints one surface.
 
-    Light comes from a lamp, from the ceiling, a little from the floor and from the camera. Nothing throws a
-    shadow: detectors do not need it, and it would double the rays.
+    Nothing throws a shadow: detectors do not need it, and it would double the rays.
     """
 
-    def __init__(self, surface: Surface, normals: FloatArray, upright: FloatArray) -> None:
+    def __init__(self, surface: Surface, normals: FloatArray, upright: FloatArray, light: Light) -> None:
         """Prepare to paint.
 
         Args:
             surface: What is there.
             normals: Of its vertices, in the axes of the camera. Shape (n, 3).
             upright: Rotation from the room's axes to the camera's. Shape (3, 3).
+            light: In the room.
         """
+        self._light = light
+        self._lamp = unit(np.array(light.towards)).astype(np.float32)
+        self._tint = np.array(light.tint, dtype=np.float32)
         self._surface = surface
         self._vertices = np.hstack([surface.colors, surface.patterns, normals]).astype(np.float32)
         self._room = upright.T.astype(np.float32)
@@ -68,17 +69,17 @@ class Painter:
         albedo[above] = self._surface.above[corners[above, 0]]
         materials = np.where(above, np.int8(Material.PLAIN), materials)
         albedo = _patterned(albedo, place, materials)
-        color = albedo * self._light(normal, facing)[:, None]
+        color = albedo * self._brightness(normal, facing)[:, None] * self._tint
         return np.clip(color, 0.0, 1.0) ** _GAMMA, facing
 
-    def _light(self, normal: Floats, facing: Floats) -> Floats:
-        lamp = np.clip((normal @ (_LAMP @ self._room) + _WIDE) / (1 + _WIDE), 0.0, 1.0)
+    def _brightness(self, normal: Floats, facing: Floats) -> Floats:
+        lamp = np.clip((normal @ (self._lamp @ self._room) + _WIDE) / (1 + _WIDE), 0.0, 1.0)
         up = normal @ self._room[2]
         light: Floats = (
-            np.float32(_LAMP_STRENGTH) * lamp
-            + np.float32(_GROUND)
-            + np.float32((_SKY - _GROUND) / 2.0) * (1 + up)
-            + np.float32(_FILL) * facing
+            np.float32(self._light.lamp) * lamp
+            + np.float32(self._light.ground)
+            + np.float32((self._light.sky - self._light.ground) / 2.0) * (1 + up)
+            + np.float32(self._light.fill) * facing
         )
         return light
 

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Images of a person in a room that stands still before a camera that stands still."""
+"""Images of people in a room that stands still before a camera that stands still."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -14,6 +15,7 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_synthetic_signer.body.ray_caster import Hits, RayCaster
 from teo_synthetic_signer.body.surface import Surface, vertex_normals
+from teo_synthetic_signer.camera.light import Light
 from teo_synthetic_signer.camera.painter import Floats, Painter
 
 # Grey of what is beyond the room.
@@ -31,62 +33,76 @@ class Rendered:
         color: 0 to 1, as a display shows it. Shape (height, width, 3).
         distance: Along the optical axis [m], infinite where nothing is. Shape (height, width).
         facing: Cosine between the surface's normal and the view. Shape (height, width).
-        person: Casts rays at the person alone.
+        people: Cast rays at each person alone.
     """
 
     color: Floats
     distance: Floats
     facing: Floats
-    person: RayCaster
+    people: tuple[RayCaster, ...]
 
 
 class Renderer:
-    """Renders one person, who moves, in one room, which is rendered once."""
+    """Renders people, who move, in one room, which is rendered once."""
 
     def __init__(
-        self, camera: CameraModel, upright: FloatArray, body: Surface, room: Surface, walls: FloatArray
+        self,
+        camera: CameraModel,
+        upright: FloatArray,
+        bodies: Sequence[Surface],
+        room: Surface,
+        walls: FloatArray,
+        light: Light,
     ) -> None:
         """Render the room.
 
         Args:
             camera: Takes the images.
             upright: Rotation from the room's axes to the camera's. Shape (3, 3).
-            body: Surface of the person.
+            bodies: Surface of each person.
             room: Surface of the room.
             walls: The room's vertices in the camera's axes [m]. Shape (n, 3).
+            light: In the room.
         """
         self._camera = camera
         self._upright = upright
-        self._body = body
+        self._bodies = bodies
+        self._light = light
         self._shape = (camera.height, camera.width)
         rows, columns = np.indices(self._shape)
         self._pixels = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.float64)
         self._rays = self._directions(self._pixels)
         self.room = RayCaster(walls[room.triangles])
-        self._room_painter = Painter(room, vertex_normals(walls, room.triangles), upright)
+        self._room_painter = Painter(room, vertex_normals(walls, room.triangles), upright, light)
         everything = np.arange(len(self._rays))
         self._color = np.full((len(self._rays), 3), _NOTHING)
         self._distance = np.full(len(self._rays), np.inf, dtype=np.float32)
         self._facing = np.zeros(len(self._rays), dtype=np.float32)
         self._draw(self.room, self._room_painter, everything, self._color, self._distance, self._facing)
-        self._smooth(self._color, np.flatnonzero(self._rough(self._color)), None, None)
+        self._smooth(self._color, np.flatnonzero(self._rough(self._color)), [])
 
-    def render(self, person: FloatArray) -> Rendered:
+    def render(self, people: Sequence[FloatArray]) -> Rendered:
         """Render one image.
 
         Args:
-            person: Vertices of the body's surface in the camera's axes [m]. Shape (n, 3).
+            people: Vertices of each body's surface in the camera's axes [m]. Shape (n, 3) each.
         """
-        caster = RayCaster(person[self._body.triangles])
-        painter = Painter(self._body, vertex_normals(person, self._body.triangles), self._upright)
         color, distance, facing = self._color.copy(), self._distance.copy(), self._facing.copy()
-        drawn = self._draw(caster, painter, self._around(person), color, distance, facing)
         mask = np.zeros(self._shape, dtype=np.uint8)
-        mask.ravel()[drawn] = 1
+        layers: list[tuple[RayCaster, Painter]] = []
+        for person, body in zip(people, self._bodies, strict=True):
+            caster = RayCaster(person[body.triangles])
+            normals = vertex_normals(person, body.triangles)
+            painter = Painter(body, normals, self._upright, self._light)
+            mask.ravel()[self._draw(caster, painter, self._around(person), color, distance, facing)] = 1
+            layers.append((caster, painter))
         mask = cv2.dilate(mask, np.ones((3, 3), dtype=np.uint8)).astype(np.uint8)
-        self._smooth(color, np.flatnonzero(self._rough(color) & (mask.ravel() > 0)), caster, painter)
+        self._smooth(color, np.flatnonzero(self._rough(color) & (mask.ravel() > 0)), layers)
         return Rendered(
-            color.reshape(*self._shape, 3), distance.reshape(self._shape), facing.reshape(self._shape), caster
+            color.reshape(*self._shape, 3),
+            distance.reshape(self._shape),
+            facing.reshape(self._shape),
+            tuple(caster for caster, _ in layers),
         )
 
     def _directions(self, pixels: FloatArray) -> Floats:
@@ -134,7 +150,7 @@ class Renderer:
         return rough.ravel()
 
     def _smooth(
-        self, color: Floats, pixels: NDArray[np.int64], caster: RayCaster | None, painter: Painter | None
+        self, color: Floats, pixels: NDArray[np.int64], people: Sequence[tuple[RayCaster, Painter]]
     ) -> None:
         """Paint pixels anew, each the mean of four rays."""
         if len(pixels) == 0:
@@ -143,10 +159,7 @@ class Renderer:
         rays = self._directions(shifted)
         painted = np.full((len(rays), 3), _NOTHING)
         distance = np.full(len(rays), np.inf, dtype=np.float32)
-        layers: list[tuple[RayCaster, Painter]] = [(self.room, self._room_painter)]
-        if caster is not None and painter is not None:
-            layers.append((caster, painter))
-        for layer, brush in layers:
+        for layer, brush in ((self.room, self._room_painter), *people):
             hits: Hits = layer.cast(rays)
             nearer = np.flatnonzero(hits.distance < distance)
             painted[nearer] = brush.paint(hits.of(nearer), rays[nearer])[0]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -84,7 +85,7 @@ def _face() -> tuple[_Own, ...]:
 
 def visible(
     person: RayCaster,
-    room: RayCaster,
+    around: Sequence[RayCaster],
     bones: NDArray[np.int16],
     camera: CameraModel,
     parts: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
@@ -93,7 +94,7 @@ def visible(
 
     Args:
         person: In the camera's axes.
-        room: Likewise.
+        around: Likewise: the room, other people.
         bones: That move each of the person's triangles.
         camera: Of the image.
         parts: BODY_25, left hand, right hand and face, in the camera's axes [m].
@@ -105,12 +106,12 @@ def visible(
         front[:, None], points / np.where(front, points[:, 2], 1.0)[:, None], [0.0, 0.0, 1.0]
     )
     hits = person.cast(directions.astype(np.float32))
-    walls = room.cast(directions.astype(np.float32)).distance
+    before = np.min([other.cast(directions.astype(np.float32)).distance for other in around], axis=0)
     inside = np.zeros(len(points), dtype=bool)
     inside[front] = camera.contains(camera.project(points[front]))
     seen = np.zeros(len(points), dtype=bool)
     for i, (owner, triangle) in enumerate(zip(owners, hits.triangle, strict=True)):
-        if triangle < 0 or not inside[i] or walls[i] < hits.distance[i]:
+        if triangle < 0 or not inside[i] or before[i] < hits.distance[i]:
             continue
         behind = points[i, 2] - hits.distance[i]
         seen[i] = owner.bones[bones[triangle]] and -_TOLERANCE <= behind <= owner.limit

@@ -14,11 +14,12 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from teo_synthetic_signer.body.body_shapes import BODIES
+from teo_synthetic_signer.camera.light import LIGHTS
 from teo_synthetic_signer.camera.sensors import SENSORS
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.scripts import SCRIPTS, about
 from teo_synthetic_signer.take.furniture import SCENES
-from teo_synthetic_signer.take.take import Take, TakeOptions
+from teo_synthetic_signer.take.take import Companion, Take, TakeOptions
 from teo_synthetic_signer.take.take_bag import write_take
 from teo_synthetic_signer.take.take_messages import JPEG_QUALITY
 
@@ -47,6 +48,12 @@ def _synthesize(
     ] = _DEFAULTS.camera_height,
     camera_pitch: Annotated[
         float | None, typer.Option(help="Of the camera downwards [deg]; looks at the chest if not given.")
+    ] = None,
+    camera_roll: Annotated[float, typer.Option(help="Of the camera about its view [deg].")] = 0.0,
+    light: Annotated[str, typer.Option(help=f"One of {', '.join(LIGHTS)}.")] = _DEFAULTS.light,
+    companion: Annotated[
+        list[str] | None,
+        typer.Option(help="BODY,SCRIPT,BEHIND,ASIDE of somebody else, to the signer's left [m]. Repeatable."),
     ] = None,
     size: Annotated[str, typer.Option(help="Columns x rows of the images [px].")] = "640x480",
     rate: Annotated[float, typer.Option(help="Frames per second [Hz].")] = _DEFAULTS.rate,
@@ -81,6 +88,9 @@ def _synthesize(
             distance=distance,
             camera_height=camera_height,
             camera_pitch=None if camera_pitch is None else math.radians(camera_pitch),
+            camera_roll=math.radians(camera_roll),
+            light=light,
+            companions=tuple(map(_companion, companion or [])),
             width=width,
             height=height,
             rate=rate,
@@ -120,6 +130,17 @@ def _synthesize(
         markup=False,
         soft_wrap=True,
     )
+
+
+def _companion(words: str) -> Companion:
+    parts = words.split(",")
+    try:
+        body, script, behind, aside = parts
+        return Companion(body=body, script=script, behind=float(behind), aside=float(aside))
+    except ValueError:
+        raise typer.BadParameter(
+            f"--companion: expected BODY,SCRIPT,BEHIND,ASIDE such as man_tall,still,0.5,0.8, got {words!r}"
+        ) from None
 
 
 def _parsed(size: str) -> tuple[int, int]:

@@ -11,10 +11,12 @@ from dataclasses import replace
 from teo_synthetic_signer.errors import unknown_name
 from teo_synthetic_signer.script.keys import Key
 from teo_synthetic_signer.script.signs import (
+    ACROSS_FACE,
     BEHIND,
     BOOK,
     COVER,
     EAT,
+    FAR_BEFORE,
     HELLO,
     HIGH,
     HOUSE,
@@ -51,6 +53,7 @@ SCRIPTS: dict[str, tuple[Key, ...]] = {
     "greeting": (REST, *WAVE, REST),
     "hello": (REST, *HELLO, *THANKS, REST),
     "face": (REST, *THINK, *COVER, *EAT, REST),
+    "before_face": (REST, *ACROSS_FACE, *FAR_BEFORE, REST),
     "crossing": (REST, *LOVE, *STACKED, *BEHIND, *BOOK, REST),
     "two_hands": (REST, *HOUSE, *STAMP, *BOOK, REST),
     "fast": (REST, *_fast(), REST),
@@ -102,6 +105,7 @@ _ABOUT = {
     "greeting": "one sign: a hand that waves before the shoulder",
     "hello": "a greeting and thanks, one hand",
     "face": "hands at and before the face",
+    "before_face": "forearms across the face, hands far before the face and the shoulders",
     "crossing": "arms crossed, forearms stacked, a hand behind the other arm",
     "two_hands": "two-handed signs and one hand on the other",
     "fast": "wrists faster than 2 m/s",

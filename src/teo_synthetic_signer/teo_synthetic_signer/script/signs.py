@@ -249,6 +249,57 @@ BEHIND = [
         hold=0.5,
     ),
 ]
+# The forearm passes before the face, the elbow before a shoulder.
+ACROSS_FACE = [
+    Key(
+        right=ArmKey(
+            at="nose", offset=(0.16, -0.06, 0.03), point="wrist", fingers=(0.1, -1.0, 0.25), palm=_TO_SELF
+        ),
+        left=HANGING,
+        move=0.5,
+        hold=0.4,
+    ),
+    Key(
+        right=ArmKey(
+            at="forehead", offset=(0.10, -0.04, 0.0), point="wrist", fingers=(0.0, -1.0, 0.3), palm=_TO_SELF
+        ),
+        move=0.35,
+        hold=0.2,
+    ),
+]
+# A hand stays far before the other shoulder, the other before the face, at half an arm's length.
+FAR_BEFORE = [
+    Key(
+        right=ArmKey(
+            at="other_shoulder",
+            offset=(0.26, 0.0, 0.0),
+            fingers=(0.2, -0.3, 1.0),
+            palm=_TO_VIEWER,
+            shape="flat",
+        ),
+        left=HANGING,
+        move=0.5,
+        hold=0.3,
+    ),
+    Key(
+        right=HANGING,
+        left=ArmKey(
+            at="eye", offset=(0.28, -0.05, 0.0), fingers=(0.2, -0.3, 1.0), palm=_TO_VIEWER, shape="open"
+        ),
+        move=0.5,
+        hold=0.3,
+    ),
+    Key(
+        right=ArmKey(
+            at="eye", offset=(0.22, -0.03, 0.0), fingers=(0.2, -0.3, 1.0), palm=_TO_VIEWER, shape="fist"
+        ),
+        left=ArmKey(
+            at="shoulder", offset=(0.25, 0.0, 0.0), fingers=(0.2, -0.3, 1.0), palm=_TO_SELF, shape="flat"
+        ),
+        move=0.5,
+        hold=0.3,
+    ),
+]
 COVER = [
     Key(
         right=ArmKey(

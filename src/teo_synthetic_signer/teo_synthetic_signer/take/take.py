@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A take: one person, in one room, plays one script before one sensor."""
+"""A take: a person, with or without companions, in one room, plays a script before one sensor."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_synthetic_signer.body.pose import BodyPose
 from teo_synthetic_signer.body.ray_caster import RayCaster
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.camera.depth_model import DepthModel
+from teo_synthetic_signer.camera.light import light_named
 from teo_synthetic_signer.camera.renderer import Rendered, Renderer
 from teo_synthetic_signer.camera.sensors import sensor as sensor_named
 from teo_synthetic_signer.camera.visibility import visible
@@ -37,6 +37,23 @@ _COLOR_NOISE = 0.008
 
 
 @dataclass(frozen=True, kw_only=True)
+class Companion:
+    """Somebody else in the image.
+
+    Attributes:
+        body: One of `BODIES`.
+        script: What they do, as the signer's.
+        behind: How far behind the signer they stand, negative before [m].
+        aside: How far to the signer's left [m].
+    """
+
+    body: str
+    script: str = "still"
+    behind: float = 0.0
+    aside: float = 0.9
+
+
+@dataclass(frozen=True, kw_only=True)
 class TakeOptions:
     """What is rendered.
 
@@ -48,6 +65,9 @@ class TakeOptions:
         distance: From the camera to the person, along the floor [m].
         camera_height: Above the floor [m].
         camera_pitch: Of the camera downwards [rad]; None looks at the chest.
+        camera_roll: Of the camera about its view, clockwise as it looks [rad].
+        light: One of `LIGHTS`.
+        companions: Who else is there.
         width: Of the images [px].
         height: Likewise.
         rate: Frames per second [Hz].
@@ -62,6 +82,9 @@ class TakeOptions:
     distance: float = 1.5
     camera_height: float = 1.3
     camera_pitch: float | None = None
+    camera_roll: float = 0.0
+    light: str = "room"
+    companions: tuple[Companion, ...] = ()
     width: int = 640
     height: int = 480
     rate: float = 30.0
@@ -81,6 +104,26 @@ class TakeOptions:
             )
         if self.camera_pitch is not None and not abs(self.camera_pitch) < math.pi / 2.0:
             raise SyntheticError("bad_camera_pitch", f"expected less than pi/2 rad, got {self.camera_pitch}")
+        if not abs(self.camera_roll) <= math.pi:
+            raise SyntheticError("bad_camera_roll", f"expected -pi to pi rad, got {self.camera_roll}")
+
+
+class _Actor:
+    """One person of a take, and what they do."""
+
+    def __init__(self, body: str, script: str, offset: tuple[float, float]) -> None:
+        keys, self.about = script_of(script)
+        self.signer = Signer(body)
+        self.motion = Motion(self.signer.poser, keys)
+        self._offset = np.array([*offset, 0.0])
+
+    def at(self, stamp: float) -> tuple[FloatArray, tuple[FloatArray, ...]]:
+        """Give vertices and keypoints in the room [m]; who has played their script stays as they end."""
+        pose = self.motion.pose(min(stamp, self.motion.duration))
+        transforms = self.signer.poser.transforms(pose)
+        points = self.signer.keypoints(pose, transforms)
+        vertices = self.signer.vertices(pose, transforms)
+        return vertices + self._offset, tuple(part + self._offset for part in points)
 
 
 class Take:
@@ -96,11 +139,15 @@ class Take:
         self.sensor = sensor_named(options.sensor)
         self.camera: CameraModel = self.sensor.camera(options.width, options.height)
         vertices, self._room = furnish(options.scene)
-        keys, self.about = script_of(options.script)
-        self._signer = Signer(options.body)
-        self.motion = Motion(self._signer.poser, keys)
-        self._rotation, self._position = self._camera_pose()
-        self._surface = self._signer.dress.surface
+        actor = _Actor(options.body, options.script, (0.0, 0.0))
+        self.about, self.motion = actor.about, actor.motion
+        self._light = light_named(options.light)
+        self._actors = (
+            actor,
+            *(_Actor(one.body, one.script, (-one.behind, one.aside)) for one in options.companions),
+        )
+        self._rotation, self._position = self._camera_pose(actor.signer.height)
+        self._surfaces = [one.signer.dress.surface for one in self._actors]
         self._walls = self._seen(vertices)
 
     def __len__(self) -> int:
@@ -109,7 +156,7 @@ class Take:
 
     @cached_property
     def _renderer(self) -> Renderer:
-        return Renderer(self.camera, self._rotation, self._surface, self._room, self._walls)
+        return Renderer(self.camera, self._rotation, self._surfaces, self._room, self._walls, self._light)
 
     @cached_property
     def _obstacles(self) -> RayCaster:
@@ -118,25 +165,29 @@ class Take:
     def truth(self, index: int) -> TruthFrame:
         """Tell what is true in a frame, without the image: in a third of the time."""
         stamp = index / self._options.rate
-        pose = self.motion.pose(stamp)
-        transforms = self._signer.poser.transforms(pose)
-        person = RayCaster(self._seen(self._signer.vertices(pose, transforms))[self._surface.triangles])
-        return TruthFrame(stamp=stamp, camera=self.camera, truth=self._truth(pose, transforms, person))
+        people = [actor.at(stamp) for actor in self._actors]
+        casters = [
+            RayCaster(self._seen(vertices)[surface.triangles])
+            for (vertices, _), surface in zip(people, self._surfaces, strict=True)
+        ]
+        truth, *others = self._truths([points for _, points in people], casters)
+        return TruthFrame(stamp=stamp, camera=self.camera, truth=truth, others=tuple(others))
 
     def frame(self, index: int) -> SyntheticFrame:
         """Render one frame, the first is 0."""
         options = self._options
         stamp = index / options.rate
-        pose = self.motion.pose(stamp)
-        transforms = self._signer.poser.transforms(pose)
-        rendered = self._renderer.render(self._seen(self._signer.vertices(pose, transforms)))
+        people = [actor.at(stamp) for actor in self._actors]
+        rendered = self._renderer.render([self._seen(vertices) for vertices, _ in people])
         random = np.random.default_rng([options.seed, index])
+        truth, *others = self._truths([points for _, points in people], rendered.people)
         return SyntheticFrame(
             stamp=stamp,
             color=self._color(rendered, random),
             depth=self._depth(rendered, random),
             camera=self.camera,
-            truth=self._truth(pose, transforms, rendered.person),
+            truth=truth,
+            others=tuple(others),
         )
 
     def _color(self, rendered: Rendered, random: np.random.Generator) -> NDArray[np.uint8]:
@@ -153,29 +204,39 @@ class Take:
             return np.where(np.isfinite(rendered.distance), rendered.distance, np.float32(np.nan))
         return DepthModel(self.sensor, self.camera, random).measure(rendered.distance, rendered.facing)
 
-    def _truth(self, pose: BodyPose, transforms: FloatArray, person: RayCaster) -> Truth:
-        body, left, right, face = (self._seen(part) for part in self._signer.keypoints(pose, transforms))
-        seen = visible(person, self._obstacles, self._surface.bones, self.camera, (body, left, right, face))
-        return Truth(
-            body=body,
-            left_hand=left,
-            right_hand=right,
-            face=face,
-            body_visible=seen[0],
-            left_hand_visible=seen[1],
-            right_hand_visible=seen[2],
-            face_visible=seen[3],
-        )
+    def _truths(self, people: Sequence[tuple[FloatArray, ...]], casters: Sequence[RayCaster]) -> list[Truth]:
+        """Bring keypoints in the room to the camera's axes, with which of them it sees, for each person."""
+        truths = []
+        for i, points in enumerate(people):
+            body, left, right, face = (self._seen(part) for part in points)
+            around = [self._obstacles, *casters[:i], *casters[i + 1 :]]
+            bones = self._surfaces[i].bones
+            seen = visible(casters[i], around, bones, self.camera, (body, left, right, face))
+            truths.append(
+                Truth(
+                    body=body,
+                    left_hand=left,
+                    right_hand=right,
+                    face=face,
+                    body_visible=seen[0],
+                    left_hand_visible=seen[1],
+                    right_hand_visible=seen[2],
+                    face_visible=seen[3],
+                )
+            )
+        return truths
 
-    def _camera_pose(self) -> tuple[FloatArray, FloatArray]:
+    def _camera_pose(self, height: float) -> tuple[FloatArray, FloatArray]:
         """Give the rotation from the room's axes to the camera's, and where the camera is."""
         options = self._options
         pitch = options.camera_pitch
         if pitch is None:
-            pitch = math.atan2(options.camera_height - _CHEST * self._signer.height, options.distance)
+            pitch = math.atan2(options.camera_height - _CHEST * height, options.distance)
         ahead = np.array([-math.cos(pitch), 0.0, -math.sin(pitch)])
         right = np.array([0.0, 1.0, 0.0])
         down = np.cross(ahead, right)
+        cosine, sine = math.cos(options.camera_roll), math.sin(options.camera_roll)
+        right, down = cosine * right + sine * down, cosine * down - sine * right
         return np.stack([right, down, ahead]), np.array([options.distance, 0.0, options.camera_height])
 
     def _seen(self, points: FloatArray) -> FloatArray:

@@ -23,7 +23,7 @@ from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 from teo_skeleton_retriever.output.messages import skeleton_array
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.take.truth import SyntheticFrame, TruthFrame
+from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame
 
 # As realsense2_camera names it.
 FRAME_ID = "camera_color_optical_frame"
@@ -78,12 +78,19 @@ def compressed_depth(frame: SyntheticFrame, at: Header) -> CompressedImage:
 
 
 def truth_skeletons(frame: TruthFrame, at: Header) -> SkeletonArray:
-    """Give the truth: joint centres, status MEASURED where the camera sees them and HELD where not."""
-    truth, camera = frame.truth, frame.camera
+    """Give the truth: joint centres, status MEASURED where the camera sees them and HELD where not.
+
+    The signer has the id 0, companions those that follow.
+    """
+    people = (frame.truth, *frame.others)
+    return skeleton_array([_skeleton(truth, i, frame.camera) for i, truth in enumerate(people)], at)
+
+
+def _skeleton(truth: Truth, track_id: int, camera: CameraModel) -> Skeleton:
     joints = {name: truth.body[i] for name, i in BODY_25.index.items()}
-    skeleton = Skeleton(
-        track_id=0,
-        is_signer=True,
+    return Skeleton(
+        track_id=track_id,
+        is_signer=track_id == 0,
         body=_known(truth.body, truth.body_visible, camera),
         left_hand=_known(truth.left_hand, truth.left_hand_visible, camera),
         right_hand=_known(truth.right_hand, truth.right_hand_visible, camera),
@@ -95,7 +102,6 @@ def truth_skeletons(frame: TruthFrame, at: Header) -> SkeletonArray:
             right_hip=joints["RHip"],
         ),
     )
-    return skeleton_array((skeleton,), at)
 
 
 def _known(points: FloatArray, visible: BoolArray, camera: CameraModel) -> Keypoints3D:

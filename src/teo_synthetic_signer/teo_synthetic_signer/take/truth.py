@@ -49,12 +49,14 @@ class TruthFrame:
     Attributes:
         stamp: Since the start of the take [s].
         camera: That looks.
-        truth: Where the keypoints are.
+        truth: Where the keypoints of the signer are.
+        others: And those of each companion.
     """
 
     stamp: float
     camera: CameraModel
     truth: Truth
+    others: tuple[Truth, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

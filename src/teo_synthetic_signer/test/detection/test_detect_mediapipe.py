@@ -219,8 +219,9 @@ def test_it_says_nothing_on_standard_error(
 def test_a_graph_that_failed_fails_one_image_only(
     frames: list[SyntheticFrame], detector: MediaPipeDetector
 ) -> None:
-    assert detector._graph is not None
-    detector._graph._graph.close()
+    assert detector._follower is not None
+    for graph in (*detector._follower._followed, *detector._follower._spare):
+        graph._graph.close()
     with pytest.raises(DetectorError) as caught:
         detector.detect(frames[0].color, 0.0)
     assert caught.value.code == "failed"
@@ -249,7 +250,7 @@ def test_closing_waits_for_the_image_at_hand_and_refuses_the_next(frames: list[S
 
 def test_a_closed_detector_frees_its_networks() -> None:
     detector = MediaPipeDetector()
-    graph = weakref.ref(detector._graph)
+    graph = weakref.ref(detector._follower)
     detector.close()
     gc.collect()
     assert graph() is None

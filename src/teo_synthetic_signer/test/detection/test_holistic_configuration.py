@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
+from teo_skeleton_retriever.detectors.mediapipe.people_follower import PeopleFollower
+from teo_skeleton_retriever.detectors.mediapipe.people_graph import PeopleGraph
 from teo_synthetic_signer import render_take
 
 Images = list[NDArray[np.uint8]]
@@ -29,9 +31,12 @@ def images() -> Images:
 
 
 def seen_by_ours(images: Iterable[NDArray[np.uint8]]) -> list[HolisticLandmarks]:
-    graph = HolisticGraph(min_detection_confidence=0.5, min_tracking_confidence=0.5, lite_hands=False)
-    seen = [graph.process(image) for image in images]
-    graph.close()
+    finder = PeopleGraph(min_detection_confidence=0.5)
+    follower = PeopleFollower(
+        lambda: HolisticGraph(min_tracking_confidence=0.5, lite_hands=False), finder, most=1
+    )
+    seen = [landmarks for image in images for landmarks in follower.follow(image)]
+    follower.close()
     return seen
 
 
@@ -80,8 +85,6 @@ def test_a_face_that_comes_back_is_found_again(images: Images) -> None:
 
 
 def test_left_and_right_hands_are_told_apart(images: Images) -> None:
-    graph = HolisticGraph(min_detection_confidence=0.5, min_tracking_confidence=0.5, lite_hands=False)
-    found = graph.process(images[0])
-    graph.close()
+    (found,) = seen_by_ours(images[:1])
     assert found.left_hand is not None and found.right_hand is not None
     assert min(found.left_hand_side, found.right_hand_side) > 0.7

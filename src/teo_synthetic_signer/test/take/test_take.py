@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_synthetic_signer import SyntheticFrame, Take, TakeOptions, render_take
+from teo_synthetic_signer import Companion, SyntheticFrame, Take, TakeOptions, render_take
 from teo_synthetic_signer.body.ray_caster import RayCaster
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.furniture import furnish
@@ -157,7 +157,7 @@ def test_another_seed_gives_other_noise_and_the_same_truth() -> None:
 
 def test_the_person_drawn_over_the_room_is_what_one_cast_of_both_gives(take: Take) -> None:
     frame = take.frame(60)
-    signer, pose = take._signer, take.motion.pose(frame.stamp)
+    signer, pose = take._actors[0].signer, take.motion.pose(frame.stamp)
     person = take._seen(signer.vertices(pose, signer.poser.transforms(pose)))
     walls, room = furnish("studio")
     corners = np.concatenate([person[signer.dress.surface.triangles], take._seen(walls)[room.triangles]])
@@ -180,6 +180,37 @@ def test_a_camera_that_is_higher_looks_down_on_the_same_truth() -> None:
     assert a == pytest.approx(b)
 
 
+def test_a_camera_that_is_rolled_turns_the_image_about_its_middle() -> None:
+    level, rolled = (perfect(script="still", camera_roll=roll).truth(0) for roll in (0.0, 0.3))
+    middle = np.array([level.camera.cx, level.camera.cy])
+    a, b = (truth.camera.project(truth.truth.body) - middle for truth in (level, rolled))
+    turned = np.arctan2(b[:, 1], b[:, 0]) - np.arctan2(a[:, 1], a[:, 0])
+    np.testing.assert_allclose((turned + np.pi) % (2.0 * np.pi) - np.pi, -0.3, atol=1e-6)
+    np.testing.assert_allclose(np.linalg.norm(a, axis=1), np.linalg.norm(b, axis=1))
+
+
+def test_another_light_changes_the_colours_and_nothing_else() -> None:
+    room, evening = (perfect(script="still", light=light).frame(0) for light in ("room", "evening"))
+    np.testing.assert_array_equal(room.depth, evening.depth)
+    assert evening.color.mean() < 0.8 * room.color.mean()
+    red, _, blue = (evening.color.astype(float) / room.color).mean(axis=(0, 1))
+    assert red > 1.1 * blue
+
+
+def test_a_companion_before_the_signer_hides_the_signer_and_has_a_truth_too() -> None:
+    alone = perfect(script="still").frame(0)
+    both = perfect(script="still", companions=(Companion(body="man_tall", behind=-0.4, aside=0.0),)).frame(0)
+    np.testing.assert_allclose(both.truth.body, alone.truth.body)
+    assert alone.truth.body_visible[BODY_25.index["Neck"]]
+    assert not both.truth.body_visible[BODY_25.index["Neck"]]
+    (other,) = both.others
+    neck = BODY_25.index["Neck"]
+    assert other.body_visible[neck]
+    column, row = np.rint(both.camera.project(other.body[[neck]])[0]).astype(int)
+    assert other.body[neck, 2] - 0.17 < both.depth[row, column] < other.body[neck, 2]
+    assert other.body[neck, 2] < alone.truth.body[neck, 2] - 0.3
+
+
 def test_frames_can_be_chosen() -> None:
     frames = list(render_take(frames=range(4, 10, 5), rate=10.0, scene="studio", **SMALL))
     assert [frame.stamp for frame in frames] == [0.4, 0.9]
@@ -194,6 +225,9 @@ def test_frames_can_be_chosen() -> None:
         ({"rate": float("inf")}, "bad_rate"),
         ({"camera_height": -1.0}, "bad_camera_height"),
         ({"camera_pitch": 2.0}, "bad_camera_pitch"),
+        ({"camera_roll": 4.0}, "bad_camera_roll"),
+        ({"light": "neon"}, "unknown_light"),
+        ({"companions": (Companion(body="nobody"),)}, "unknown_body"),
         ({"width": 0}, "bad_size"),
         ({"height": 100_000}, "bad_size"),
         ({"sensor": "d999"}, "unknown_sensor"),

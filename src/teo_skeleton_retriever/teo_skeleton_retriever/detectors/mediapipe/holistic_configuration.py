@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Configuration of MediaPipe's Holistic graph: the packaged one with unused nodes and outputs removed."""
+"""Configurations of MediaPipe's graphs: the packaged Holistic one, cut to what is asked of it.
+
+Its detector of people is a graph of its own here: it sees everybody, of whom Holistic takes the first.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,11 @@ from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resou
 
 from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for, without_output
 
-# Input streams beside that of images: whether to look at a hand in this image.
+# Input streams beside that of images: where somebody is who is to be followed from now on, and whether this
+# is told of this image.
+PERSON = "person"
+PERSON_IS_TOLD = "person_is_told"
+# Likewise: whether to look at a hand in this image.
 LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
 _FOLDER = Path(mediapipe.__file__).parent
 _POSE = "poselandmarkcpu__"
@@ -33,6 +40,8 @@ _POSE_BY_ROI = f"{_POSE}poselandmarkbyroicpu__"
 _POSE_TENSORS = f"{_POSE_BY_ROI}tensorstoposelandmarksandsegmentation__"
 _FACE = "facelandmarksfromposecpu__"
 _DETECTION_NODE = f"{_POSE}posedetectioncpu__TensorsToDetectionsCalculator"
+# Everybody who is seen, and where the network of the pose is to look for each.
+PEOPLE_STREAMS = (f"{_POSE}pose_detections", "people")
 _TRACKING_NODE = f"{_POSE_TENSORS}ThresholdingCalculator"
 _HAND_MODEL_SWITCH = "handlandmarkmodelloader__switchcontainer"
 _POSE_NETWORK = "pose_network"
@@ -54,42 +63,32 @@ _SIDE_INPUTS = {
 
 
 def holistic_configuration(
-    streams: Iterable[str],
-    *,
-    min_detection_confidence: float,
-    min_tracking_confidence: float,
-    lite_hands: bool,
+    streams: Iterable[str], *, min_tracking_confidence: float, lite_hands: bool
 ) -> tuple[Any, dict[str, Packet]]:
-    """Read the packaged graph, set its options and drop nodes that do not feed the requested outputs.
+    """Configure the graph that follows one person, told where they are by the stream `PERSON`.
 
     Args:
         streams: Names of the output streams that will be observed.
-        min_detection_confidence: Below which a person's first sight does not count.
         min_tracking_confidence: Below which a followed person counts as lost.
         lite_hands: Look at hands with the smaller of the two networks.
 
     Returns:
         The CalculatorGraphConfig, and the side packets that it is to be started with.
     """
-    resource_util.set_resource_dir(str(_FOLDER.parent))  # the models' paths in the graph start above
-    packaged = ValidatedGraphConfig()
-    packaged.initialize(
-        binary_graph_path=str(_FOLDER / "modules/holistic_landmark/holistic_landmark_cpu.binarypb")
-    )
-    configuration = calculator_pb2.CalculatorGraphConfig()
-    configuration.ParseFromString(packaged.binary_config)
+    configuration = _packaged()
     for node in configuration.node:
-        if node.name == _DETECTION_NODE:
-            options = node.options.Extensions[TensorsToDetectionsCalculatorOptions.ext]
-            options.min_score_thresh = min_detection_confidence
-        elif node.name == _TRACKING_NODE:
+        _rename(node.input_stream, f"{_POSE}pose_rect_from_detection", "told_person")
+        if node.name == _TRACKING_NODE:
             node.options.Extensions[ThresholdingCalculatorOptions.ext].threshold = min_tracking_confidence
         elif _HAND_MODEL_SWITCH in node.name and node.calculator.startswith("Switch"):
             node.options.Extensions[SwitchContainerOptions.ext].select = 0 if lite_hands else 1
         elif node.calculator == "LandmarkProjectionCalculator":
             # The same result, and no warning that crops must be square: they are.
             node.input_stream.append(f"IMAGE_DIMENSIONS:{_POSE}image_size")
-    del configuration.executor[:]  # an empty one, which stands for a thread a core
+    configuration.input_stream.extend([PERSON, PERSON_IS_TOLD])
+    gate = configuration.node.add(calculator="GateCalculator")
+    gate.input_stream.extend([PERSON, f"ALLOW:{PERSON_IS_TOLD}"])
+    gate.output_stream.append("told_person")
     configuration.num_threads = _THREADS
     _leave_out_the_outline(configuration)
     _look_for_the_face_only_where_it_is_lost(configuration)
@@ -99,6 +98,48 @@ def holistic_configuration(
         _POSE_NETWORK: packet_creator.create_string(without_output(network, _OUTLINE))
     }
     return only_for(configuration, streams), side_packets
+
+
+def people_configuration(min_detection_confidence: float) -> tuple[Any, dict[str, Packet]]:
+    """Configure the graph that finds everybody in an image; its outputs are `PEOPLE_STREAMS`.
+
+    Args:
+        min_detection_confidence: Below which a person does not count.
+
+    Returns:
+        The CalculatorGraphConfig, and the side packets that it is to be started with.
+    """
+    configuration = _packaged()
+    detections, regions = PEOPLE_STREAMS
+    for node in configuration.node:
+        # In every image, not only in those in which nobody is followed.
+        _rename(node.input_stream, f"{_POSE}image_for_pose_detection", "image")
+        _rename(node.input_stream, f"{_POSE}image_size_for_pose_detection", f"{_POSE}image_size")
+        _rename(node.output_stream, f"{_POSE}pose_rect_from_detection", regions)
+        if node.name == _DETECTION_NODE:
+            options = node.options.Extensions[TensorsToDetectionsCalculatorOptions.ext]
+            options.min_score_thresh = min_detection_confidence
+        elif node.name.startswith(f"{_POSE}posedetectiontoroi__"):
+            # For each detection, not only for the first.
+            for streams in (node.input_stream, node.output_stream):
+                for i, entry in enumerate(streams):
+                    entry = entry.replace("DETECTION:pose_detection", f"DETECTIONS:{detections}")
+                    streams[i] = entry.replace("NORM_RECT:", "NORM_RECTS:")
+    configuration.num_threads = 1
+    return only_for(configuration, PEOPLE_STREAMS), {}
+
+
+def _packaged() -> Any:
+    """Read the packaged graph; without executors, which stands for threads of its own."""
+    resource_util.set_resource_dir(str(_FOLDER.parent))  # the models' paths in the graph start above
+    packaged = ValidatedGraphConfig()
+    packaged.initialize(
+        binary_graph_path=str(_FOLDER / "modules/holistic_landmark/holistic_landmark_cpu.binarypb")
+    )
+    configuration = calculator_pb2.CalculatorGraphConfig()
+    configuration.ParseFromString(packaged.binary_config)
+    del configuration.executor[:]
+    return configuration
 
 
 def _leave_out_the_outline(configuration: Any) -> None:

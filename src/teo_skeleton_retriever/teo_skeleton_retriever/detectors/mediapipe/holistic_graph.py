@@ -10,43 +10,27 @@ streams of the graph; naming them is enough to get them.
 
 from __future__ import annotations
 
-import os
-import sys
 import threading
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from mediapipe.framework.formats.rect_pb2 import NormalizedRect
 from mediapipe.python import CalculatorGraph, ImageFormat, Packet, packet_creator, packet_getter
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray
-from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import LOOKS, holistic_configuration
+from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import (
+    LOOKS,
+    PERSON,
+    PERSON_IS_TOLD,
+    holistic_configuration,
+)
 from teo_skeleton_retriever.detectors.mediapipe.resting_hands import HANDS, RestingHands
+from teo_skeleton_retriever.detectors.mediapipe.silence import silenced
 from teo_skeleton_retriever.errors import DetectorError
-
-
-@contextmanager
-def _silenced() -> Iterator[None]:
-    """Throw away what native code writes to standard error meanwhile, from whichever thread.
-
-    For a moment only: what others write to it in the meantime is lost as well.
-    """
-    sys.stderr.flush()
-    kept = os.dup(2)
-    try:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        try:
-            os.dup2(nowhere, 2)
-        finally:
-            os.close(nowhere)
-        yield
-    finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-
 
 _LEFT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_1__handlandmarkcpu__"
 _RIGHT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_2__handlandmarkcpu__"
@@ -70,6 +54,8 @@ _MIRRORED = {"left_hand": "Right", "right_hand": "Left"}
 # Between two images on the graph's clock. It only orders them: nothing in the graph depends on time without
 # the filter.
 _FRAME_US = 33_333
+# Sent where nobody is told of, for the graph waits for each stream; its fields must be filled.
+_NOBODY = NormalizedRect(x_center=0.5, y_center=0.5, width=1.0, height=1.0)
 # How often a wait looks whether the graph has failed.
 _PATIENCE_S = 0.05
 
@@ -105,12 +91,17 @@ class HolisticLandmarks:
     right_hand_side: float
 
 
-@dataclass
-class _Pending:
+@dataclass(eq=False)
+class Pending:
+    """What is known so far of an image that the graph works on."""
+
+    width: int
+    height: int
     packets: dict[str, Packet | None] = field(default_factory=dict)
     done: threading.Event = field(default_factory=threading.Event)
 
     def complete(self) -> bool:
+        """Tell whether every stream has said what it has."""
         return len(self.packets) == len(_STREAMS)
 
 
@@ -123,12 +114,12 @@ class _Results:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._pending: dict[int, _Pending] = {}
+        self._pending: dict[int, Pending] = {}
 
-    def expect(self, time_us: int) -> _Pending:
+    def expect(self, time_us: int, width: int, height: int) -> Pending:
         """Await an image; to be called before the graph gets it."""
         with self._lock:
-            return self._pending.setdefault(time_us, _Pending())
+            return self._pending.setdefault(time_us, Pending(width, height))
 
     def on_packet(self, stream: str, packet: Packet) -> None:
         """Take what one stream says; called from the graph's threads."""
@@ -151,38 +142,37 @@ class HolisticGraph:
     are still being looked at. Images are taken in the order of the calls.
 
     Args:
-        min_detection_confidence: Below which a person's first sight does not count.
         min_tracking_confidence: Below which a followed person counts as lost.
         lite_hands: Look at hands with the smaller of the two networks.
     """
 
-    def __init__(
-        self, *, min_detection_confidence: float, min_tracking_confidence: float, lite_hands: bool
-    ) -> None:
+    def __init__(self, *, min_tracking_confidence: float, lite_hands: bool) -> None:
         self._input_lock = threading.Lock()
         self._results = _Results()
         self._resting_hands = RestingHands()
         self._closed = False
         self._time_us = 0
         configuration, side_packets = holistic_configuration(
-            _STREAMS,
-            min_detection_confidence=min_detection_confidence,
-            min_tracking_confidence=min_tracking_confidence,
-            lite_hands=lite_hands,
+            _STREAMS, min_tracking_confidence=min_tracking_confidence, lite_hands=lite_hands
         )
         self._graph = CalculatorGraph(graph_config=configuration)
         for stream in _STREAMS:
             # With bounds, a stream also says that it has nothing for an image.
             self._graph.observe_output_stream(stream, self._results.on_packet, True)
-        with _silenced():  # each model announces itself as it is loaded
+        with silenced():  # each model announces itself as it is loaded
             self._graph.start_run(side_packets)
             self._graph.wait_until_idle()
 
-    def process(self, image: ImageArray) -> HolisticLandmarks:
-        """Look at one image.
+    def begin(self, image: ImageArray, person: NormalizedRect | None = None) -> Pending:
+        """Start to look at one image.
 
         Args:
             image: RGB. Shape (height, width, 3).
+            person: Where somebody is who is to be followed from now on; None goes on with whom the image
+                before showed.
+
+        Returns:
+            What `finish` wants.
 
         Raises:
             DetectorError: The graph failed and cannot be used any more.
@@ -192,22 +182,34 @@ class HolisticGraph:
             if self._closed:
                 raise DetectorError("closed", "the detector was closed before it came to this image")
             self._time_us += _FRAME_US
-            pending = self._results.expect(self._time_us)
+            height, width = image.shape[:2]
+            pending = self._results.expect(self._time_us, width, height)
             looks = self._resting_hands.next_looks()
             try:
                 for hand, look in looks.items():
                     packet = packet_creator.create_bool(look).at(self._time_us)
                     self._graph.add_packet_to_input_stream(LOOKS[hand], packet)
+                told = packet_creator.create_bool(person is not None).at(self._time_us)
+                place = packet_creator.create_proto(person or _NOBODY).at(self._time_us)
+                self._graph.add_packet_to_input_stream(PERSON_IS_TOLD, told)
+                self._graph.add_packet_to_input_stream(PERSON, place)
                 self._graph.add_packet_to_input_stream("image", frame.at(self._time_us))
             except (RuntimeError, ValueError) as error:
                 raise DetectorError("failed", f"MediaPipe refused an image: {error}") from error
+        return pending
+
+    def finish(self, pending: Pending) -> HolisticLandmarks:
+        """Wait for what is found in an image.
+
+        Raises:
+            DetectorError: The graph failed and cannot be used any more.
+        """
         while not pending.done.wait(_PATIENCE_S):
             if self._graph.has_error():
                 raise DetectorError("failed", "MediaPipe's graph stopped with an error")
         landmarks = _landmarks(pending.packets)
-        height, width = image.shape[:2]
         found = {hand: getattr(landmarks, hand) is not None for hand in HANDS}
-        self._resting_hands.saw(landmarks.pose, found, width=width, height=height)
+        self._resting_hands.saw(landmarks.pose, found, width=pending.width, height=pending.height)
         return landmarks
 
     def close(self) -> None:

@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Takes beside those that anything is calibrated on: held out, with faces behind arms, with several people.
+
+The held-out takes are of other people, lights and cameras than all others, and are for a last look: whoever
+changes a constant of the retriever looks at the others meanwhile.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from accuracy.people import random_people
+from accuracy.takes import TakeSettings
+from teo_synthetic_signer import Companion
+from teo_synthetic_signer.body.body_shapes import BODIES
+
+BODIES |= random_people(12, 7_301, "held_out")
+BODIES |= random_people(8, 5_517, "beside")
+
+_SCENES = ("office", "studio", "living_room", "near_wall")
+_LIGHTS = ("room", "window", "ceiling", "evening")
+
+
+def _held_out() -> tuple[TakeSettings, ...]:
+    """Cameras at 1 to 2.5 m, rolled by up to 12 degrees, as on a tripod that nobody levelled."""
+    random = np.random.default_rng(40_961)
+    scripts = ("signing", "face", "two_hands", "crossing", "turning", "spelling")
+    return tuple(
+        TakeSettings(
+            script=scripts[i % 6],
+            body=f"held_out_{i}",
+            scene=_SCENES[int(random.integers(4))],
+            light=_LIGHTS[i % 4],
+            distance=round(float(random.uniform(1.0, 2.5)), 2),
+            camera_height=round(float(random.uniform(0.9, 1.8)), 2),
+            camera_roll=round(math.radians(float(random.uniform(-12.0, 12.0))), 3),
+            start=round(float(random.uniform(0.4, 3.0)), 1),
+            seconds=1.7,
+            rate=10.0,
+            seed=70_000 + i,
+        )
+        for i in range(12)
+    )
+
+
+HELD_OUT_TAKES = _held_out()
+OCCLUDED_TAKES: tuple[TakeSettings, ...] = tuple(
+    TakeSettings(
+        script="before_face",
+        body=f"beside_{i}",
+        scene=_SCENES[i % 4],
+        distance=(1.2, 1.5, 1.8)[i % 3],
+        camera_height=(1.2, 1.5)[i % 2],
+        start=(0.5, 1.9, 2.6, 3.0)[i % 4],
+        seconds=1.7,
+        rate=10.0,
+        seed=500 + i,
+    )
+    for i in range(6)
+)
+"""Arms and hands before faces and shoulders."""
+SEVERAL_TAKES: tuple[TakeSettings, ...] = (
+    TakeSettings(
+        script="two_hands",
+        body="beside_0",
+        scene="office",
+        distance=1.8,
+        camera_height=1.4,
+        start=0.5,
+        rate=10.0,
+        seed=600,
+        companions=(Companion(body="beside_1", script="hello", behind=0.9, aside=0.75),),
+    ),
+    TakeSettings(
+        script="hello",
+        body="beside_2",
+        scene="studio",
+        distance=2.0,
+        camera_height=1.3,
+        start=0.4,
+        rate=10.0,
+        seed=601,
+        companions=(Companion(body="beside_3", script="signing", behind=0.5, aside=-0.7),),
+    ),
+    TakeSettings(
+        script="signing",
+        body="beside_4",
+        scene="living_room",
+        distance=2.2,
+        camera_height=1.4,
+        start=0.6,
+        rate=10.0,
+        seed=602,
+        companions=(
+            Companion(body="beside_5", script="two_hands", behind=0.6, aside=0.8),
+            Companion(body="beside_6", script="hello", behind=0.9, aside=-0.9),
+        ),
+    ),
+    TakeSettings(
+        script="crossing",
+        body="beside_7",
+        scene="studio",
+        distance=1.9,
+        camera_height=1.5,
+        start=0.5,
+        rate=10.0,
+        seed=603,
+        companions=(
+            Companion(body="beside_0", script="still", behind=0.4, aside=-0.85),
+            Companion(body="beside_2", script="face", behind=0.7, aside=0.75),
+        ),
+    ),
+)
+"""The signer is the nearest of two or three people."""

@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The depth of a head, as one rigid part: what an arm before it shows is not taken for it.
+
+Every surface around a keypoint of head and face is a vote for where the head is. The head is there where most
+agree that are no arm's, near where it was and where the shoulders let expect it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.depth.depth_lookup import Surfaces
+from teo_skeleton_retriever.layouts.person_layout import ROW
+
+HEAD = [ROW[name] for name in ("Nose", "REye", "LEye", "REar", "LEar")]
+EARS = slice(3, 5)  # of `HEAD`
+# [m] How far behind the eyes each of `HEAD` is while the head faces the camera.
+_BEHIND_EYES = np.array([-0.02, 0.0, 0.0, 0.085, 0.085])
+_AGREE = 0.06  # [m] about a depth within which votes agree: a head that is turned by 40 degrees
+_OWN = 0.10  # [m] from where the head lets expect a keypoint within which a surface is its own
+# [m] Eyes before the shoulders; heads are bowed and people lean.
+_BEFORE_NECK, _BEFORE_NECK_SIGMA = 0.12, 0.10
+_MOVED_SIGMA = 0.08  # [m] between images: a nod, and what the last estimate was off
+_FLOOR = 0.05  # of a vote that is far from what is expected: people do what is not expected
+_FACE_WEIGHT = 0.1  # of a keypoint of the face against one of the body: there are 70
+_LEAST = 0.5  # votes: fewer are a speck
+_SKIN_SIGMA = 0.008  # [m] how far the skin of a head is from where its kind has it
+_HIDDEN_SIGMA = 0.045  # [m] of a keypoint that follows from the others of a turned head
+
+
+class HeadDepths(NamedTuple):
+    """Where a head is."""
+
+    eyes: float
+    """depth of the eyes [m]; NaN if nothing tells"""
+    depths: FloatArray
+    """of `HEAD` [m]; NaN if nothing tells. Shape (5,)"""
+    sigma: FloatArray
+    """their standard deviations [m]; NaN likewise. Shape (5,)"""
+    hidden: BoolArray
+    """keypoints at which no surface of the head was measured. Shape (5,)"""
+
+
+def head_depths(
+    head: Surfaces, behind: FloatArray, face: Surfaces, *, neck: float, expected: FloatArray
+) -> HeadDepths:
+    """Find a head.
+
+    Args:
+        head: Measured around `HEAD`, without what is an arm's.
+        behind: How far behind the skin each of them is [m]. Shape (5,).
+        face: Measured around the keypoints of the face, likewise.
+        neck: Depth of the joint between the shoulders [m]; NaN if not known.
+        expected: Depths of `HEAD` by the images before [m]; NaN if there were none. Shape (5,).
+    """
+    own = head.depth + behind[:, None]
+    votes = np.concatenate([(own - _BEHIND_EYES[:, None]).ravel(), face.depth.ravel()])
+    weights = np.concatenate([head.support.ravel(), _FACE_WEIGHT * face.support.ravel()])
+    known = np.isfinite(votes)
+    votes, weights = votes[known], weights[known]
+    was = expected - _BEHIND_EYES
+    last = float(np.median(was[np.isfinite(was)])) if np.isfinite(was).any() else float("nan")
+    eyes = _agreed(votes, weights, neck - _BEFORE_NECK, last)
+    if not np.isfinite(eyes):
+        eyes = last if np.isfinite(last) else neck - _BEFORE_NECK
+    there = eyes + _BEHIND_EYES
+    off = np.abs(own - np.where(np.isfinite(expected), (there + expected) / 2.0, there)[:, None])
+    off = np.where(np.abs(own - there[:, None]) < _OWN, off, np.inf)
+    chosen = np.argmin(off, axis=1)
+    rows = np.arange(len(HEAD))
+    hidden: BoolArray = ~np.isfinite(off[rows, chosen])
+    return HeadDepths(
+        eyes,
+        np.where(hidden, there, own[rows, chosen]),
+        np.where(hidden, _HIDDEN_SIGMA, np.hypot(head.sigma[rows, chosen], _SKIN_SIGMA)),
+        hidden,
+    )
+
+
+def _agreed(votes: FloatArray, weights: FloatArray, by_neck: float, last: float) -> float:
+    """Depth on which most votes agree [m]; NaN where too few do."""
+    if not len(votes):
+        return float("nan")
+    agreeing = (np.abs(votes[:, None] - votes) < _AGREE) @ weights
+    likely = np.ones(len(votes))
+    for expected, spread in ((by_neck, _BEFORE_NECK_SIGMA), (last, _MOVED_SIGMA)):
+        if np.isfinite(expected):
+            likely *= np.maximum(np.exp(-0.5 * ((votes - expected) / spread) ** 2), _FLOOR)
+    best = int(np.argmax(agreeing * likely))
+    if agreeing[best] < _LEAST:
+        return float("nan")
+    near = np.abs(votes - votes[best]) < _AGREE
+    return float(np.average(votes[near], weights=weights[near]))

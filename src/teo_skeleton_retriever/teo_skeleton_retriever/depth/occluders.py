@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Forearms and hands before other parts of the body: what they hide, and which surface is theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.layouts.layout import HAND_21
+from teo_skeleton_retriever.layouts.person_layout import ARMS, N
+
+_FOREARM, _HAND = 0.045, 0.055  # [m] half a forearm's breadth, half a palm's with the thumb
+_STEPS = np.linspace(0.0, 1.0, 8)  # a forearm is covered by discs 3.5 cm apart
+_CLEAR = 0.02  # [m] where arms cross, both seem as near: the one that is nearer by this hides the other
+_SKIN = 0.03  # [m] from the axis of a forearm or hand to the skin before it
+_THICKNESS = 0.05  # [m] depths so near to that skin are of the same arm
+_LIKE_A_HAND = 0.4  # of the forearm's length, to the middle of the hand: where no hand is seen it is ahead
+_MIDDLE = [HAND_21.index["MiddleMCP"], HAND_21.index["MiddleTip"]]
+
+
+class Occluders(NamedTuple):
+    """Points along forearms and hands, as spheres."""
+
+    points: FloatArray
+    """[m]. Shape (k, 3)"""
+    radius: FloatArray
+    """[m]. Shape (k,)"""
+    owner: FloatArray
+    """row of the body's joint that each begins at: elbow, or wrist. Shape (k,)"""
+
+    def before(self, rays: FloatArray, depth: FloatArray, own: BoolArray | None = None) -> FloatArray:
+        """Give the depth of the nearest that lies before each joint [m]; NaN where none does. Shape (n,).
+
+        Args:
+            rays: x/z, y/z of the joints. Shape (n, 2).
+            depth: Of the joints [m]. Shape (n,).
+            own: Which are the joints' own limbs and hide nothing. Shape (n, k).
+        """
+        nearest = np.full(len(rays), np.nan)
+        if not len(self.points):
+            return nearest
+        ahead = np.column_stack([rays, np.ones(len(rays))])
+        ahead /= np.linalg.norm(ahead, axis=1, keepdims=True)
+        along = ahead @ self.points.T
+        off = np.sqrt(np.maximum((self.points**2).sum(axis=1) - along**2, 0.0))
+        with np.errstate(invalid="ignore"):
+            hides = (off < self.radius) & (self.points[:, 2] < depth[:, None] - _CLEAR)
+        if own is not None:
+            hides &= ~own
+        hidden = hides.any(axis=1)
+        nearest[hidden] = np.where(hides, self.points[:, 2], np.inf).min(axis=1)[hidden]
+        return nearest
+
+    def of(self, limbs: Mapping[int, Sequence[int]]) -> BoolArray:
+        """Tell which belong to limbs.
+
+        Args:
+            limbs: By the row of a keypoint, the rows of the joints at which limbs begin.
+
+        Returns:
+            Shape (N, k).
+        """
+        own = np.zeros((N, len(self.points)), dtype=bool)
+        for row, joints in limbs.items():
+            own[row] = np.isin(self.owner, joints)
+        return own
+
+    def shown(self, rays: FloatArray, depths: FloatArray) -> BoolArray:
+        """Tell which measured depths are those of a forearm or a hand, not of what is behind it.
+
+        Args:
+            rays: x/z, y/z. Shape (n, 2).
+            depths: Of the surfaces around each [m]. Shape (n, m).
+        """
+        shown = np.zeros(depths.shape, dtype=bool)
+        if not len(self.points):
+            return shown
+        ahead = np.column_stack([rays, np.ones(len(rays))])
+        off = np.linalg.norm(self.points - ahead[:, None] * self.points[:, 2:], axis=2)
+        near = off < self.radius
+        with np.errstate(invalid="ignore"):
+            apart = np.abs(depths[:, :, None] - (self.points[:, 2] - _SKIN))
+            shown |= (near[:, None] & (apart < _THICKNESS)).any(axis=2)
+        return shown
+
+
+def occluders(body: FloatArray, hands: dict[str, FloatArray]) -> Occluders:
+    """Find forearms and hands.
+
+    Args:
+        body: Joints in space [m]; NaN where not known. Shape (25, 3).
+        hands: Keypoints of the left ("L") and right ("R") hand, of those that are seen [m]. Shape (21, 3).
+    """
+    points, radius, owner = [np.zeros((0, 3))], [np.zeros(0)], [np.zeros(0)]
+
+    def add(start: FloatArray, end: FloatArray, half: float, row: int) -> None:
+        line = start + _STEPS[:, None] * (end - start)
+        if np.isfinite(line).all() and (line[:, 2] > 0.0).all():
+            points.append(line)
+            radius.append(np.full(len(line), half))
+            owner.append(np.full(len(line), row))
+
+    for side, (_, elbow, wrist) in ARMS.items():
+        add(body[elbow], body[wrist], _FOREARM, elbow)
+        hand = hands.get(side)
+        if hand is None or not np.isfinite(hand[_MIDDLE]).all():
+            add(body[wrist], body[wrist] + _LIKE_A_HAND * (body[wrist] - body[elbow]), _HAND, wrist)
+            continue
+        knuckle, tip = hand[_MIDDLE]
+        add(hand[0], knuckle, _HAND, wrist)
+        add(knuckle, tip, _HAND, wrist)
+    return Occluders(np.concatenate(points), np.concatenate(radius), np.concatenate(owner))

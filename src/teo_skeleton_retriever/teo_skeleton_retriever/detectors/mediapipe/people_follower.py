@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Several people, each followed by a graph of their own; a glance now and then finds who is new."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+import numpy as np
+
+from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.detectors.detector import ImageArray
+from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
+from teo_skeleton_retriever.detectors.mediapipe.people_graph import VIEWS, PeopleGraph, Sighting
+from teo_skeleton_retriever.errors import DetectorError
+
+# [images] between glances, each at another part: all of the image in half a second at 30 Hz, in which nobody
+# walks in and signs.
+LOOK_EVERY = 5
+# Nose, shoulders and hips among the pose's landmarks.
+_TRUNK = [0, 11, 12, 23, 24]
+# Mean distance of these of two poses, in lengths of the trunk, below which they are of one person. Who stands
+# right behind another is hidden.
+_SAME = 0.3
+
+
+class PeopleFollower:
+    """Follows up to some people from image to image. May be used by several threads, each with an image."""
+
+    def __init__(self, make_graph: Callable[[], HolisticGraph], finder: PeopleGraph, most: int) -> None:
+        """Know nobody yet.
+
+        Args:
+            make_graph: Makes what follows one person; called as people come.
+            finder: Tells who is there.
+            most: People who are followed at once.
+        """
+        self._make_graph = make_graph
+        self._finder = finder
+        self._most = most
+        self._order = threading.Lock()
+        self._looking = threading.Lock()
+        self._followed: dict[HolisticGraph, FloatArray] = {}  # the pose that each last saw
+        self._spare = [make_graph()]  # at once, as it takes a while
+        self._images = 0
+        self._closed = False
+
+    def follow(self, image: ImageArray) -> list[HolisticLandmarks]:
+        """Look at one image; give everybody who is found in it.
+
+        Args:
+            image: RGB. Shape (height, width, 3).
+
+        Raises:
+            DetectorError: A graph failed; none can be used any more.
+        """
+        with self._order:
+            if self._closed:
+                raise DetectorError("closed", "the detector was closed before it came to this image")
+            glance, rest = divmod(self._images, LOOK_EVERY)
+            views: tuple[str, ...] = (VIEWS[glance % len(VIEWS)],) if rest == 0 else ()
+            self._images += 1
+            begun = [(graph, graph.begin(image)) for graph in self._followed]
+        seen: dict[HolisticGraph, HolisticLandmarks] = {}
+        for graph, one in begun:
+            landmarks = graph.finish(one)
+            if landmarks.pose is not None and not _is_double(landmarks.pose, seen, image):
+                self._keep(graph, landmarks, seen)
+            else:
+                self._drop(graph)
+        if len(seen) < len(begun) or not seen:  # somebody was lost, or nobody was there
+            views = VIEWS
+        for view in views:
+            if len(seen) < self._most:
+                with self._looking:
+                    self._look(image, view, seen)
+        return list(seen.values())
+
+    def close(self) -> None:
+        """Finish the images at hand, then stop all graphs."""
+        with self._order:
+            self._closed = True
+            graphs = [*self._followed, *self._spare]
+        for graph in graphs:
+            graph.close()
+        with self._looking:
+            self._finder.close()
+
+    def _look(self, image: ImageArray, view: str, seen: dict[HolisticGraph, HolisticLandmarks]) -> None:
+        """Add to those who are seen whom the finder sees besides."""
+        height, width = image.shape[:2]
+        for sighting in self._finder.find(image, view):
+            if len(seen) >= self._most:
+                return
+            poses = [landmarks.pose for landmarks in seen.values() if landmarks.pose is not None]
+            if any(sighting.is_of(pose, width=width, height=height) for pose in poses):
+                continue
+            graph = self._graph_for(sighting, seen, width, height)
+            landmarks = graph.finish(graph.begin(image, sighting.region))
+            if landmarks.pose is not None and not _is_double(landmarks.pose, seen, image):
+                self._keep(graph, landmarks, seen)
+            else:
+                self._drop(graph)
+
+    def _graph_for(
+        self, sighting: Sighting, seen: dict[HolisticGraph, HolisticLandmarks], width: int, height: int
+    ) -> HolisticGraph:
+        """Choose who is to follow: the graph that did in an image worked on meanwhile, or a spare one."""
+        with self._order:
+            if self._closed:
+                raise DetectorError("closed", "the detector was closed before it came to this image")
+            for graph, pose in self._followed.items():
+                if graph not in seen and sighting.is_of(pose, width=width, height=height):
+                    return graph
+            graph = self._spare.pop() if self._spare else self._make_graph()
+            # Known to `close` from here on, and fed with the images after this one.
+            self._followed[graph] = np.full((1, 2), np.nan)
+            return graph
+
+    def _keep(
+        self,
+        graph: HolisticGraph,
+        landmarks: HolisticLandmarks,
+        seen: dict[HolisticGraph, HolisticLandmarks],
+    ) -> None:
+        assert landmarks.pose is not None
+        seen[graph] = landmarks
+        with self._order:
+            self._followed[graph] = landmarks.pose
+            if graph in self._spare:  # another image had lost the person meanwhile
+                self._spare.remove(graph)
+
+    def _drop(self, graph: HolisticGraph) -> None:
+        with self._order:
+            if self._followed.pop(graph, None) is not None:
+                self._spare.append(graph)
+
+
+def _is_double(pose: FloatArray, seen: dict[HolisticGraph, HolisticLandmarks], image: ImageArray) -> bool:
+    """Tell whether a pose is that of somebody who is seen already."""
+    size = np.array(image.shape[1::-1])
+    trunk = pose[_TRUNK, :2] * size
+    length = float(np.linalg.norm(trunk[1:3].mean(axis=0) - trunk[3:].mean(axis=0)))
+    others = (other.pose[_TRUNK, :2] * size for other in seen.values() if other.pose is not None)
+    return any(float(np.linalg.norm(trunk - other, axis=1).mean()) < _SAME * length for other in others)
