@@ -22,14 +22,15 @@ from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import COMMANDED_JOINTS, HOME, joint_limits
-from teo_sim_driver.joint_follower import Activity, JointFollower
+from teo_sim_driver.follower_report import Mode
+from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.message import SECOND, PlainTrajectory, plain_trajectory
 
 PERIOD = 0.01  # [s]
 WATCHED = 20.0  # [s] of the node in motion
 _TIMEOUT = 30.0  # [s] for the node to start
 _LONG, _SHORT = 60.0, 30.0  # trajectories [s], points 100 times a second
-_NODE = "from teo_sim_driver.driver_node import main; main()"
+_NODE = "from teo_sim_driver.node.driver_node import main; main()"
 
 
 def measure() -> list[Figure]:
@@ -65,7 +66,7 @@ def _follower() -> list[Figure]:
         checks.append(time.perf_counter() - begin)
     steps: list[float] = []
     now = 0
-    while follower.report().activity is Activity.FOLLOWING:
+    while follower.mode is Mode.MOVING:
         now += round(PERIOD * SECOND)
         begin = time.perf_counter()
         follower.step(now)

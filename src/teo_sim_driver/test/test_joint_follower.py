@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from teo_sim_driver.errors import DriverError, TrajectoryError
-from teo_sim_driver.joint_follower import Activity
+from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.message import SECOND, plain_trajectory
 
 START = 1_700_000_000 * SECOND
@@ -24,7 +24,7 @@ def test_it_stands_still_where_it_starts(new_follower, home):
     _, positions, velocities = run(follower, START, 1.0)
     np.testing.assert_array_equal(positions, np.tile(home, (100, 1)))
     assert not velocities.any()
-    assert follower.report().activity is Activity.HOLDING
+    assert follower.mode is Mode.HOLDING
 
 
 def test_a_start_outside_the_limits_is_refused(new_follower, home):
@@ -48,7 +48,7 @@ def test_it_follows_and_holds_the_last_point(new_follower, swing, limits, home):
     others = np.delete(positions, elbow, axis=1)
     np.testing.assert_array_equal(others, np.tile(np.delete(home, elbow), (500, 1)))
     report = follower.report()
-    assert (report.activity, report.accepted, report.limited_steps) == (Activity.HOLDING, 1, 0)
+    assert (report.mode, report.accepted, report.limited_steps) == (Mode.HOLDING, 1, 0)
 
 
 def test_a_refused_trajectory_changes_nothing(new_follower, swing):
@@ -85,7 +85,7 @@ def test_a_new_trajectory_takes_over_at_once_and_without_a_step(new_follower, sw
 def test_a_scheduled_trajectory_waits_for_its_time(new_follower, swing, home):
     follower = new_follower()
     follower.accept(swing(stamp=START + SECOND), START)
-    assert follower.report().activity is Activity.FOLLOWING
+    assert follower.mode is Mode.MOVING
     now, positions, _ = run(follower, START, 1.0)
     np.testing.assert_allclose(positions, np.tile(home, (100, 1)), rtol=0.0, atol=1e-12)
     immediate = new_follower()
@@ -129,14 +129,14 @@ def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, 
     follower = new_follower()
     follower.accept(swing(angle=-1.0), START)  # 0.86 rad/s at most
     now, _, v_before = run(follower, START, moment)
-    remaining = follower.stop(now)
-    assert 0.0 <= remaining <= 1.5 * 0.8727 / 5.2 + 1e-3
-    assert follower.report().activity is Activity.STOPPING or remaining == 0.0
+    remaining = follower.cancel(now)
+    assert 0.0 <= remaining <= 0.8727 / 5.2 + 5.2 / 105.0 + 1e-3
+    assert follower.mode is Mode.MOVING or remaining == 0.0
     _, positions, velocities = run(follower, now, 1.0)
     steps = int(np.ceil(remaining / 0.01 - 1e-9))
     assert not velocities[steps:].any()
     assert (positions[steps:] == positions[-1]).all()
-    assert follower.report().activity is Activity.HOLDING
+    assert follower.mode is Mode.HOLDING
     elbow = limits.names.index(ELBOW)
     u = np.linspace(moment / 4.0, 1.0, 4001)
     path = -((4.0 * u * (1.0 - u)) ** 3)
@@ -148,14 +148,14 @@ def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, 
 
 def test_stop_when_at_rest_says_so(new_follower):
     follower = new_follower()
-    assert follower.stop(START) == 0.0
-    assert follower.report().activity is Activity.HOLDING
+    assert follower.cancel(START) == 0.0
+    assert follower.mode is Mode.HOLDING
 
 
 def test_stop_forgets_a_scheduled_trajectory(new_follower, swing, home):
     follower = new_follower()
     follower.accept(swing(stamp=START + SECOND), START)
-    follower.stop(START)
+    follower.cancel(START)
     np.testing.assert_array_equal(run(follower, START, 3.0)[1][-1], home)
 
 
@@ -163,11 +163,11 @@ def test_while_stopping_a_trajectory_is_refused_and_afterwards_served(new_follow
     follower = new_follower()
     follower.accept(swing(angle=-1.0), START)
     now, _, _ = run(follower, START, 1.0)
-    follower.stop(now)
+    follower.cancel(now)
     with pytest.raises(TrajectoryError) as refusal:
         follower.accept(swing(), now)
     assert refusal.value.code == "stopping"
-    assert follower.stop(now) > 0.0  # a second stop changes nothing
+    assert follower.cancel(now) > 0.0  # a second stop changes nothing
     now, positions, _ = run(follower, now, 1.0)
     here = positions[-1]
     follower.accept(plain_trajectory(limits.names, [1.0], here[None], np.zeros((1, 28))), now)
