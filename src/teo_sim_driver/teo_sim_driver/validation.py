@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -142,9 +143,23 @@ def _schedule(points: Points, now: int, rules: Rules) -> tuple[float, int]:
     return max(ahead, 0) / SECOND, max(-ahead, 0)
 
 
+def _in_order(points: Points) -> Points:
+    """Columns in the driver's order."""
+    order = np.argsort(points.columns)
+    return replace(
+        points,
+        columns=points.columns[order],
+        positions=points.positions[:, order],
+        velocities=points.velocities[:, order],
+        accelerations=points.accelerations[:, order],
+    )
+
+
 def _with_all_joints(points: Points, start: MotionState, limits: JointLimits) -> Points:
-    """Columns in the driver's order; joints that the message leaves out hold their position."""
+    """All joints in the driver's order; those that the message leaves out hold their position."""
     count = len(limits.names)
+    if len(points.columns) == count:
+        return points
     left_out = np.setdiff1d(np.arange(count), points.columns)
     moving = left_out[np.abs(start.velocities[left_out]) > REST_VELOCITY]
     if len(moving):

@@ -142,7 +142,15 @@ def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, lim
     message, _ = random_message(rng, limits, home, 1.0)
     trajectory = watch.follower.accept(message, watch.now)
     watch.run(rng, rng.uniform(0.0, trajectory.duration))
-    watch.run(rng, watch.follower.cancel(watch.now) + 0.05)
+    remaining = watch.follower.cancel(watch.now)
+    # From the speed v with the deceleration d and the jerk j: v / d + d / j where d is reached, 2 sqrt(v / j)
+    # where not.
+    d, j = watch.follower.braking
+    top = limits.velocity.max()
+    assert remaining <= (top / d + d / j if top * j > d * d else 2.0 * np.sqrt(top / j)) + 1e-9
+    before = watch.state.positions
+    watch.run(rng, remaining + 0.05)
+    assert (np.abs(watch.state.positions - before) <= limits.velocity * 1.001 * remaining + 1e-6).all()
     assert watch.follower.mode is Mode.HOLDING
     assert not watch.state.velocities.any()
     assert watch.follower.report().limited_steps == 0
