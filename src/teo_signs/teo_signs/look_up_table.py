@@ -53,7 +53,8 @@ def held_entry(table: Path, gloss: str) -> Path | None:
         LutError: The directory cannot be looked at ("no_directory").
     """
     name = f"{gloss_key(gloss)}.json"
-    for directory in (table, *((default_lut_directory(),) if table == user_lut_directory() else ())):
+    directories = [table, default_lut_directory()] if table == user_lut_directory() else [table]
+    for directory in directories:
         try:
             if (directory / name).exists():
                 return directory / name
