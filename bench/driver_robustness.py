@@ -63,7 +63,7 @@ def _put(data: bytearray, place: int, kind: str, value: float) -> bytearray:
 
 
 def _length(rng: np.random.Generator) -> int:
-    """Place of the number of positions of a random point: before them, and what aligns them to eight bytes."""
+    """Place of the number of positions of a random point: before them, and what aligns them."""
     point = _FIRST + _STRIDE * int(rng.integers(0, _POINTS))
     return point - (4 if struct.unpack_from("<I", _DATA, point - 4) == (_JOINTS,) else 8)
 
