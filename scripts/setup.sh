@@ -89,7 +89,7 @@ install_requirements() {
     "${pip[@]}" "${building[@]}" "${options[@]}"
     repair_wheel_exports
     # The messages take longest to build and need nothing more: they are built while the rest is fetched.
-    build --packages-select teo_sign_msgs &
+    build --packages-select control_msgs teo_sign_msgs &
     options+=(-r requirements/run.txt)
     if [ "$level" = all ]; then
         options+=(-r requirements/train.txt -r requirements/retriever.txt -r requirements/capture.txt -r requirements/test.txt
