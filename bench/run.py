@@ -8,6 +8,7 @@ import platform
 
 import camera_path
 import driver_rate
+import driver_robustness
 import letters
 import lexicon
 import lifting
@@ -34,6 +35,7 @@ BENCHES = (
     spelling,
     lifting,
     driver_rate,
+    driver_robustness,
     translation,
     words,
     text_to_trajectory,

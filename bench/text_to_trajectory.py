@@ -4,8 +4,8 @@
 
 The bench stands in for driver and clock: simulated time runs with real time and the robot follows, until the
 motion of the whole sentence has arrived; then the clock is set past its end, so that 200 sentences take
-seconds instead of the hour that signing them would take. The baseline, in the same run, is the same text echoed by a
-process that does nothing with it: what DDS alone costs.
+seconds instead of the hour that signing them would take. The baseline, in the same run, is the same text
+echoed by a process that does nothing with it: what DDS alone costs.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     latencies: dict[str, list[float]] = {"text to trajectory": [], "DDS echo": []}
     with tempfile.TemporaryDirectory() as folder, Graph(log_folder=Path(folder)) as graph:
         graph.start("translator", "ros2", "run", "teo_sign_translator", "translator_node")
-        simulated = ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=")
+        simulated = ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=''")
         graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)
         graph.start("echo", sys.executable, "-c", _ECHO)
         wait(lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1)

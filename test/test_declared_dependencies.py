@@ -22,7 +22,7 @@ ROS = (
     "std_srvs", "trajectory_msgs", "visualization_msgs",
 )  # fmt: skip
 DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
-    **{name: (name, None) for name in (*ROS, *PACKAGES, "teo_sign_msgs")},
+    **{name: (name, None) for name in (*ROS, *PACKAGES, "teo_sign_msgs", "control_msgs")},
     "PIL": ("python3-pil", "pillow"),
     "anny": (None, "anny"),
     "av": (None, "av"),

@@ -13,7 +13,7 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
     ],
-    install_requires=["numpy"],
+    install_requires=["numpy", "ruckig"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
@@ -22,7 +22,7 @@ setup(
     extras_require={"test": ["hypothesis", "pytest", "scipy"]},
     entry_points={
         "console_scripts": [
-            "driver_node = teo_sim_driver.driver_node:main",
+            "driver_node = teo_sim_driver.node.driver_node:main",
         ],
     },
 )

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from ament_index_python.packages import get_package_share_directory
 
-# Of the genuine package, as its own build wrote it into follow_joint_trajectory__struct.h. A hash covers names,
+# Of the genuine package, as its own build wrote it into follow_joint_trajectory__struct.h. It covers names,
 # types and order of all fields, also of the messages within: both tolerances are in this one.
 GENUINE = "RIHS01_738ebcb7a2d7cfa42f9f1001cc99ce3a4383d1cfe508015d9be8485e4b1c66f6"
 

@@ -3,7 +3,8 @@
 """Simulated joint driver of TEO: executes joint trajectories as the robot would, or says why not."""
 
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
-from teo_sim_driver.joint_follower import FollowerReport, JointFollower
+from teo_sim_driver.follower_report import FollowerReport, Mode, Source
+from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.message import PlainTrajectory, TrajectoryLike, plain_trajectory
 from teo_sim_driver.rules import Rules
 from teo_sim_driver.trajectory import MotionState, Trajectory
@@ -13,11 +14,13 @@ __all__ = [
     "DriverError",
     "FollowerReport",
     "JointFollower",
+    "Mode",
     "MotionState",
     "PlainTrajectory",
     "Refusal",
     "Rules",
     "Scheduled",
+    "Source",
     "Trajectory",
     "TrajectoryError",
     "TrajectoryLike",

@@ -51,6 +51,15 @@ class Refusal(StrEnum):
     START_TOO_FAST = "start_too_fast"
     START_LEAVES_LIMITS = "start_leaves_limits"
     STOPPING = "stopping"
+    PAUSED = "paused"
+    STOPPED = "stopped"
+    FAULT = "fault"
+    INACTIVE = "inactive"
+    BAD_TOLERANCE = "bad_tolerance"
+    MULTI_DOF = "multi_dof"
+    BAD_ENCODING = "bad_encoding"
+    TOO_LARGE = "too_large"
+    TOO_MANY_WAITING = "too_many_waiting"
     INTERNAL = "internal"
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from teo_common.diagnostics import Diagnosis, Level, RateReport
 from teo_sim_driver.errors import TrajectoryError
-from teo_sim_driver.joint_follower import FollowerReport
+from teo_sim_driver.follower_report import FollowerReport, Mode
 
 # A tenth below the nominal rate: beyond the jitter of a busy machine.
 _SLOW = 0.9
@@ -26,9 +26,14 @@ def assess(
         nominal_rate: What the rate should be [Hz].
         before: The follower's report of the last time; what is new since then is judged.
     """
-    level, message = Level.OK, str(report.activity)
+    level, message = Level.OK, str(report.mode)
+    if report.reason:
+        message += f": {report.reason}"
+        level = Level.ERROR if report.mode is Mode.FAULT else Level.WARN
     refused = sum(report.refused.values())
-    if refused > (sum(before.refused.values()) if before else 0) and report.last_refusal:
+    if level is Level.ERROR:
+        pass
+    elif refused > (sum(before.refused.values()) if before else 0) and report.last_refusal:
         level, message = Level.WARN, f"trajectory refused: {report.last_refusal.code}"
     elif 0.0 < rate.rate < _SLOW * nominal_rate:
         level, message = Level.WARN, f"{rate.rate:.1f} steps per second instead of {nominal_rate:g}"
@@ -40,9 +45,12 @@ def assess(
 def _values(report: FollowerReport, rate: RateReport, refused: int) -> dict[str, str]:
     last = report.last_refusal
     values = {
-        "state": str(report.activity),
-        "elapsed [s]": f"{report.elapsed:.3f}",
-        "duration [s]": f"{report.duration:.3f}",
+        "state": str(report.mode),
+        "reason": report.reason,
+        "commanded by": str(report.source),
+        "speed scaling": f"{report.speed_scaling:.3f}",
+        "elapsed [s]": f"{report.path_time:.3f}",
+        "duration [s]": f"{report.path_duration:.3f}",
         "accepted": str(report.accepted),
         "refused": str(refused),
         "last refusal code": last.code if last else "",

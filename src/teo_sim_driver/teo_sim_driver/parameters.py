@@ -5,20 +5,18 @@
 from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
-from teo_sim_driver.joint_follower import DEFAULT_STOP_DECELERATION
+from teo_sim_driver.joint_follower import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
+from teo_sim_driver.plant import Faults
 from teo_sim_driver.rules import Rules
 
 _RULES = Rules()
+_FAULTS = Faults()
 
-PARAMETERS = (
-    ParameterRow(
-        name="update_rate",
-        default=100,
-        description="Steps and joint states per second [Hz]; TEO's own state is published at 100 Hz.",
-        low=10,
-        high=500,
-        read_only=True,
-    ),
+# How far a joint may be from where it was told to be before it counts as not following [rad], 5.7 deg: a
+# drive that is 0.11 s late at the greatest speed; what lags less is slow, not broken.
+DEFAULT_FOLLOWING_ERROR = 0.1
+
+RULE_PARAMETERS = (
     ParameterRow(
         name="start_tolerance",
         default=_RULES.start_tolerance,
@@ -52,11 +50,94 @@ PARAMETERS = (
         default=_RULES.allow_partial_joints_goal,
         description="Whether a trajectory may leave joints out, which then hold their position.",
     ),
+)
+
+FAULT_PARAMETERS = (
+    ParameterRow(
+        name="fault_frozen",
+        default=",".join(_FAULTS.frozen),
+        description="Injected: joints that do not move, by name, with commas between.",
+    ),
+    ParameterRow(
+        name="fault_limit_switches",
+        default=",".join(_FAULTS.limit_switches),
+        description="Injected: joints whose limit switch is pressed, by name, with commas between.",
+    ),
+    ParameterRow(
+        name="fault_lag",
+        default=_FAULTS.lag,
+        description="Injected: time constant of a first-order lag of every joint [s].",
+        low=0.0,
+        high=2.0,
+    ),
+    ParameterRow(
+        name="fault_tracking_error",
+        default=_FAULTS.tracking_error,
+        description="Injected: how far every joint is beyond where it was told to be [rad].",
+        low=-0.5,
+        high=0.5,
+    ),
+    ParameterRow(
+        name="fault_encoder_step",
+        default=_FAULTS.encoder_step,
+        description="Injected: positions are measured in steps of this size [rad].",
+        low=0.0,
+        high=0.1,
+    ),
+    ParameterRow(
+        name="fault_state_delay",
+        default=_FAULTS.state_delay,
+        description="Injected: joint states are published this much late, with their own stamps [s].",
+        low=0.0,
+        high=5.0,
+    ),
+    ParameterRow(
+        name="fault_state_loss",
+        default=_FAULTS.state_loss,
+        description="Injected: part of the joint states that is lost; 1 for all.",
+        low=0.0,
+        high=1.0,
+    ),
+)
+
+PARAMETERS = (
+    ParameterRow(
+        name="update_rate",
+        default=100,
+        description="Steps and joint states per second [Hz]; TEO's own state is published at 100 Hz.",
+        low=10,
+        high=500,
+        read_only=True,
+    ),
+    ParameterRow(
+        name="autostart",
+        default=True,
+        description=(
+            "Whether the node configures and activates itself, so that it works without a lifecycle manager."
+        ),
+        read_only=True,
+    ),
+    *RULE_PARAMETERS,
     ParameterRow(
         name="stop_deceleration",
         default=DEFAULT_STOP_DECELERATION,
-        description="Deceleration of the fastest joint when told to stop [rad/s^2].",
+        description="Greatest that stopping, pausing and scaling add to the fastest joint's [rad/s^2].",
         low=0.2,
         high=50.0,
     ),
+    ParameterRow(
+        name="stop_jerk",
+        default=DEFAULT_STOP_JERK,
+        description="Greatest jerk that stopping, pausing and scaling give the fastest joint [rad/s^3].",
+        low=1.0,
+        high=2000.0,
+    ),
+    ParameterRow(
+        name="following_error",
+        default=DEFAULT_FOLLOWING_ERROR,
+        description="How far a joint may be from where it was told to be before it is a fault [rad].",
+        low=0.001,
+        high=1.0,
+    ),
+    *FAULT_PARAMETERS,
 )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From a message to arrays: all that can be judged without knowing where the robot is."""
+"""From a message to arrays: all that can be judged without knowing the robot's limits, or where it is."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ import difflib
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.cdr import FIELDS
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.message import SECOND, PointLike, TimeLike, TrajectoryLike
+from teo_sim_driver.message import SECOND, TrajectoryLike
 from teo_sim_driver.rules import Rules
 
 
@@ -41,8 +44,65 @@ class Points:
     degrees: NDArray[np.int8]
 
 
-def read(message: TrajectoryLike, *, joints: Sequence[str], held: Collection[str], rules: Rules) -> Points:
-    """Read a message into arrays.
+class Fields(Protocol):
+    """A trajectory message as arrays, as it came; `cdr.CdrTrajectory` is one."""
+
+    @property
+    def stamp(self) -> tuple[int, int]:
+        """Of the header [s], [ns]."""
+
+    @property
+    def names(self) -> list[str]:
+        """Of the joints."""
+
+    @property
+    def count(self) -> int:
+        """Of the points."""
+
+    @property
+    def lengths(self) -> NDArray[np.int64]:
+        """Number of values of each of `cdr.FIELDS` at each point. Shape (n, 4)."""
+
+    @property
+    def times(self) -> NDArray[np.int64]:
+        """time_from_start of each point [s], [ns]. Shape (n, 2)."""
+
+    def table(self, field: int) -> FloatArray:
+        """One of `cdr.FIELDS`, 0 where a point does not give it; all that give it have the same number."""
+
+
+class MessageFields:
+    """The fields of a message that is made of objects."""
+
+    def __init__(self, message: TrajectoryLike) -> None:
+        self._points = message.points
+        self.names = list(message.joint_names)
+        self.stamp = (message.header.stamp.sec, message.header.stamp.nanosec)
+        self.count = len(self._points)
+
+    @cached_property
+    def lengths(self) -> NDArray[np.int64]:
+        """See `Fields`."""
+        return np.array([[len(getattr(point, name)) for name in FIELDS] for point in self._points])
+
+    @cached_property
+    def times(self) -> NDArray[np.int64]:
+        """See `Fields`."""
+        moments = (point.time_from_start for point in self._points)
+        return np.array([(moment.sec, moment.nanosec) for moment in moments], dtype=np.int64)
+
+    def table(self, field: int) -> FloatArray:
+        """See `Fields`."""
+        table = np.zeros((self.count, len(self.names)))
+        given = self.lengths[:, field] > 0
+        if given.any():
+            rows = (getattr(point, FIELDS[field]) for point in self._points)
+            table[given] = [row for row in rows if len(row)]
+        return table
+
+
+def read(message: Fields, *, joints: Sequence[str], held: Collection[str], rules: Rules) -> Points:
+    """Read a message into checked arrays.
 
     Args:
         message: As received.
@@ -53,29 +113,28 @@ def read(message: TrajectoryLike, *, joints: Sequence[str], held: Collection[str
     Raises:
         TrajectoryError: the message is malformed.
     """
-    names = list(message.joint_names)
+    names = message.names
     columns = _columns(names, joints, held, rules)
-    points = message.points
-    if not len(points):
+    if not message.count:
         raise TrajectoryError(Refusal.NO_POINTS, "expected at least one point, got none")
-    if len(points) > rules.max_points:
+    if message.count > rules.max_points:
         raise TrajectoryError(
             Refusal.TOO_MANY_POINTS,
-            f"expected at most {rules.max_points} points, got {len(points)}: send fewer, or in parts",
+            f"expected at most {rules.max_points} points, got {message.count}: send fewer, or in parts",
         )
-    _check_lengths(points, len(names))
-    stamp = _nanoseconds(message.header.stamp, "header.stamp")
-    times = _times(points, rules)
-    with_velocities = np.array([len(point.velocities) > 0 for point in points])
-    with_accelerations = np.array([len(point.accelerations) > 0 for point in points])
+    _check_lengths(message.lengths, len(names))
+    stamp = _stamp(message.stamp)
+    times = _times(message.times, rules)
+    positions, velocities, accelerations = (message.table(field) for field in range(3))
+    given = message.lengths > 0
     read_points = Points(
         stamp=stamp or None,
         columns=columns,
         times=times,
-        positions=np.array([point.positions for point in points], dtype=np.float64),
-        velocities=_table([point.velocities for point in points], with_velocities, len(names)),
-        accelerations=_table([point.accelerations for point in points], with_accelerations, len(names)),
-        degrees=(1 + 2 * with_velocities + 2 * with_accelerations).astype(np.int8),
+        positions=positions,
+        velocities=velocities,
+        accelerations=accelerations,
+        degrees=(1 + 2 * given[:, 1] + 2 * given[:, 2]).astype(np.int8),
     )
     _check_finite(read_points, names)
     return read_points
@@ -124,48 +183,54 @@ def _columns(
     return np.array([index[name] for name in names], dtype=np.intp)
 
 
-def _check_lengths(points: Sequence[PointLike], count: int) -> None:
-    for i, point in enumerate(points):
-        if len(point.positions) != count:
-            _refuse_length(i, "positions", len(point.positions), count)
-        velocities, accelerations = len(point.velocities), len(point.accelerations)
-        if velocities not in (0, count):
-            _refuse_length(i, "velocities", velocities, count)
-        if accelerations not in (0, count):
-            _refuse_length(i, "accelerations", accelerations, count)
-        if accelerations and not velocities:
+def _check_lengths(lengths: NDArray[np.int64], count: int) -> None:
+    """Refuse the first point that has another number of values than there are joints."""
+    wrong = lengths != count
+    wrong[:, 1:3] &= lengths[:, 1:3] != 0
+    wrong[:, 3] = lengths[:, 3] != 0
+    lone = (lengths[:, 2] != 0) & (lengths[:, 1] == 0)
+    bad = wrong.any(axis=1) | lone
+    if not bad.any():
+        return
+    i = int(np.argmax(bad))
+    for field in range(3):
+        if wrong[i, field]:
+            optional = ", or none" if field else ""
             raise TrajectoryError(
-                Refusal.ACCELERATIONS_WITHOUT_VELOCITIES,
-                f"point {i} has accelerations and no velocities: give both (quintic) or velocities (cubic)",
+                Refusal.WRONG_LENGTH,
+                f"point {i}: expected {count} {FIELDS[field]}, one for each joint name{optional}; "
+                f"got {lengths[i, field]}",
             )
-        if len(point.effort):
-            raise TrajectoryError(
-                Refusal.EFFORT_GIVEN,
-                f"point {i} has {len(point.effort)} efforts: this driver commands positions, leave them out",
-            )
-
-
-def _refuse_length(point: int, field: str, got: int, expected: int) -> None:
-    optional = "" if field == "positions" else ", or none"
-    raise TrajectoryError(
-        Refusal.WRONG_LENGTH,
-        f"point {point}: expected {expected} {field}, one for each joint name{optional}; got {got}",
-    )
-
-
-def _nanoseconds(time: TimeLike, field: str) -> int:
-    if not 0 <= time.nanosec < SECOND:
+    if lone[i]:
         raise TrajectoryError(
-            Refusal.BAD_TIME, f"{field}: expected nanosec in 0..999999999, got {time.nanosec}"
+            Refusal.ACCELERATIONS_WITHOUT_VELOCITIES,
+            f"point {i} has accelerations and no velocities: give both (quintic) or velocities (cubic)",
         )
-    return time.sec * SECOND + time.nanosec
-
-
-def _times(points: Sequence[PointLike], rules: Rules) -> NDArray[np.int64]:
-    times = np.array(
-        [_nanoseconds(point.time_from_start, f"point {i} time_from_start") for i, point in enumerate(points)],
-        dtype=np.int64,
+    raise TrajectoryError(
+        Refusal.EFFORT_GIVEN,
+        f"point {i} has {lengths[i, 3]} efforts: this driver commands positions, leave them out",
     )
+
+
+def _stamp(stamp: tuple[int, int]) -> int:
+    """Scheduled start [ns]; 0 for now."""
+    seconds, nanoseconds = stamp
+    if not 0 <= nanoseconds < SECOND:
+        raise TrajectoryError(
+            Refusal.BAD_TIME, f"header.stamp: expected nanosec in 0..999999999, got {nanoseconds}"
+        )
+    return seconds * SECOND + nanoseconds
+
+
+def _times(parts: NDArray[np.int64], rules: Rules) -> NDArray[np.int64]:
+    bad = (parts[:, 1] < 0) | (parts[:, 1] >= SECOND)
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise TrajectoryError(
+            Refusal.BAD_TIME,
+            f"point {i} time_from_start: expected nanosec in 0..999999999, got {parts[i, 1]}",
+        )
+    times = parts[:, 0] * SECOND + parts[:, 1]
     if times[0] < 0:
         raise TrajectoryError(
             Refusal.NEGATIVE_TIME, f"point 0: expected time_from_start >= 0 s, got {times[0] / SECOND:.9g} s"
@@ -184,23 +249,15 @@ def _times(points: Sequence[PointLike], rules: Rules) -> NDArray[np.int64]:
             f"expected a duration of at most {rules.max_duration:g} s, got {times[-1] / SECOND:.9g} s: "
             "send it in parts, or raise the parameter max_duration",
         )
-    return times
-
-
-def _table(rows: list[Sequence[float]], given: NDArray[np.bool_], columns: int) -> FloatArray:
-    """Rows of numbers, zeros where a row is not given."""
-    table = np.zeros((len(rows), columns))
-    if given.any():
-        table[given] = [row for row in rows if len(row)]
-    return table
+    return np.asarray(times)
 
 
 def _check_finite(points: Points, names: list[str]) -> None:
     for field in ("positions", "velocities", "accelerations"):
         values = getattr(points, field)
-        bad = np.argwhere(~np.isfinite(values))
-        if len(bad):
-            i, column = bad[0]
+        bad = ~np.isfinite(values)
+        if bad.any():
+            i, column = divmod(int(np.argmax(bad)), values.shape[1])
             raise TrajectoryError(
                 Refusal.NOT_FINITE,
                 f"point {i} {field}: expected a finite number for {names[column]}, got {values[i, column]}",

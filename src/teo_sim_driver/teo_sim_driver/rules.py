@@ -30,7 +30,7 @@ class Rules:
     """Longest trajectory [s]. A long sentence takes a minute; ten times that is a mistake of units."""
 
     max_points: int = 20000
-    """Most points in a message: 200 s at 100 Hz. Taking in that many holds the driver up for 0.3 s."""
+    """Most points in a message: 200 s at 100 Hz."""
 
     max_start_delay: float = 60.0
     """How far ahead a start may be scheduled [s]; more means that the clocks do not agree."""

@@ -109,6 +109,17 @@ class Trajectory:
         stop = int(np.searchsorted(self.times, end, side="left"))
         return slice(min(max(first, 0), last), min(stop, last))
 
+    def first_segment(self) -> Trajectory:
+        """The part up to the second point; all of a trajectory of one point."""
+        two = slice(0, 2)
+        return Trajectory(
+            self.times[two],
+            self.positions[two],
+            self.velocities[two],
+            self.accelerations[two],
+            self.degrees[:1],
+        )
+
     def cut(self, start: float, end: float) -> Trajectory:
         """Take the part between two times 0 <= start < end [s], standing still after the last point."""
         inside = slice(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,7 @@ from teo_description import JointLimits
 from teo_sim_driver.bezier import FloatArray, first_excess
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.message import SECOND, TrajectoryLike
-from teo_sim_driver.reading import Points, listed, read
+from teo_sim_driver.reading import Fields, MessageFields, Points, listed, read
 from teo_sim_driver.rules import POSITION_TOLERANCE, REST_VELOCITY, VELOCITY_TOLERANCE, Rules
 from teo_sim_driver.trajectory import MotionState, Trajectory
 
@@ -31,6 +32,79 @@ class Scheduled(NamedTuple):
     """From the robot's state at the start to the last point."""
 
 
+def check(message: Fields, *, limits: JointLimits, rules: Rules, held: Collection[str] = ()) -> Points:
+    """Check all of a message that can be judged without knowing where the robot is; takes its time.
+
+    Args:
+        message: As received.
+        limits: Of the commanded joints, in the driver's order.
+        rules: Limits on the message.
+        held: Names of joints that the robot has and the driver never moves.
+
+    Raises:
+        TrajectoryError: with one reason, the first found; nothing of the message may be executed.
+    """
+    points = read(message, joints=limits.names, held=held, rules=rules)
+    columns = points.columns
+    limits = JointLimits(
+        names=tuple(limits.names[i] for i in columns),
+        lower=limits.lower[columns],
+        upper=limits.upper[columns],
+        velocity=limits.velocity[columns],
+    )
+    _check_points(points, limits)
+    trajectory = Trajectory(
+        points.times / SECOND,
+        points.positions,
+        points.velocities,
+        points.accelerations,
+        np.minimum(points.degrees[:-1], points.degrees[1:]),
+    )
+    _check_between(
+        trajectory, limits, lambda segment: f"between points {segment} and {segment + 1}", _BETWEEN
+    )
+    return points
+
+
+def schedule(
+    points: Points,
+    *,
+    limits: JointLimits,
+    rules: Rules,
+    now: int,
+    state_in: Callable[[float], MotionState],
+) -> Scheduled:
+    """Make checked points ready to be executed from where the robot is; takes little time.
+
+    The trajectory begins at the robot's own state at the start. Points that are due at the start or before
+    are not executed: they say where the sender believes the robot to be, and are compared with where it is.
+
+    Args:
+        points: As `check` returned them.
+        limits: Of the commanded joints, in the driver's order.
+        rules: Limits on the message.
+        now: [ns], on the clock of the message's stamp.
+        state_in: The state of the commanded joints in so many seconds from now, if nothing new came.
+
+    Raises:
+        TrajectoryError: with one reason, the first found; nothing of the message may be executed.
+    """
+    delay, passed = _schedule(points, now, rules)
+    start = state_in(delay)
+    points = _with_all_joints(points, start, limits)
+    due = _times_from_start(points, passed)
+    if due[0] <= 0.0:
+        _check_start(points, due, start, limits, rules)
+    trajectory, first = _from_state(points, due, start)
+    _check_between(
+        trajectory.first_segment(),
+        limits,
+        lambda _: f"between the robot's present state and point {first}",
+        _START,
+    )
+    return Scheduled(delay, trajectory)
+
+
 def validate(
     message: TrajectoryLike,
     *,
@@ -40,34 +114,13 @@ def validate(
     state_in: Callable[[float], MotionState],
     held: Collection[str] = (),
 ) -> Scheduled:
-    """Check a message in every respect and make it ready to be executed.
-
-    The trajectory begins at the robot's own state at the start. Points that are due at the start or before
-    are not executed: they say where the sender believes the robot to be, and are compared with where it is.
-
-    Args:
-        message: As received.
-        limits: Of the commanded joints, in the driver's order.
-        rules: Limits on the message.
-        now: [ns], on the clock of the message's stamp.
-        state_in: The state of the commanded joints in so many seconds from now, if nothing new came.
-        held: Names of joints that the robot has and the driver never moves.
+    """Check a message in every respect and make it ready: `check` and `schedule` in one.
 
     Raises:
         TrajectoryError: with one reason, the first found; nothing of the message may be executed.
     """
-    points = read(message, joints=limits.names, held=held, rules=rules)
-    delay, passed = _schedule(points, now, rules)
-    start = state_in(delay)
-    points = _with_all_joints(points, start, limits)
-    _check_points(points, limits)
-    due = _times_from_start(points, passed)
-    if due[0] <= 0.0:
-        _check_start(points, due, start, limits, rules)
-    trajectory, first = _from_state(points, due, start)
-    with np.errstate(over="ignore", invalid="ignore"):  # absurd accelerations overflow, and are then refused
-        _check_between(trajectory, first, limits)
-    return Scheduled(delay, trajectory)
+    points = check(MessageFields(message), limits=limits, rules=rules, held=held)
+    return schedule(points, limits=limits, rules=rules, now=now, state_in=state_in)
 
 
 def _schedule(points: Points, now: int, rules: Rules) -> tuple[float, int]:
@@ -90,9 +143,23 @@ def _schedule(points: Points, now: int, rules: Rules) -> tuple[float, int]:
     return max(ahead, 0) / SECOND, max(-ahead, 0)
 
 
+def _in_order(points: Points) -> Points:
+    """Columns in the driver's order."""
+    order = np.argsort(points.columns)
+    return replace(
+        points,
+        columns=points.columns[order],
+        positions=points.positions[:, order],
+        velocities=points.velocities[:, order],
+        accelerations=points.accelerations[:, order],
+    )
+
+
 def _with_all_joints(points: Points, start: MotionState, limits: JointLimits) -> Points:
-    """Columns in the driver's order; joints that the message leaves out hold their position."""
+    """All joints in the driver's order; those that the message leaves out hold their position."""
     count = len(limits.names)
+    if len(points.columns) == count:
+        return points
     left_out = np.setdiff1d(np.arange(count), points.columns)
     moving = left_out[np.abs(start.velocities[left_out]) > REST_VELOCITY]
     if len(moving):
@@ -199,8 +266,24 @@ def _from_state(points: Points, due: FloatArray, start: MotionState) -> tuple[Tr
     )
 
 
-def _check_between(trajectory: Trajectory, first: int, limits: JointLimits) -> None:
-    """Refuse what is over a limit between points; `first` is the number of the point that ends segment 0."""
+class _Codes(NamedTuple):
+    """Why a segment is refused, by where it is."""
+
+    position: Refusal
+    velocity: Refusal
+    speed: Refusal
+
+
+_BETWEEN = _Codes(
+    Refusal.POSITION_BETWEEN_POINTS, Refusal.VELOCITY_BETWEEN_POINTS, Refusal.SPEED_BETWEEN_POINTS
+)
+_START = _Codes(Refusal.START_LEAVES_LIMITS, Refusal.START_TOO_FAST, Refusal.START_TOO_FAST)
+
+
+def _check_between(
+    trajectory: Trajectory, limits: JointLimits, place: Callable[[int], str], codes: _Codes
+) -> None:
+    """Refuse what is over a limit between points; `place` names a segment."""
     top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
     low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
     count = len(trajectory.degrees)
@@ -209,41 +292,28 @@ def _check_between(trajectory: Trajectory, first: int, limits: JointLimits) -> N
         durations = trajectory.durations(span)
         steps = np.diff(trajectory.positions[span.start : span.stop + 1], axis=0)
         for i, j in _where(np.abs(steps) > top * durations[:, None]):
-            segment = begin + i
-            place = _place(segment, first)
             raise TrajectoryError(
-                Refusal.START_TOO_FAST if segment == 0 else Refusal.SPEED_BETWEEN_POINTS,
-                f"{place}, {limits.names[j]} has {durations[i]:.6g} s for {abs(steps[i, j]):.4f} rad: "
-                f"{abs(steps[i, j]) / durations[i]:.4g} rad/s; limit {limits.velocity[j]:.4f} rad/s",
+                codes.speed,
+                f"{place(begin + i)}, {limits.names[j]} has {durations[i]:.6g} s for "
+                f"{abs(steps[i, j]):.4f} rad: {abs(steps[i, j]) / durations[i]:.4g} rad/s; "
+                f"limit {limits.velocity[j]:.4f} rad/s",
             )
-        for what, control, lower, upper in (
-            ("velocity", trajectory.velocity_control(span), -top, top),
-            ("position", trajectory.position_control(span), low, high),
-        ):
-            excess = first_excess(control, lower, upper)
-            if excess is None:
-                continue
-            segment, j = begin + excess.segment, excess.joint
-            code, bounds = _between_code(what, segment), (lower[j], upper[j])
-            moment = trajectory.times[segment] + excess.fraction * durations[excess.segment]
-            raise TrajectoryError(
-                code,
-                f"{_place(segment, first)}, the curve through the given points takes {limits.names[j]} to a "
-                f"{what} of {excess.value:.6g} {'rad' if what == 'position' else 'rad/s'}, "
-                f"{moment:.3f} s after the start; it must stay within {bounds[0]:.4f} .. {bounds[1]:.4f}",
-            )
-
-
-def _between_code(what: str, segment: int) -> Refusal:
-    if what == "position":
-        return Refusal.START_LEAVES_LIMITS if segment == 0 else Refusal.POSITION_BETWEEN_POINTS
-    return Refusal.START_TOO_FAST if segment == 0 else Refusal.VELOCITY_BETWEEN_POINTS
-
-
-def _place(segment: int, first: int) -> str:
-    if segment == 0:
-        return f"between the robot's present state and point {first}"
-    return f"between points {first + segment - 1} and {first + segment}"
+        with np.errstate(over="ignore", invalid="ignore"):  # absurd accelerations overflow, and are refused
+            for what, unit, code, control, lower, upper in (
+                ("velocity", "rad/s", codes.velocity, trajectory.velocity_control(span), -top, top),
+                ("position", "rad", codes.position, trajectory.position_control(span), low, high),
+            ):
+                excess = first_excess(control, lower, upper)
+                if excess is None:
+                    continue
+                segment, j = begin + excess.segment, excess.joint
+                moment = trajectory.times[segment] + excess.fraction * durations[excess.segment]
+                raise TrajectoryError(
+                    code,
+                    f"{place(segment)}, the curve through the given points takes {limits.names[j]} to a "
+                    f"{what} of {excess.value:.6g} {unit}, {moment:.3f} s after the start; it must stay "
+                    f"within {lower[j]:.4f} .. {upper[j]:.4f}",
+                )
 
 
 def _where(bad: NDArray[np.bool_]) -> list[tuple[int, int]]:

@@ -2,16 +2,28 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import time
+from array import array
 from collections.abc import Callable
 
 import numpy as np
 import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from numpy.typing import NDArray
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+from teo_sign_msgs.msg import DriverState
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, JointLimits, joint_limits
+from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS, JointLimits, joint_limits
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.message import PlainTrajectory, plain_trajectory
+from teo_sim_driver.node.driver_node import DriverNode
 
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PERIOD = 0.01  # [s]
 START = 1_700_000_000_000_000_000  # a time of day as ROS counts it [ns]
 
@@ -60,3 +72,117 @@ def swing(limits: JointLimits, home: NDArray[np.float64]) -> Callable[..., Plain
         return plain_trajectory(limits.names, times, *derivatives, **stamp)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def as_ros() -> Callable[[PlainTrajectory], JointTrajectory]:
+    """Makes a ROS message of a plain one."""
+    return _as_ros
+
+
+def _as_ros(plain):
+    message = JointTrajectory(joint_names=list(plain.joint_names))
+    message.header.stamp.sec = plain.header.stamp.sec
+    message.header.stamp.nanosec = plain.header.stamp.nanosec
+    for point in plain.points:
+        ros = JointTrajectoryPoint(
+            positions=array("d", point.positions),
+            velocities=array("d", point.velocities),
+            accelerations=array("d", point.accelerations),
+        )
+        ros.time_from_start.sec = point.time_from_start.sec
+        ros.time_from_start.nanosec = point.time_from_start.nanosec
+        message.points.append(ros)
+    return message
+
+
+@pytest.fixture(scope="session")
+def one_way(swing: Callable[..., PlainTrajectory]) -> Callable[..., JointTrajectory]:
+    """The first half of a swing as a ROS message; it ends at rest at its angle."""
+
+    def make(**arguments: object) -> JointTrajectory:
+        message = _as_ros(swing(**arguments))
+        del message.points[len(message.points) // 2 :]
+        return message
+
+    return make
+
+
+PATIENCE = 20.0  # [s]; a busy machine is slow, not wrong
+
+
+class Bench:
+    """The driver and a client that hears everything, in one process and a DDS domain of their own."""
+
+    def __init__(self, context, **driver_arguments):
+        self.driver = DriverNode(context=context, **driver_arguments)
+        self.client = rclpy.create_node("client", context=context)
+        self.executor = SingleThreadedExecutor(context=context)
+        self.executor.add_node(self.driver)
+        self.executor.add_node(self.client)
+        self.states: list[JointState] = []
+        self.diagnostics: list[DiagnosticArray] = []
+        self.client.create_subscription(JointState, "joint_states", self.states.append, 10)
+        self.client.create_subscription(DiagnosticArray, "diagnostics", self.diagnostics.append, 10)
+        self.commands = self.client.create_publisher(JointTrajectory, "joint_trajectory", 10)
+        self.driver_states: list[DriverState] = []
+        self.client.create_subscription(DriverState, "driver_state", self.driver_states.append, LATCHED)
+        self.triggers = {
+            name: self.client.create_client(Trigger, name) for name in ("stop", "rearm", "pause", "resume")
+        }
+        self.until(lambda: self.states and self.commands.get_subscription_count())
+
+    def until(self, condition: Callable[[], object]) -> None:
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < deadline, "it did not happen in time"
+            self.executor.spin_once(timeout_sec=0.1)
+
+    def call(self, name):
+        """Answer of one of the driver's Trigger services."""
+        client = self.triggers[name]
+        self.until(client.service_is_ready)
+        answer = client.call_async(Trigger.Request())
+        self.until(answer.done)
+        return answer.result()
+
+    def mode(self):
+        return self.driver_states[-1].mode if self.driver_states else None
+
+    def position(self, joint):
+        return self.states[-1].position[ALL_JOINTS.index(joint)]
+
+    def said(self, key):
+        return {pair.key: pair.value for pair in self.diagnostics[-1].status[0].values}[key]
+
+    def close(self):
+        self.executor.shutdown()
+        self.client.destroy_node()
+        self.driver.destroy_node()
+
+
+@pytest.fixture
+def context(domain_id):
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    yield context
+    rclpy.try_shutdown(context=context)
+
+
+@pytest.fixture
+def new_bench(context):
+    """Makes a bench; the arguments are the driver's."""
+    made = []
+
+    def make(**driver_arguments):
+        made.append(Bench(context, **driver_arguments))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+@pytest.fixture
+def bench(new_bench):
+    return new_bench()

@@ -1,110 +1,39 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
+import signal
+import subprocess
+import sys
 import time
 from array import array
-from collections.abc import Callable
 
 import numpy as np
-import pytest
 import rclpy
-from diagnostic_msgs.msg import DiagnosticArray
+from control_msgs.msg import SpeedScalingFactor
+from lifecycle_msgs.msg import Transition
+from lifecycle_msgs.srv import ChangeState
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, String
-from std_srvs.srv import Trigger
+from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
-from teo_sim_driver.driver_node import DriverNode
 from teo_sim_driver.parameters import PARAMETERS
 
-PATIENCE = 20.0  # [s]; a busy machine is slow, not wrong
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-class Bench:
-    """The driver and a client that hears everything, in one process and a DDS domain of their own."""
-
-    def __init__(self, context, **driver_arguments):
-        self.driver = DriverNode(context=context, **driver_arguments)
-        self.client = rclpy.create_node("client", context=context)
-        self.executor = SingleThreadedExecutor(context=context)
-        self.executor.add_node(self.driver)
-        self.executor.add_node(self.client)
-        self.states: list[JointState] = []
-        self.diagnostics: list[DiagnosticArray] = []
-        self.client.create_subscription(JointState, "joint_states", self.states.append, 10)
-        self.client.create_subscription(DiagnosticArray, "diagnostics", self.diagnostics.append, 10)
-        self.commands = self.client.create_publisher(JointTrajectory, "joint_trajectory", 10)
-        self.stop = self.client.create_client(Trigger, "stop")
-        self.until(lambda: self.states and self.commands.get_subscription_count())
-
-    def until(self, condition: Callable[[], object]) -> None:
-        deadline = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < deadline, "it did not happen in time"
-            self.executor.spin_once(timeout_sec=0.1)
-
-    def position(self, joint):
-        return self.states[-1].position[ALL_JOINTS.index(joint)]
-
-    def said(self, key):
-        return {pair.key: pair.value for pair in self.diagnostics[-1].status[0].values}[key]
-
-    def close(self):
-        self.executor.shutdown()
-        self.client.destroy_node()
-        self.driver.destroy_node()
-
-
-@pytest.fixture
-def context(domain_id):
-    context = rclpy.Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    yield context
-    rclpy.try_shutdown(context=context)
-
-
-@pytest.fixture
-def bench(context):
-    bench = Bench(context)
-    yield bench
-    bench.close()
-
-
-def as_ros(plain):
-    message = JointTrajectory(joint_names=list(plain.joint_names))
-    message.header.stamp.sec = plain.header.stamp.sec
-    message.header.stamp.nanosec = plain.header.stamp.nanosec
-    for point in plain.points:
-        ros = JointTrajectoryPoint(
-            positions=array("d", point.positions),
-            velocities=array("d", point.velocities),
-            accelerations=array("d", point.accelerations),
-        )
-        ros.time_from_start.sec = point.time_from_start.sec
-        ros.time_from_start.nanosec = point.time_from_start.nanosec
-        message.points.append(ros)
-    return message
-
-
-def one_way(swing, **arguments):
-    """The first half of a swing, which ends at rest at its angle."""
-    message = as_ros(swing(**arguments))
-    del message.points[len(message.points) // 2 :]
-    return message
-
-
-def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches_its_goal(bench, swing):
+def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches_its_goal(bench, one_way):
     first = bench.states[0]
     assert tuple(first.name) == ALL_JOINTS
     np.testing.assert_array_equal(first.position, [HOME[name] for name in ALL_JOINTS])
     assert list(first.velocity) == [0.0] * 40
     assert list(first.effort) == []
 
-    bad = one_way(swing, duration=2.0, angle=-0.2)
+    bad = one_way(duration=2.0, angle=-0.2)
     bad.points[4].positions[7] = float("nan")
     bench.commands.publish(bad)
     bench.until(lambda: bench.diagnostics and bench.said("refused") == "1")
@@ -112,7 +41,7 @@ def test_a_bad_trajectory_is_refused_with_its_reason_and_a_good_one_then_reaches
     assert "FrontalLeftElbow" in bench.said("last refusal")
     assert bench.diagnostics[-1].status[0].level == b"\x01"
 
-    good = one_way(swing, duration=2.0, angle=-0.2)
+    good = one_way(duration=2.0, angle=-0.2)
     del bench.states[1:]
     bench.commands.publish(good)
     goal = good.points[-1].positions[13]
@@ -139,33 +68,176 @@ def test_the_robot_description_and_the_hand_setpoints_reach_a_late_subscriber(be
     assert [dimension.size for dimension in hands[0].layout.dim] == [2, 6]
 
 
-def test_a_finger_that_moves_is_told_to_the_hand_as_tendon_travel(bench, swing):
+def test_a_finger_that_moves_is_told_to_the_hand_as_tendon_travel(bench, one_way):
     hands = []
     bench.client.create_subscription(Float64MultiArray, "dextra_setpoints", hands.append, LATCHED)
-    bench.commands.publish(one_way(swing, joint="RightIndexFinger", angle=np.radians(39.0), duration=4.0))
+    bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=4.0))
     bench.until(lambda: hands and abs(hands[-1].data[8] - 10.0) < 1e-9)  # half of its way
     others = np.delete(np.subtract(hands[-1].data, [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0] * 2), 8)  # from home
     np.testing.assert_allclose(others, 0.0, atol=1e-9)
 
 
-def test_told_to_stop_it_comes_to_rest_on_the_way(bench, swing):
-    bench.until(bench.stop.service_is_ready)
-    bench.commands.publish(one_way(swing, duration=6.0, angle=-1.0))
+def test_told_to_stop_it_comes_to_rest_on_the_way_and_takes_nothing_until_re_armed(bench, one_way):
+    bench.commands.publish(one_way(duration=6.0, angle=-1.0))
     bench.until(lambda: bench.position("FrontalRightElbow") < -0.05)
-    answer = bench.stop.call_async(Trigger.Request())
-    bench.until(answer.done)
-    assert answer.result().success
-    assert "at rest in" in answer.result().message
+    answer = bench.call("stop")
+    assert answer.success
+    assert "at rest in" in answer.message
+    assert not bench.call("rearm").success  # not before it stands
     bench.until(lambda: not any(bench.states[-1].velocity))
-    assert -0.9 < bench.position("FrontalRightElbow") < -0.05
     where = bench.position("FrontalRightElbow")
-    count = len(bench.states)
-    bench.until(lambda: len(bench.states) > count + 20)
+    assert -0.9 < where < -0.05
+    bench.until(lambda: bench.mode() == DriverState.MODE_STOPPED and bench.driver_states[-1].at_rest)
+
+    home = one_way(duration=1.0, angle=0.0)  # a way back to home
+    for point in home.points:
+        point.time_from_start.sec += 3
+    bench.commands.publish(home)
+    bench.until(lambda: bench.driver_states[-1].refusal_code == "stopped")
     assert bench.position("FrontalRightElbow") == where
+    assert bench.call("rearm").success
+    bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
+    bench.commands.publish(home)
+    bench.until(lambda: bench.position("FrontalRightElbow") == HOME["FrontalRightElbow"])
 
 
-def test_garbage_is_survived(bench, swing):
-    good = one_way(swing, duration=2.0, angle=-0.1)
+def test_a_pause_and_a_slower_speed_keep_to_the_path(bench, one_way):
+    factors = bench.client.create_publisher(SpeedScalingFactor, "speed_scaling_input", 1)
+    bench.until(factors.get_subscription_count)
+    bench.commands.publish(one_way(duration=2.0, angle=-0.2))
+    bench.until(lambda: bench.position("FrontalRightElbow") < -0.02)
+    assert bench.call("pause").success
+    bench.until(lambda: not any(bench.states[-1].velocity))
+    bench.until(lambda: bench.mode() == DriverState.MODE_PAUSED and bench.driver_states[-1].at_rest)
+    assert bench.position("FrontalRightElbow") > -0.19
+    assert bench.driver_states[-1].source == DriverState.SOURCE_TOPIC
+    bench.commands.publish(one_way(duration=2.0, angle=-0.2))
+    bench.until(lambda: bench.driver_states[-1].refusal_code == "paused")
+
+    factors.publish(SpeedScalingFactor(factor=-1.0))  # ignored
+    factors.publish(SpeedScalingFactor(factor=0.5))
+    bench.until(lambda: bench.driver._follower._scaling == 0.5)
+    assert bench.call("resume").success
+    bench.until(lambda: bench.driver_states[-1].speed_scaling == 0.5)
+    bench.until(lambda: abs(bench.position("FrontalRightElbow") + 0.2) < 1e-9)
+    assert not bench.call("resume").success
+
+
+def test_it_moves_only_while_its_lifecycle_is_active(new_bench, one_way):
+    bench = new_bench(parameter_overrides=[Parameter("autostart", value=False)])
+
+    def change(transition):
+        answer = changes.call_async(ChangeState.Request(transition=Transition(id=transition)))
+        bench.until(answer.done)
+        return answer.result().success
+
+    changes = bench.client.create_client(ChangeState, "teo_sim_driver/change_state")
+    bench.until(changes.service_is_ready)
+    bench.until(lambda: bench.mode() == DriverState.MODE_INACTIVE)
+    bench.commands.publish(one_way())
+    bench.until(lambda: bench.driver_states[-1].refusal_code == "inactive")
+    assert change(Transition.TRANSITION_CONFIGURE)
+    assert change(Transition.TRANSITION_ACTIVATE)
+    bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
+    bench.commands.publish(one_way(duration=4.0, angle=-0.5))
+    bench.until(lambda: bench.position("FrontalRightElbow") < -0.05)
+    assert change(Transition.TRANSITION_DEACTIVATE)
+    bench.until(lambda: bench.mode() == DriverState.MODE_INACTIVE and bench.driver_states[-1].at_rest)
+    assert not any(bench.states[-1].velocity)
+    assert bench.position("FrontalRightElbow") > -0.5
+
+
+def test_a_joint_that_does_not_follow_is_a_fault_and_afterwards_held_where_it_is(bench, one_way):
+    def inject(**faults):
+        result = bench.driver.set_parameters(
+            [Parameter(f"fault_{name}", value=value) for name, value in faults.items()]
+        )
+        return all(each.successful for each in result)
+
+    assert not inject(frozen="NoSuchJoint")
+    assert inject(frozen="FrontalRightElbow")
+    bench.commands.publish(one_way(duration=4.0, angle=-0.5))
+    bench.until(lambda: bench.mode() == DriverState.MODE_FAULT and bench.driver_states[-1].at_rest)
+    assert "FrontalRightElbow does not follow" in bench.driver_states[-1].message
+    assert bench.position("FrontalRightElbow") == HOME["FrontalRightElbow"]
+    bench.until(lambda: bench.diagnostics and bench.diagnostics[-1].status[0].level == b"\x02")
+    assert inject(frozen="")
+    assert bench.call("rearm").success
+    bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
+    assert bench.position("FrontalRightElbow") == HOME["FrontalRightElbow"]  # it does not leap to its goal
+
+    assert inject(limit_switches="AxialNeck, AxialTrunk")
+    bench.until(lambda: bench.mode() == DriverState.MODE_FAULT)
+    assert "AxialNeck, AxialTrunk" in bench.driver_states[-1].message
+    assert not bench.call("rearm").success
+    assert inject(limit_switches="")
+    assert bench.call("rearm").success
+
+
+def test_states_that_are_lost_or_late_are_seen_so(bench, one_way):
+    def inject(name, value):
+        assert bench.driver.set_parameters([Parameter(name, value=value)])[0].successful
+
+    inject("fault_state_delay", 0.5)
+    del bench.states[:]
+    bench.until(lambda: len(bench.states) > 3)
+    now = bench.driver.get_clock().now().nanoseconds
+    stamp = bench.states[-1].header.stamp
+    assert now - (stamp.sec * 10**9 + stamp.nanosec) > 0.45e9
+    inject("fault_state_loss", 1.0)
+    bench.commands.publish(one_way())
+    bench.until(lambda: bench.driver_states[-1].path_time > 1.0)  # it moves, and nobody hears of it
+    assert len(bench.states) < 100
+
+
+def test_messages_of_20000_and_100000_points_do_not_stop_the_joint_states(context, one_way):
+    driver = subprocess.Popen(
+        [sys.executable, "-c", "from teo_sim_driver.node.driver_node import main; main()"],
+        stderr=subprocess.DEVNULL,
+    )
+    heard: list[JointState] = []
+    refusals: list[DriverState] = []
+    client = rclpy.create_node("client", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(client)
+    client.create_subscription(JointState, "joint_states", heard.append, 1000)
+    client.create_subscription(DriverState, "driver_state", refusals.append, LATCHED)
+    commands = client.create_publisher(JointTrajectory, "joint_trajectory", 10)
+
+    def until(condition):
+        deadline = time.monotonic() + 30.0
+        while not condition():
+            assert time.monotonic() < deadline, "it did not happen in time"
+            executor.spin_once(timeout_sec=0.1)
+
+    try:
+        until(lambda: heard and refusals and commands.get_subscription_count())
+        message = one_way(duration=2.0, angle=-0.2)
+        first = message.points[0]
+        for i, (count, code) in enumerate(((20_000, "times_not_increasing"), (100_000, "too_large"))):
+            message.points = [first] * count
+            data = serialize_message(message)
+            begin = time.monotonic()
+            deserialize_message(data, JointTrajectory)
+            as_objects = time.monotonic() - begin
+            executor.spin_once(timeout_sec=0.0)
+            heard.clear()
+            commands.publish(data)
+            until(lambda i=i: refusals[-1].refused == i + 1)
+            assert refusals[-1].refusal_code == code
+            until(lambda: len(heard) > 20)
+            stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
+            # To make objects of the message alone took this long on this machine now.
+            assert np.diff(stamps).max() < max(0.5 * as_objects, 0.05)
+    finally:
+        driver.send_signal(signal.SIGINT)
+        driver.wait()
+        executor.shutdown()
+        client.destroy_node()
+
+
+def test_garbage_is_survived(bench, one_way):
+    good = one_way(duration=2.0, angle=-0.1)
     garbage = [JointTrajectory() for _ in range(6)]
     garbage[1].joint_names = ["", "\x01", "ñandú"]
     garbage[2].joint_names = list(good.joint_names)
@@ -184,16 +256,16 @@ def sum_refused(bench):
     return sum(bench.driver._follower.report().refused.values())
 
 
-def test_a_fault_of_its_own_is_reported_and_does_not_end_it(bench, swing, monkeypatch):
+def test_a_fault_of_its_own_is_reported_and_does_not_end_it(bench, one_way, monkeypatch):
     def fault(*_, **__):
         raise ZeroDivisionError("on purpose")
 
     with monkeypatch.context() as patch:
-        patch.setattr("teo_sim_driver.joint_follower.validate", fault)
-        bench.commands.publish(one_way(swing))
+        patch.setattr("teo_sim_driver.intake.check", fault)
+        bench.commands.publish(one_way())
         bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "internal")
     assert "on purpose" in bench.said("last refusal")
-    bench.commands.publish(one_way(swing))
+    bench.commands.publish(one_way())
     bench.until(lambda: bench.position("FrontalRightElbow") < -0.01)
 
 
@@ -202,11 +274,11 @@ def test_every_parameter_has_a_description_and_numbers_have_a_range(bench):
         descriptor = bench.driver.describe_parameter(row.name)
         assert descriptor.description
         assert bench.driver.get_parameter(row.name).value == row.default
-        if not isinstance(row.default, bool):
+        if not isinstance(row.default, bool | str):
             assert len(descriptor.integer_range) + len(descriptor.floating_point_range) == 1
 
 
-def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, swing):
+def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, one_way):
     def set_to(name, value):
         return bench.driver.set_parameters([Parameter(name, value=value)])[0].successful
 
@@ -214,16 +286,13 @@ def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, 
     assert not set_to("stop_deceleration", float("nan"))
     assert not set_to("update_rate", 50)
     assert set_to("max_points", 5)
-    bench.commands.publish(one_way(swing))
+    bench.commands.publish(one_way())
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "too_many_points")
 
 
-def test_parameters_may_be_given_at_the_start(context):
-    bench = Bench(context, parameter_overrides=[Parameter("update_rate", value=50)])
-    try:
-        del bench.states[:]
-        begin = time.monotonic()
-        bench.until(lambda: len(bench.states) > 25)
-        assert time.monotonic() - begin > 0.45
-    finally:
-        bench.close()
+def test_parameters_may_be_given_at_the_start(new_bench):
+    bench = new_bench(parameter_overrides=[Parameter("update_rate", value=50)])
+    del bench.states[:]
+    begin = time.monotonic()
+    bench.until(lambda: len(bench.states) > 25)
+    assert time.monotonic() - begin > 0.45

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from teo_sim_driver.errors import DriverError, TrajectoryError
-from teo_sim_driver.joint_follower import Activity
+from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.message import SECOND, plain_trajectory
 
 START = 1_700_000_000 * SECOND
@@ -24,7 +24,7 @@ def test_it_stands_still_where_it_starts(new_follower, home):
     _, positions, velocities = run(follower, START, 1.0)
     np.testing.assert_array_equal(positions, np.tile(home, (100, 1)))
     assert not velocities.any()
-    assert follower.report().activity is Activity.HOLDING
+    assert follower.mode is Mode.HOLDING
 
 
 def test_a_start_outside_the_limits_is_refused(new_follower, home):
@@ -48,7 +48,7 @@ def test_it_follows_and_holds_the_last_point(new_follower, swing, limits, home):
     others = np.delete(positions, elbow, axis=1)
     np.testing.assert_array_equal(others, np.tile(np.delete(home, elbow), (500, 1)))
     report = follower.report()
-    assert (report.activity, report.accepted, report.limited_steps) == (Activity.HOLDING, 1, 0)
+    assert (report.mode, report.accepted, report.limited_steps) == (Mode.HOLDING, 1, 0)
 
 
 def test_a_refused_trajectory_changes_nothing(new_follower, swing):
@@ -85,7 +85,7 @@ def test_a_new_trajectory_takes_over_at_once_and_without_a_step(new_follower, sw
 def test_a_scheduled_trajectory_waits_for_its_time(new_follower, swing, home):
     follower = new_follower()
     follower.accept(swing(stamp=START + SECOND), START)
-    assert follower.report().activity is Activity.FOLLOWING
+    assert follower.mode is Mode.MOVING
     now, positions, _ = run(follower, START, 1.0)
     np.testing.assert_allclose(positions, np.tile(home, (100, 1)), rtol=0.0, atol=1e-12)
     immediate = new_follower()
@@ -129,14 +129,14 @@ def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, 
     follower = new_follower()
     follower.accept(swing(angle=-1.0), START)  # 0.86 rad/s at most
     now, _, v_before = run(follower, START, moment)
-    remaining = follower.stop(now)
-    assert 0.0 <= remaining <= 1.5 * 0.8727 / 5.2 + 1e-3
-    assert follower.report().activity is Activity.STOPPING or remaining == 0.0
+    remaining = follower.cancel(now)
+    assert 0.0 <= remaining <= 0.8727 / 5.2 + 5.2 / 105.0 + 1e-3
+    assert follower.mode is Mode.MOVING or remaining == 0.0
     _, positions, velocities = run(follower, now, 1.0)
     steps = int(np.ceil(remaining / 0.01 - 1e-9))
     assert not velocities[steps:].any()
     assert (positions[steps:] == positions[-1]).all()
-    assert follower.report().activity is Activity.HOLDING
+    assert follower.mode is Mode.HOLDING
     elbow = limits.names.index(ELBOW)
     u = np.linspace(moment / 4.0, 1.0, 4001)
     path = -((4.0 * u * (1.0 - u)) ** 3)
@@ -148,14 +148,14 @@ def test_stop_ends_at_rest_on_the_path_in_the_time_it_says(new_follower, swing, 
 
 def test_stop_when_at_rest_says_so(new_follower):
     follower = new_follower()
-    assert follower.stop(START) == 0.0
-    assert follower.report().activity is Activity.HOLDING
+    assert follower.cancel(START) == 0.0
+    assert follower.mode is Mode.HOLDING
 
 
 def test_stop_forgets_a_scheduled_trajectory(new_follower, swing, home):
     follower = new_follower()
     follower.accept(swing(stamp=START + SECOND), START)
-    follower.stop(START)
+    follower.cancel(START)
     np.testing.assert_array_equal(run(follower, START, 3.0)[1][-1], home)
 
 
@@ -163,11 +163,11 @@ def test_while_stopping_a_trajectory_is_refused_and_afterwards_served(new_follow
     follower = new_follower()
     follower.accept(swing(angle=-1.0), START)
     now, _, _ = run(follower, START, 1.0)
-    follower.stop(now)
+    follower.cancel(now)
     with pytest.raises(TrajectoryError) as refusal:
         follower.accept(swing(), now)
     assert refusal.value.code == "stopping"
-    assert follower.stop(now) > 0.0  # a second stop changes nothing
+    assert follower.cancel(now) > 0.0  # a second stop changes nothing
     now, positions, _ = run(follower, now, 1.0)
     here = positions[-1]
     follower.accept(plain_trajectory(limits.names, [1.0], here[None], np.zeros((1, 28))), now)
@@ -228,3 +228,144 @@ def test_a_fault_above_the_guard_is_limited_counted_and_reported(new_follower, s
     report = follower.report()
     assert report.limited_steps > 100
     assert ELBOW in report.limited_joints
+
+
+@pytest.mark.parametrize(
+    ("mode", "code"), [(Mode.STOPPED, "stopped"), (Mode.FAULT, "fault"), (Mode.INACTIVE, "inactive")]
+)
+def test_when_blocked_it_slows_down_and_takes_nothing_until_released(new_follower, swing, mode, code):
+    follower = new_follower()
+    follower.accept(swing(angle=-1.0), START)
+    now, _, _ = run(follower, START, 1.0)
+    remaining = follower.block(mode, "for a reason", now)
+    assert remaining > 0.0
+    assert follower.mode is mode
+    with pytest.raises(DriverError, match="moving"):
+        follower.release(mode)
+    now, positions, velocities = run(follower, now, remaining + 0.02)
+    assert not velocities[-1].any()
+    with pytest.raises(TrajectoryError) as refusal:
+        follower.accept(swing(), now)
+    assert refusal.value.code == code
+    assert "for a reason" in refusal.value.sentence
+    assert follower.report().reason == "for a reason"
+    follower.release(mode)
+    assert follower.mode is Mode.HOLDING
+    assert (run(follower, now, 1.0)[1] == positions[-1]).all()
+
+
+def test_of_several_blocks_each_is_released_by_itself(new_follower, swing):
+    follower = new_follower()
+    follower.block(Mode.STOPPED, "stopped", START)
+    follower.block(Mode.INACTIVE, "deactivated", START)
+    assert follower.mode is Mode.INACTIVE
+    follower.release(Mode.INACTIVE)
+    assert follower.mode is Mode.STOPPED
+    follower.release(Mode.STOPPED)
+    follower.accept(swing(), START)
+
+
+@pytest.mark.parametrize("again", [0.03, 0.1, 0.5])
+def test_a_pause_stays_on_the_path_which_goes_on_to_its_end(new_follower, swing, limits, again):
+    follower = new_follower()
+    follower.accept(swing(angle=-1.0), START)
+    now, before, v_before = run(follower, START, 1.0)
+    remaining = follower.pause(now)
+    assert follower.mode is Mode.PAUSED
+    now, during, v_during = run(follower, now, again)  # also while it is still slowing down
+    if again > remaining:
+        assert not v_during[-1].any()
+        assert follower.report().at_rest
+    assert follower.resume(now)
+    assert not follower.resume(now)
+    _, after, v_after = run(follower, now, 5.0)
+    np.testing.assert_array_equal(after[-1], swing().points[-1].positions)
+    assert follower.mode is Mode.HOLDING
+    elbow = limits.names.index(ELBOW)
+    motion = np.concatenate([before, during, after])[:, elbow]
+    u = np.linspace(0.0, 1.0, 20001)
+    path = -((4.0 * u * (1.0 - u)) ** 3)
+    assert np.abs(path[:, None] - motion[None, ::20]).min(axis=0).max() < 1e-3
+    speed = np.concatenate([v_before, v_during, v_after])[:, elbow]
+    # What the change of pace adds, and what the path itself asks of the elbow: 12 rad/s^2 at most.
+    own = np.abs(np.gradient(np.gradient(path, u), u)).max() / 4.0**2
+    assert np.abs(np.diff(speed)).max() / 0.01 < 5.2 + own + 0.1
+
+
+@pytest.mark.parametrize("factor", [0.3, 0.9])
+def test_at_half_the_speed_a_path_takes_twice_as_long(new_follower, swing, factor):
+    follower = new_follower()
+    follower.scale(factor, START)
+    follower.accept(swing(angle=-1.0), START)
+    _, slow, velocities = run(follower, START, 4.0 / factor + 0.01)
+    whole = new_follower()
+    whole.accept(swing(angle=-1.0), START)
+    _, fast, _ = run(whole, START, 4.0, period=round(PERIOD * factor))
+    np.testing.assert_allclose(slow[: len(fast)], fast[: len(slow)], atol=1e-6)
+    np.testing.assert_allclose(np.diff(slow, axis=0)[:-1] / 0.01, velocities[1:-1], atol=0.02)
+
+
+def test_a_factor_that_makes_no_sense_is_refused(new_follower):
+    follower = new_follower()
+    for factor in (-0.1, 1.1, float("nan"), float("inf")):
+        with pytest.raises(DriverError, match="bad_factor"):
+            follower.scale(factor, START)
+
+
+def test_a_factor_of_0_pauses_until_it_grows(new_follower, swing):
+    follower = new_follower()
+    follower.accept(swing(), START)
+    now, _, _ = run(follower, START, 1.0)
+    follower.scale(0.0, now)
+    assert follower.mode is Mode.PAUSED
+    now, positions, _ = run(follower, now, 1.0)
+    with pytest.raises(TrajectoryError, match="paused"):
+        follower.accept(swing(), now)
+    follower.scale(1.0, now)
+    _, after, _ = run(follower, now, 4.0)
+    assert (after[0] != positions[-1]).any() or (after[1] != positions[-1]).any()
+    np.testing.assert_array_equal(after[-1], swing().points[-1].positions)
+
+
+def test_a_new_trajectory_takes_over_at_any_pace_without_a_step(new_follower, swing, limits, home):
+    follower = new_follower()
+    follower.scale(0.4, START)
+    follower.accept(swing(), START)
+    now, before, _ = run(follower, START, 2.5)
+    back = plain_trajectory(limits.names, [3.0], home[None], np.zeros((1, 28)), np.zeros((1, 28)))
+    follower.accept(back, now)
+    _, after, _ = run(follower, now, 8.0)
+    motion = np.vstack([before, after])
+    assert np.abs(np.diff(motion, n=2, axis=0)).max() < 2e-4
+    np.testing.assert_array_equal(after[-1], home)
+
+
+def test_stopped_while_paused_it_has_nothing_left_to_resume(new_follower, swing):
+    follower = new_follower()
+    follower.accept(swing(), START)
+    now, _, _ = run(follower, START, 1.0)
+    follower.pause(now)
+    now, positions, _ = run(follower, now, 1.0)
+    assert follower.block(Mode.STOPPED, "stopped", now) == 0.0
+    follower.release(Mode.STOPPED)
+    assert follower.mode is Mode.HOLDING
+    assert not follower.resume(now)
+    assert (run(follower, now, 1.0)[1] == positions[-1]).all()
+
+
+def test_where_it_will_be_is_where_it_then_is(new_follower, swing):
+    follower = new_follower()
+    follower.accept(swing(), START)
+    now, _, _ = run(follower, START, 1.0)
+    follower.pause(now)
+    said = [follower.state_at(delay).positions for delay in (0.0, 0.05, 0.1, 1.0)]
+    _, positions, _ = run(follower, now, 1.0)
+    np.testing.assert_allclose(said[1:], positions[[4, 9, 99]], atol=1e-9)
+
+
+def test_drives_that_did_not_follow_hold_where_they_are(new_follower, home):
+    follower = new_follower()
+    follower.move_rest(home + 0.05)
+    assert (
+        run(follower, START, 0.1)[1] == np.clip(home + 0.05, *(follower.limits.lower, follower.limits.upper))
+    ).all()

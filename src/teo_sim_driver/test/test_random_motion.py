@@ -11,8 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.joint_follower import Activity
+from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.message import SECOND, PlainTime, plain_trajectory
+from teo_sim_driver.path_time import Braking
 
 START = 1_700_000_000 * SECOND
 FRACTIONS = np.linspace(0.0, 1.0, 401)
@@ -137,12 +138,20 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
 @given(seed=st.integers(0, 2**32))
 def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
     rng = np.random.default_rng(seed)
-    watch = Watch(new_follower(stop_deceleration=rng.uniform(0.2, 20.0)), limits)
+    watch = Watch(new_follower(braking=Braking(rng.uniform(0.2, 20.0), rng.uniform(20.0, 500.0))), limits)
     message, _ = random_message(rng, limits, home, 1.0)
     trajectory = watch.follower.accept(message, watch.now)
     watch.run(rng, rng.uniform(0.0, trajectory.duration))
-    watch.run(rng, watch.follower.stop(watch.now) + 0.05)
-    assert watch.follower.report().activity is Activity.HOLDING
+    remaining = watch.follower.cancel(watch.now)
+    # From the speed v with the deceleration d and the jerk j: v / d + d / j where d is reached, 2 sqrt(v / j)
+    # where not.
+    d, j = watch.follower.braking
+    top = limits.velocity.max()
+    assert remaining <= (top / d + d / j if top * j > d * d else 2.0 * np.sqrt(top / j)) + 1e-9
+    before = watch.state.positions
+    watch.run(rng, remaining + 0.05)
+    assert (np.abs(watch.state.positions - before) <= limits.velocity * 1.001 * remaining + 1e-6).all()
+    assert watch.follower.mode is Mode.HOLDING
     assert not watch.state.velocities.any()
     assert watch.follower.report().limited_steps == 0
 
@@ -156,7 +165,7 @@ def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, 
     for _ in range(12):
         match rng.integers(0, 6):
             case 0:
-                watch.follower.stop(watch.now)
+                watch.follower.cancel(watch.now)
             case 1:  # the clock is set
                 watch.step(int(rng.integers(-(10**12), 10**12)))
             case _:

@@ -131,7 +131,10 @@ WRONG = {
     "a velocity at the end": (put_value("velocities", 0.01, point=-1), "moving_at_end"),
     "a jump between points": (put_value("positions", 0.5), "speed_between_points"),
     "a huge acceleration": (put_value("accelerations", 1e308), "velocity_between_points"),
-    "a jump at the start": (put_value("positions", -0.3, point=0), "start_too_fast"),
+    "a jump at the start": (
+        lambda m: [put(m, i, "positions", 13, -0.3) for i in range(len(m.points))],
+        "start_too_fast",
+    ),
     "a first point due at once and elsewhere": (
         lambda m: (
             put(m, 0, "positions", 13, -0.05),
@@ -157,7 +160,11 @@ def test_the_table_of_wrong_messages_and_these_tests_know_every_code():
         "velocity_between_points",
         "position_between_points",
         "start_leaves_limits",
-        "stopping",  # test_joint_follower
+        *("stopping", "paused", "stopped", "fault", "inactive"),  # test_joint_follower
+        "bad_encoding",  # test_cdr
+        *("too_large", "too_many_waiting"),  # test_intake
+        "bad_tolerance",  # test_goal_monitor
+        "multi_dof",  # test_follow_action
         "internal",  # test_driver_node
     }
     assert {code for _, code in WRONG.values()} | elsewhere == {str(code) for code in Refusal}

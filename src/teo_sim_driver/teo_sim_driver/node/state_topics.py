@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What the driver tells of the joints and of itself: `joint_states`, `controller_state`, `driver_state`."""
+
+from __future__ import annotations
+
+from array import array
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from control_msgs.msg import JointTrajectoryControllerState
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import JointState
+from teo_sign_msgs.msg import DriverState
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS
+from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.follower_report import FollowerReport, Mode, Source
+from teo_sim_driver.message import SECOND
+from teo_sim_driver.trajectory import MotionState
+
+# How often the driver's state is published while the joints move [Hz]: often enough to show progress.
+_PROGRESS_RATE = 10
+
+_MODES = {
+    Mode.HOLDING: DriverState.MODE_HOLDING,
+    Mode.MOVING: DriverState.MODE_MOVING,
+    Mode.PAUSED: DriverState.MODE_PAUSED,
+    Mode.STOPPED: DriverState.MODE_STOPPED,
+    Mode.INACTIVE: DriverState.MODE_INACTIVE,
+    Mode.FAULT: DriverState.MODE_FAULT,
+}
+_SOURCES = {
+    Source.NONE: DriverState.SOURCE_NONE,
+    Source.TOPIC: DriverState.SOURCE_TOPIC,
+    Source.ACTION: DriverState.SOURCE_ACTION,
+}
+
+
+def doubles(values: FloatArray) -> array[float]:
+    """The one type that a message takes without looking at every number."""
+    return array("d", values.tobytes())
+
+
+def point(state: MotionState) -> JointTrajectoryPoint:
+    """A state as a message."""
+    return JointTrajectoryPoint(
+        positions=doubles(state.positions),
+        velocities=doubles(state.velocities),
+        accelerations=doubles(state.accelerations),
+    )
+
+
+def difference(desired: MotionState, measured: MotionState) -> JointTrajectoryPoint:
+    """The error as a message; accelerations are not measured."""
+    return JointTrajectoryPoint(
+        positions=doubles(desired.positions - measured.positions),
+        velocities=doubles(desired.velocities - measured.velocities),
+    )
+
+
+class JointStatePublisher:
+    """Publishes measured states; the legs are held at home."""
+
+    def __init__(self, node: Node) -> None:
+        self._publisher = node.create_publisher(JointState, "joint_states", 10)
+        self._message = JointState(name=list(ALL_JOINTS))
+        self._legs = np.array([HOME[name] for name in LEG_JOINTS])
+        self._last: MotionState | None = None
+
+    def publish(self, state: MotionState, measured_at: int) -> None:
+        """Publish a state that was measured at this time [ns]."""
+        if state is not self._last:
+            self._last = state
+            self._message.position = doubles(np.concatenate([state.positions, self._legs]))
+            self._message.velocity = doubles(np.concatenate([state.velocities, np.zeros_like(self._legs)]))
+        self._message.header.stamp.sec, self._message.header.stamp.nanosec = divmod(measured_at, SECOND)
+        self._publisher.publish(self._message)
+
+
+class ControllerStatePublisher:
+    """Publishes what a joint_trajectory_controller would, while anybody listens."""
+
+    def __init__(self, node: Node) -> None:
+        self._publisher = node.create_publisher(JointTrajectoryControllerState, "controller_state", 10)
+
+    def publish(self, desired: MotionState, measured: MotionState, scaling: float, stamp: Time) -> None:
+        """Publish a step."""
+        if not self._publisher.get_subscription_count():
+            return
+        message = JointTrajectoryControllerState(
+            joint_names=list(COMMANDED_JOINTS),
+            reference=point(desired),
+            feedback=point(measured),
+            error=difference(desired, measured),
+            output=point(desired),
+            speed_scaling_factor=scaling,
+        )
+        message.header.stamp = stamp
+        self._publisher.publish(message)
+
+
+class DriverStatePublisher:
+    """Publishes what the driver is doing on every change, and its progress now and then."""
+
+    def __init__(self, node: Node, qos: QoSProfile, step_rate: int) -> None:
+        self._publisher = node.create_publisher(DriverState, "driver_state", qos)
+        self._every = max(step_rate // _PROGRESS_RATE, 1)
+        self._steps = 0
+        self._last: tuple[object, ...] = ()
+
+    def step(self, report: FollowerReport, stamp: Time) -> None:
+        """Enter a step."""
+        self._steps += 1
+        refused = sum(report.refused.values())
+        # While the joints move, a pace that changes is progress.
+        settled = report.speed_scaling if report.at_rest else None
+        now = (report.mode, report.at_rest, report.source, settled, refused)
+        if now == self._last and (report.at_rest or self._steps % self._every):
+            return
+        self._last = now
+        last = report.last_refusal
+        message = DriverState(
+            mode=_MODES[report.mode],
+            at_rest=report.at_rest,
+            source=_SOURCES[report.source],
+            speed_scaling=report.speed_scaling,
+            path_time=report.path_time,
+            path_duration=report.path_duration,
+            refused=refused,
+            refusal_code=last.code if last else "",
+            message=report.reason or (last.sentence if last else ""),
+        )
+        message.header.stamp = stamp
+        self._publisher.publish(message)
