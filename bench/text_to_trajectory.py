@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time from a text on `text` to its first JointTrajectory, through the real translator and executor.
 
-The bench stands in for driver and clock: simulated time runs with real time, and as soon as a trajectory
-arrives it is set past the trajectory's end and the robot reported there, so that 200 sentences take seconds
-instead of the hour that signing them would take. The baseline, in the same run, is the same text echoed by a
-process that does nothing with it: what DDS alone costs.
+The bench stands in for driver and clock: simulated time runs with real time and the robot follows, until the
+motion of the whole sentence has arrived; then the clock is set past its end, so that 200 sentences take
+seconds instead of the hour that signing them would take. The baseline, in the same run, is the same text
+echoed by a process that does nothing with it: what DDS alone costs.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -30,7 +31,7 @@ from teo_sign_msgs.msg import ExecutorStatus
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_bringup.graph import Graph
-from teo_description import ALL_JOINTS, HOME
+from teo_description import COMMANDED_JOINTS, HOME
 
 SENTENCES = 200
 _TEXTS = (
@@ -65,6 +66,34 @@ class _Inbox:
     states: list[int] = field(default_factory=list)
 
 
+class _Robot:
+    """Is where the trajectories say."""
+
+    def __init__(self) -> None:
+        """Stand at home."""
+        self._times = np.zeros(1)  # [s]
+        self._points = np.array([[HOME[name] for name in COMMANDED_JOINTS]])
+
+    def take(self, message: JointTrajectory) -> None:
+        """Follow a trajectory from its stamp on."""
+        begin = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+        before = self._times < begin
+        times = [p.time_from_start.sec + p.time_from_start.nanosec * 1e-9 for p in message.points]
+        points = [p.positions for p in message.points]
+        here = self.at(begin)
+        self._times = np.concatenate([self._times[before], [begin], begin + np.array(times)])
+        self._points = np.concatenate([self._points[before], here[None], points])
+
+    @property
+    def end(self) -> float:
+        """When it stands [s]."""
+        return float(self._times[-1])
+
+    def at(self, now: float) -> np.ndarray:
+        """Positions of the commanded joints at a time [s]. Shape (28,)."""
+        return np.array([np.interp(now, self._times, column) for column in self._points.T])
+
+
 def measure(sentences: int = SENTENCES) -> list[Figure]:
     """Time from a text to its trajectory and, as the baseline, to its echo."""
     os.environ.setdefault("ROS_DOMAIN_ID", "19")
@@ -75,7 +104,13 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     executor.add_node(node)
     inbox = _Inbox()
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    node.create_subscription(JointTrajectory, "joint_trajectory", inbox.trajectories.append, 10)
+    robot = _Robot()
+
+    def on_trajectory(message: JointTrajectory) -> None:
+        inbox.trajectories.append(message)
+        robot.take(message)
+
+    node.create_subscription(JointTrajectory, "joint_trajectory", on_trajectory, 10)
     node.create_subscription(String, "echo", inbox.echoes.append, 10)
     node.create_subscription(
         ExecutorStatus, "executor_status", lambda m: inbox.states.append(m.state), latched
@@ -83,16 +118,19 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     text = node.create_publisher(String, "text", 10)
     clock = node.create_publisher(Clock, "clock", 10)
     joints = node.create_publisher(JointState, "joint_states", 10)
-    home = JointState(
-        name=list(ALL_JOINTS), position=[HOME[name] for name in ALL_JOINTS], velocity=[0.0] * 40
-    )
+    state = JointState(name=list(COMMANDED_JOINTS))
     ahead = 0.0  # of simulated time before real time [s]
 
     def tick() -> None:
         now = time.monotonic() + ahead
-        home.header.stamp.sec, home.header.stamp.nanosec = int(now), int(now % 1 * 1e9)
-        clock.publish(Clock(clock=home.header.stamp))
-        joints.publish(home)
+        state.header.stamp.sec, state.header.stamp.nanosec = int(now), int(now % 1 * 1e9)
+        here = robot.at(now)
+        state.position, state.velocity = here.tolist(), ((robot.at(now + _TICK) - here) / _TICK).tolist()
+        clock.publish(Clock(clock=state.header.stamp))
+        joints.publish(state)
+
+    def ends_at_rest(message: JointTrajectory) -> bool:
+        return bool(np.allclose(message.points[-1].positions, [HOME[name] for name in COMMANDED_JOINTS]))
 
     def wait(condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + _TIMEOUT
@@ -106,7 +144,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     latencies: dict[str, list[float]] = {"text to trajectory": [], "DDS echo": []}
     with tempfile.TemporaryDirectory() as folder, Graph(log_folder=Path(folder)) as graph:
         graph.start("translator", "ros2", "run", "teo_sign_translator", "translator_node")
-        simulated = ("--ros-args", "-p", "use_sim_time:=true")
+        simulated = ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=''")
         graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)
         graph.start("echo", sys.executable, "-c", _ECHO)
         wait(lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1)
@@ -120,9 +158,10 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
             latencies["DDS echo"].append(time.perf_counter() - start)
             wait(lambda: bool(inbox.trajectories))
             latencies["text to trajectory"].append(time.perf_counter() - start)
+            wait(lambda: ExecutorStatus.STATE_SIGNING in inbox.states)
+            wait(lambda: ends_at_rest(inbox.trajectories[-1]))
             inbox.states.clear()
-            end = inbox.trajectories[0].points[-1].time_from_start
-            ahead += end.sec + end.nanosec * 1e-9 + 0.1
+            ahead += robot.end + 0.1 - (time.monotonic() + ahead)
             wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states)
     node.destroy_node()
     rclpy.shutdown()

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -21,15 +23,17 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
 from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
-from teo_sign_msgs.srv import GetSign, ListSigns
+from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_description import COMMANDED_JOINTS, HEAD, HOME, joint_limits
+from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
-from teo_signs.errors import LutError, PlanError
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
 
@@ -37,41 +41,50 @@ RATE = 100.0  # joint states a second [Hz]
 
 
 class SmallRobot(Node):
-    """Goes from point to point in straight lines, and keeps what the executor said."""
+    """Goes from point to point in straight lines from a motion's stamp on; keeps what the executor said."""
 
     def __init__(self, context: Context) -> None:
         super().__init__("small_robot", context=context)
         self.positions = np.array([HOME[name] for name in COMMANDED_JOINTS])
+        self.silent = False
         self.received: list[JointTrajectory] = []
         self.statuses: list[ExecutorStatus] = []
         self.path: list[tuple[float, np.ndarray]] = []  # time [s] and positions [rad] of every step
-        self._times = np.zeros(1)
+        self._times = np.zeros(1)  # [s], of the clock
         self._points = self.positions[None]
-        self._begin = 0.0
         self._states = self.create_publisher(JointState, "joint_states", 10)
         self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
         latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(ExecutorStatus, "executor_status", self.statuses.append, latched)
-        self.tokens = self.create_publisher(SignSentence, "sign_tokens", 10)
+        self.tokens = self.create_publisher(SignSentence, "sign_tokens", 1000)
         self.create_timer(1.0 / RATE, self._step)
+
+    def _now(self) -> float:
+        return self.get_clock().now().nanoseconds * 1e-9
 
     def _on_trajectory(self, message: JointTrajectory) -> None:
         assert tuple(message.joint_names) == COMMANDED_JOINTS
         self.received.append(message)
+        stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+        begin = stamp or self._now()
+        here, before = self._at(begin), self._times < begin
         points = np.array([point.positions for point in message.points])
         times = [point.time_from_start.sec + point.time_from_start.nanosec * 1e-9 for point in message.points]
-        self._begin = time.monotonic()
-        self._times = np.concatenate([[0.0], times])
-        self._points = np.concatenate([self.positions[None], points])
+        self._times = np.concatenate([self._times[before], [begin], begin + np.array(times)])
+        self._points = np.concatenate([self._points[before], here[None], points])
 
     def _step(self) -> None:
-        now = time.monotonic()
-        elapsed = now - self._begin
-        self.positions = np.array([np.interp(elapsed, self._times, column) for column in self._points.T])
+        now = self._now()
+        before, self.positions = self.positions, self._at(now)
         self.path.append((now, self.positions))
+        if self.silent:
+            return
         message = JointState(name=list(COMMANDED_JOINTS), position=self.positions.tolist())
-        message.velocity = [0.0] * len(message.position)
+        message.velocity = ((self.positions - before) * RATE).tolist()
         self._states.publish(message)
+
+    def _at(self, now: float) -> np.ndarray:
+        return np.array([np.interp(now, self._times, column) for column in self._points.T])
 
     def states(self) -> list[int]:
         return [status.state for status in self.statuses]
@@ -97,6 +110,11 @@ class Graph:
         self.spin_until(lambda: states().count(ExecutorStatus.STATE_SIGNING) >= signed)
         self.spin_until(lambda: states()[-1] == ExecutorStatus.STATE_IDLE)
 
+    def refused(self) -> list[tuple[str, str]]:
+        """Code and utterance of everything that was refused."""
+        refused = [s for s in self.robot.statuses if s.state == ExecutorStatus.STATE_REFUSED]
+        return [(status.code, status.utterance_id) for status in refused]
+
     def wait(self, future: Any) -> Any:
         self.spin_until(future.done)
         return future.result()
@@ -121,7 +139,9 @@ QUICK = ("NOD", "TURN", "LOOK")
 
 
 @pytest.fixture
-def graph(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]) -> Iterator[Graph]:
+def graph(
+    domain_id: int, table_directory: Path, make_sign: Callable[..., Any], tmp_path: Path
+) -> Iterator[Graph]:
     joints = ("AxialNeck", "FrontalNeck")
     for number, gloss in enumerate(QUICK):
         knots = [[0.1 * number, 0.05], [0.1 * number - 0.05, 0.0]]
@@ -132,12 +152,14 @@ def graph(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]) 
         Parameter("lut_directory", value=str(table_directory)),
         Parameter("final_hold", value=0.0),
         Parameter("capacity", value=5),
+        Parameter("journal", value=str(tmp_path / "journal")),
     ]
     node = ExecutorNode(context=context, parameter_overrides=overrides)
     robot = SmallRobot(context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     executor.add_node(robot)
+    assert node.start()
     yield Graph(node, robot, executor, table_directory)
     executor.shutdown()
     robot.destroy_node()
@@ -145,7 +167,7 @@ def graph(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]) 
     rclpy.shutdown(context=context)
 
 
-def test_sentences_are_signed_in_order_and_bad_ones_refused_between(graph: Graph) -> None:
+def test_sentences_are_signed_in_order_and_bad_ones_refused_when_they_come(graph: Graph) -> None:
     empty = SignSentence(utterance_id="empty", sentence_count=1)
     nan = graph.sentence("NOD", scale=float("nan"))
     unknown = graph.sentence("Ω")
@@ -153,39 +175,98 @@ def test_sentences_are_signed_in_order_and_bad_ones_refused_between(graph: Graph
     odd.tokens[0].kind = 9
     typeless = graph.sentence("NOD")
     typeless.type = 9
-    for message in (graph.sentence("NOD"), empty, nan):
+    endless = graph.sentence(" ".join("_" for _ in range(900)))
+    for message in (graph.sentence("A-N"), empty, nan, unknown, odd, typeless, endless):
         graph.publish(message)
-    graph.spin_until(lambda: graph.robot.states().count(ExecutorStatus.STATE_REFUSED) == 2)
-    for message in (unknown, odd, typeless, graph.sentence("TURN LOOK")):
-        graph.publish(message)
+    graph.publish(graph.sentence("TURN LOOK"))
+    graph.spin_until(lambda: len(graph.refused()) == 6)
+    assert ExecutorStatus.STATE_IDLE not in graph.robot.states()[1:], "told while the first is signed"
     graph.rest(signed=2)
-    codes = [status.code for status in graph.robot.statuses if status.state == ExecutorStatus.STATE_REFUSED]
-    assert codes == ["empty_sentence", "bad_scale", "unknown_sign", "bad_kind", "bad_type"]
-    signing = [status for status in graph.robot.statuses if status.state == ExecutorStatus.STATE_SIGNING]
-    assert [[timing.token.gloss for timing in status.timings] for status in signing] == [
-        ["NOD"],
+    codes = [code for code, _ in graph.refused()]
+    assert codes == ["empty_sentence", "bad_scale", "unknown_sign", "bad_kind", "bad_type", "too_long"]
+    signing = {s.utterance_id: s for s in graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING}
+    assert [[timing.token.gloss for timing in status.timings] for status in signing.values()] == [
+        ["A", "N"],
         ["TURN", "LOOK"],
     ]
-    assert len(graph.robot.received) == 2
-    for status, trajectory in zip(signing, graph.robot.received, strict=True):
-        last = trajectory.points[-1]
-        end = last.time_from_start.sec + last.time_from_start.nanosec * 1e-9
-        assert end == pytest.approx(status.duration)
-        assert np.abs(last.velocities).max() == 0.0
-        first = trajectory.points[0]
-        assert first.time_from_start.sec == 0 and 0 < first.time_from_start.nanosec <= 20_000_000
-        assert trajectory.header.stamp.sec == 0
+    for trajectory in graph.robot.received:
+        assert trajectory.header.stamp.sec > 0
+        assert np.abs(trajectory.points[-1].velocities).max() < 1e-9, "each ends at a standstill"
     np.testing.assert_allclose(graph.robot.positions, [HOME[name] for name in COMMANDED_JOINTS], atol=0.02)
 
 
-def test_a_late_listener_still_learns_what_was_said(graph: Graph) -> None:
-    graph.publish(graph.sentence("NOD"))
-    graph.rest(signed=1)
+def test_a_late_listener_learns_the_present_state_alone(graph: Graph) -> None:
+    graph.publish(graph.sentence("A-N"))
+    graph.spin_until(lambda: graph.robot.states()[-1:] == [ExecutorStatus.STATE_SIGNING])
     late: list[ExecutorStatus] = []
     latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     graph.robot.create_subscription(ExecutorStatus, "executor_status", late.append, latched)
-    graph.spin_until(lambda: len(late) >= len(graph.robot.statuses))
-    assert late == graph.robot.statuses
+    graph.spin_until(lambda: bool(late))
+    assert [status.state for status in late] == [ExecutorStatus.STATE_SIGNING]
+
+
+def test_the_queue_is_told_at_every_change_listed_and_cleared(graph: Graph) -> None:
+    listing = graph.robot.create_client(ListQueue, "list_queue")
+    clearing = graph.robot.create_client(Trigger, "clear_queue")
+    graph.spin_until(lambda: listing.service_is_ready() and clearing.service_is_ready())
+    graph.publish(graph.sentence("A-N"))
+    graph.spin_until(lambda: ExecutorStatus.STATE_SIGNING in graph.robot.states())
+    for text in ("NOD", "TURN"):
+        message = graph.sentence(text)
+        message.text = text.lower()
+        graph.publish(message)
+    graph.spin_until(lambda: graph.robot.statuses[-1].queued == 2)
+    listed = graph.wait(listing.call_async(ListQueue.Request()))
+    assert (list(listed.texts), listed.current) == (["", "nod", "turn"], 0)
+    assert list(listed.utterance_ids) == ["text 1", "text 2", "text 3"]
+    assert graph.wait(clearing.call_async(Trigger.Request())).success
+    graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
+    assert graph.refused() == [("cleared", "text 2"), ("cleared", "text 3")]
+
+
+def test_a_silent_driver_is_told_within_a_second_and_the_sentence_signed_later(
+    graph: Graph,
+) -> None:
+    graph.publish(graph.sentence("A-N"))
+    graph.spin_until(lambda: ExecutorStatus.STATE_SIGNING in graph.robot.states())
+    graph.robot.silent = True
+    began = time.monotonic()
+    graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_FAULT)
+    assert time.monotonic() - began < 1.0
+    assert graph.robot.statuses[-1].code == "stale_joint_states"
+    graph.robot.silent = False
+    graph.rest(signed=2)
+    assert graph.refused() == []
+
+
+def test_an_executor_that_is_not_active_moves_nothing_and_keeps_the_queue(graph: Graph) -> None:
+    graph.publish(graph.sentence("A-N"))
+    elbow = COMMANDED_JOINTS.index("FrontalRightElbow")
+    graph.spin_until(lambda: graph.robot.positions[elbow] < -0.5)
+    graph.publish(graph.sentence("NOD"))
+    graph.spin_until(lambda: graph.robot.statuses[-1].queued == 1)
+    graph.node.trigger_deactivate()
+    graph.spin_until(lambda: graph.refused() == [("inactive", "text 1")])
+    stopped = len(graph.robot.received)
+    until = time.monotonic() + 1.0
+    graph.spin_until(lambda: time.monotonic() > until)
+    assert len(graph.robot.received) == stopped
+    assert graph.robot.states()[-1] == ExecutorStatus.STATE_WAITING
+    graph.node.trigger_activate()
+    graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
+    assert graph.robot.statuses[-2].utterance_id == "text 2"
+
+
+def test_a_planner_that_is_killed_is_started_again_and_what_it_planned_is_named(graph: Graph) -> None:
+    graph.spin_until(lambda: graph.node._planning.ready)
+    os.kill(graph.node._planning.pid, signal.SIGSTOP)
+    lost = graph.sentence("NOD")
+    graph.publish(lost)
+    graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_WAITING)
+    os.kill(graph.node._planning.pid, signal.SIGKILL)
+    graph.spin_until(lambda: graph.refused() == [("planner_lost", lost.utterance_id)])
+    graph.publish(graph.sentence("TURN"))
+    graph.rest(signed=1)
 
 
 def test_a_goal_gets_feedback_and_a_result(graph: Graph) -> None:
@@ -204,9 +285,10 @@ def test_a_goal_gets_feedback_and_a_result(graph: Graph) -> None:
     progress = [message.progress for message in feedback]
     assert len(progress) >= 5 and progress == sorted(progress) and progress[0] >= 0.0 and progress[-1] <= 1.0
 
-    refused = graph.wait(client.send_goal_async(ExecuteSentence.Goal(sentence=graph.sentence("Ω"))))
-    result = graph.wait(refused.get_result_async()).result
-    assert result.code == ExecuteSentence.Result.REFUSED and result.message.startswith("unknown_sign: ")
+    unknown = graph.sentence("Ω")
+    assert not graph.wait(client.send_goal_async(ExecuteSentence.Goal(sentence=unknown))).accepted
+    graph.spin_until(lambda: bool(graph.refused()))
+    assert graph.refused() == [("unknown_sign", unknown.utterance_id)]
     client.destroy()
 
 
@@ -223,7 +305,6 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     graph.wait(handle.cancel_goal_async())
     result = graph.wait(handle.get_result_async()).result
     assert result.code == ExecuteSentence.Result.CANCELED
-    assert len(graph.robot.received) == 2
     np.testing.assert_allclose(graph.robot.positions, [HOME[name] for name in COMMANDED_JOINTS], atol=0.02)
     times = np.array([when for when, _ in graph.robot.path[before:]])
     steps = np.abs(np.diff([positions for _, positions in graph.robot.path[before:]], axis=0)).max(axis=1)
@@ -239,14 +320,13 @@ def test_type_and_negation_are_shown_with_the_head_unless_it_is_to_be_still(grap
         graph.node.set_parameters([Parameter("head_motion", value=head_motion)])
         message = graph.sentence("A")
         message.type, message.negated = SignSentence.TYPE_YES_NO_QUESTION, True
-        before = len(graph.robot.received)
+        before = graph.robot.states().count(ExecutorStatus.STATE_SIGNING)
         graph.publish(message)
-        graph.spin_until(lambda: len(graph.robot.received) > before)
+        graph.rest(signed=before + 1)
         points = np.array([point.positions for point in graph.robot.received[-1].points])
         return np.abs(points[:, : len(HEAD)]).max(axis=0).tolist()
 
     assert most(0.0) == [0.0, 0.0]
-    graph.rest(signed=1)
     assert most(1.0) == pytest.approx(np.radians([12.0, 9.0]), abs=0.01)
 
 
@@ -285,8 +365,8 @@ def test_parameters_are_checked_and_take_effect_with_the_next_sentence(graph: Gr
     assert not change("lut_directory", 1.0)
     assert change("posture_hold", 1.5) and change("acceleration", 2.0) and change("jerk", 10.0)
     graph.publish(graph.sentence("NOD"))
-    graph.spin_until(lambda: bool(graph.robot.received))
-    accelerations = np.array([point.accelerations for point in graph.robot.received[0].points])
+    graph.rest(signed=1)
+    accelerations = np.concatenate([[p.accelerations for p in sent.points] for sent in graph.robot.received])
     assert 0.5 < np.abs(accelerations).max() <= 2.0
 
 
@@ -295,28 +375,54 @@ def test_every_parameter_is_described(graph: Graph) -> None:
         described = graph.node.describe_parameter(row.name)
         assert described.description.endswith((".", "]."))
         ranged = bool(described.floating_point_range) or bool(described.integer_range)
-        assert ranged or isinstance(row.default, str)
+        assert ranged or isinstance(row.default, str | bool)
     assert isinstance(graph.node.get_parameter("acceleration").to_parameter_msg(), ParameterMessage)
 
 
-def test_a_node_without_a_table_or_with_impossible_parameters_says_why(
-    domain_id: int, tmp_path: Path, table_directory: Path
+@pytest.mark.parametrize(
+    "values",
+    [{"lut_directory": "/nowhere"}, {"jerk": 1000.0, "acceleration": 1.0}, {"preempt_policy": "never"}],
+)
+def test_a_node_with_impossible_parameters_is_not_configured(
+    domain_id: int, table_directory: Path, values: dict[str, Any]
 ) -> None:
     context = Context()
     rclpy.init(context=context, domain_id=domain_id)
+    given = {"lut_directory": str(table_directory), "journal": ""} | values
+    overrides = [Parameter(name, value=value) for name, value in given.items()]
+    node = ExecutorNode(context=context, parameter_overrides=overrides)
+    assert not node.start()
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def test_what_a_killed_executor_left_is_signed_or_named(
+    graph: Graph, domain_id: int, table_directory: Path, tmp_path: Path
+) -> None:
+    def left(text: str, seconds_ago: float, attempts: int) -> None:
+        sentence = Sentence(tokens=parse_printed(text), utterance_id=text)
+        journal.accepted(len(text), sentence, time.time() - seconds_ago, attempts=attempts)
+
+    folder = tmp_path / "other"
+    journal = Journal(folder / f"domain{domain_id}.executor.jsonl")
+    left("NOD", 5.0, 0)
+    left("TURN", 5.0, 2)
+    left("A-N-A", 1e4, 0)
+    journal.close()
+    overrides = [
+        Parameter("lut_directory", value=str(table_directory)),
+        Parameter("journal", value=str(folder)),
+    ]
+    second = ExecutorNode(context=graph.node.context, parameter_overrides=overrides)
+    graph.node.destroy_node()
+    graph.robot.statuses.clear()
+    graph.executor.add_node(second)
     try:
-        with pytest.raises(LutError) as no_table:
-            ExecutorNode(
-                context=context, parameter_overrides=[Parameter("lut_directory", value=str(tmp_path / "no"))]
-            )
-        assert no_table.value.code == "no_directory"
-        with pytest.raises(PlanError) as no_plan:
-            overrides = [
-                Parameter("lut_directory", value=str(table_directory)),
-                Parameter("jerk", value=1000.0),
-                Parameter("acceleration", value=1.0),
-            ]
-            ExecutorNode(context=context, parameter_overrides=overrides)
-        assert no_plan.value.code == "bad_limits"
+        assert second.start()
+        graph.rest(signed=1)
+        assert graph.refused() == [("interrupted", "TURN"), ("expired", "A-N-A")]
+        signed = [s.utterance_id for s in graph.robot.statuses if s.state == ExecutorStatus.STATE_SIGNING]
+        assert set(signed) == {"NOD"}
     finally:
-        rclpy.shutdown(context=context)
+        second.destroy_node()
+    assert Journal(folder / f"domain{domain_id}.executor.jsonl").left == ()

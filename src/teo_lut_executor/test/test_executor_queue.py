@@ -2,110 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 import pytest
+from queue_world import World
 
 from teo_description import COMMANDED_JOINTS
 from teo_lut_executor.execution.events import (
     Activity,
-    Event,
-    Finished,
+    Begun,
     Outcome,
     PlanWanted,
     QueueSettings,
-    ReturnWanted,
-    Sentence,
-    Status,
-    TrajectoryReady,
 )
-from teo_lut_executor.execution.queue import ExecutionQueue
-from teo_motion.planner import Planner
 from teo_motion.sentence.composition import REST
-from teo_motion.sentence.plan import Plan
-from teo_signs.errors import PlanError
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
-
-TICK = 0.02
-
-
-class World:
-    """A queue, its planner, a clock, and a robot that follows what it is sent (or not)."""
-
-    def __init__(self, table: Mapping[str, Sign], settings: QueueSettings | None = None) -> None:
-        self.planner = Planner(table)
-        self.queue = ExecutionQueue(self.planner.limits, settings)
-        self.now = 100.0
-        self.listening = True
-        self.publishes_states = True
-        self.follows: Callable[[TrajectoryReady], bool] = lambda _: True
-        self.sent: list[TrajectoryReady] = []
-        self.events: list[Event] = []
-        self._motion: Plan | None = None
-        self._begin = 0.0
-        self.positions = REST.copy()
-        self.velocities = np.zeros(REST.size)
-        self.lag = 0.0  # of the robot behind what it was sent [s]
-
-    def sign(self, text: str, **fields: object) -> int:
-        sentence = Sentence(tokens=parse_printed(text), **fields)  # type: ignore[arg-type]
-        ticket, events = self.queue.submit(sentence, self.now)
-        self.take(events)
-        return ticket
-
-    def cancel(self, ticket: int) -> None:
-        self.take(self.queue.cancel(ticket, self.now))
-
-    def take(self, events: Iterable[Event]) -> None:
-        to_do = list(events)
-        while to_do:
-            event = to_do.pop(0)
-            self.events.append(event)
-            if isinstance(event, PlanWanted):
-                try:
-                    plan = self.planner.plan(event.sentence.tokens, event.start)
-                except PlanError as error:
-                    to_do += self.queue.not_planned(error, self.now)
-                else:
-                    to_do += self.queue.planned(plan, self.now)
-            elif isinstance(event, ReturnWanted):
-                to_do += self.queue.return_planned(self.planner.plan_to_rest(event.start), self.now)
-            elif isinstance(event, TrajectoryReady):
-                self.sent.append(event)
-                if self.follows(event):
-                    self._motion, self._begin = event.plan, self.now + event.lead
-
-    def run(self, seconds: float) -> None:
-        end = self.now + seconds
-        while self.now < end:
-            self.tick()
-
-    def run_until(self, condition: Callable[[], bool], most: float = 120.0) -> None:
-        end = self.now + most
-        while not condition():
-            assert self.now < end, f"not within {most} s"
-            self.tick()
-
-    def tick(self) -> None:
-        self.now += TICK
-        if self._motion is not None and self.now >= self._begin:
-            elapsed = max(0.0, self.now - self._begin - self.lag)
-            self.positions, self.velocities, _ = self._motion.at(elapsed)
-        if self.publishes_states:
-            state = self.positions.tolist(), self.velocities.tolist()
-            self.queue.joint_states(COMMANDED_JOINTS, *state, self.now)
-        self.take(self.queue.step(self.now, listening=self.listening))
-
-    def finished(self) -> list[tuple[int, Outcome]]:
-        return [(event.ticket, event.outcome) for event in self.events if isinstance(event, Finished)]
-
-    def statuses(self) -> list[Status]:
-        return [event for event in self.events if isinstance(event, Status)]
-
-    def activities(self) -> list[Activity]:
-        return [status.activity for status in self.statuses()]
 
 
 @pytest.fixture
@@ -123,12 +36,8 @@ def test_a_sentence_is_signed_and_then_all_is_idle(world: World) -> None:
     ticket = world.sign("TÚ A-N", utterance_id="text", index=1, count=2)
     world.run_until(lambda: bool(world.finished()))
     assert world.finished() == [(ticket, Outcome.SUCCESS)]
-    idle, signing, again = world.statuses()
-    assert [idle.activity, signing.activity, again.activity] == [
-        Activity.IDLE,
-        Activity.SIGNING,
-        Activity.IDLE,
-    ]
+    assert world.activities() == [Activity.IDLE, Activity.WAITING, Activity.SIGNING, Activity.IDLE]
+    signing, again = world.statuses()[2:]
     assert signing.sentence is not None and signing.plan is not None
     assert (signing.sentence.utterance_id, signing.sentence.index, signing.sentence.count) == ("text", 1, 2)
     assert [timing.token.gloss for timing in signing.plan.timings] == ["TÚ", "A", "N"]
@@ -141,6 +50,7 @@ def test_sentences_are_signed_in_the_order_in_which_they_came(world: World) -> N
     assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
     signing = [status for status in world.statuses() if status.activity == Activity.SIGNING]
     assert [status.queued for status in signing] == [3, 2, 1, 0]
+    assert [event.ticket for event in world.events if isinstance(event, Begun)] == tickets
     assert world.activities()[-1] == Activity.IDLE
 
 
@@ -161,49 +71,118 @@ def test_too_many_sentences_are_refused_with_the_reason(table: Mapping[str, Sign
         tickets.append(world.sign("TÚ"))
         world.tick()
     assert world.finished() == [(tickets[3], Outcome.REFUSED)]
-    assert world.statuses()[-1].code == "queue_full"
+    assert [status.code for status in world.statuses() if status.code] == ["queue_full"]
     world.run_until(lambda: len(world.finished()) == 4)
     assert [outcome for _, outcome in world.finished()[1:]] == [Outcome.SUCCESS] * 3
 
 
 def test_it_waits_for_joint_states_and_for_a_driver_and_says_so_once(world: World) -> None:
-    world.publishes_states = world.listening = False
+    world.publishes_states = False
+    world.obstacle = "waiting for a driver to take joint_trajectory"
     world.run(0.1)
     world.sign("TÚ")
     world.run(5.0)
-    assert world.activities() == [Activity.IDLE, Activity.WAITING]
+    assert set(world.activities()) == {Activity.WAITING} and len(world.statuses()) == 2
     assert "joint_states of AxialNeck" in world.statuses()[-1].message
     world.publishes_states = True
     world.run(1.0)
     assert "joint_trajectory" in world.statuses()[-1].message
     assert world.sent == []
-    world.listening = True
+    world.obstacle = ""
     world.run_until(lambda: bool(world.finished()))
     assert world.activities()[-2:] == [Activity.SIGNING, Activity.IDLE]
 
 
-def test_a_start_from_old_joint_states_is_refused(world: World) -> None:
+def test_a_sentence_waits_while_the_driver_is_silent_and_the_silence_is_told(world: World) -> None:
     world.run(0.1)
     world.publishes_states = False
     world.run(1.0)
-    old = world.sign("TÚ")
-    world.tick()
-    assert world.finished() == [(old, Outcome.REFUSED)]
-    assert world.statuses()[-2].code == "stale_joint_states"
+    ticket = world.sign("TÚ")
+    world.run(1.0)
+    assert world.finished() == [] and world.sent == []
+    assert (world.statuses()[-1].activity, world.statuses()[-1].code) == (
+        Activity.FAULT,
+        "stale_joint_states",
+    )
     world.publishes_states = True
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+
+
+def test_planning_that_takes_long_costs_no_sentence(world: World) -> None:
     world.run(0.1)
-    new = world.sign("TÚ")
-    world.run_until(lambda: len(world.finished()) == 2)
-    assert world.finished()[1] == (new, Outcome.SUCCESS)
+    world.planning_time = 2.0
+    tickets = [world.sign(text) for text in ("TÚ", "A", "N")]
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert {status.activity for status in world.statuses()} <= {
+        Activity.IDLE,
+        Activity.WAITING,
+        Activity.SIGNING,
+    }
+
+
+def test_a_process_that_was_held_up_does_not_take_the_joint_states_for_stale(world: World) -> None:
+    world.run(0.1)
+    ticket = world.sign("TÚ")
+    world.run(1.0)
+    world.publishes_states = False  # they wait in the node's inbox meanwhile
+    world._path_time += 3.0
+    world.now += 3.0
+    world.tick()
+    world.publishes_states = True
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert Activity.FAULT not in world.activities()
 
 
 def test_a_robot_that_does_not_move_is_noticed_while_signing(world: World) -> None:
     world.run(0.1)
     world.follows = lambda _: False
-    stuck = world.sign("TÚ")
-    world.run_until(lambda: bool(world.finished()), most=3.0)
+    stuck = world.sign("TÚ", utterance_id="stuck")
+    world.run_until(lambda: bool(world.finished()), most=6.0)
     assert world.finished() == [(stuck, Outcome.NOT_REACHED)]
-    assert world.statuses()[-2].code == "not_followed"
+    named = [status for status in world.statuses() if status.code]
+    assert [(status.activity, status.code) for status in named] == [
+        (Activity.FAULT, "not_followed"),  # it is tried once more
+        (Activity.REFUSED, "not_followed"),
+    ]
+    assert {status.sentence.utterance_id for status in named if status.sentence} == {"stuck"}
+    world.run(10.0)
+    assert len(world.sent) < 10, "a robot that cannot be brought to rest is left alone after some tries"
+
+
+def test_a_robot_that_stops_following_is_stopped_and_the_sentence_signed_again(world: World) -> None:
+    world.run(0.1)
+    first, second = world.sign("A-N-A-N"), world.sign("TÚ")
+    world.run(2.5)
+    elsewhere = world.planner.plan(parse_printed("CASA"))
+    world._motions = [(world._path_time - 1.0, elsewhere)]  # somebody else has it sign
+    world.run_until(lambda: bool(world.stops), most=3.0)
+    starts = len([event for event in world.events if isinstance(event, PlanWanted)])
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
+    again = [event for event in world.events if isinstance(event, PlanWanted)][starts]
+    assert not again.start.velocity.any(), "planned from a standstill"
+
+
+def test_a_silent_robot_is_told_within_a_second_and_the_sentence_signed_when_it_is_back(world: World) -> None:
+    world.run(0.1)
+    first, second = world.sign("TÚ", utterance_id="first"), world.sign("A")
+    world.run(2.0)
+    world.publishes_states = False  # the driver was killed
+    world._motions = []
+    began = world.now
+    world.run_until(lambda: world.activities()[-1] == Activity.FAULT, most=1.0)
+    assert world.now - began < 1.0
+    assert world.statuses()[-1].code == "stale_joint_states"
+    assert any(s.sentence and s.sentence.utterance_id == "first" for s in world.statuses() if s.code)
+    world.run(3.0)
+    assert world.finished() == []
+    world.positions, world.velocities = REST.copy(), np.zeros(REST.size)  # started again, at rest
+    world.publishes_states = True
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
 
 
 def test_an_end_that_is_not_reached_is_reported_and_the_next_sentence_starts_from_there(
@@ -212,18 +191,19 @@ def test_an_end_that_is_not_reached_is_reported_and_the_next_sentence_starts_fro
     world = World(table, QueueSettings(path_tolerance=10.0, goal_time=1.0))
     world.run(0.1)
     first = world.sign("TÚ")
-    world.tick()
+    world.run_until(lambda: bool(world.sent))
     plan = world.sent[0].plan
     world.run(plan.duration - 0.5)
-    world._motion = None  # stands still half a second before the end
+    world._motions = []  # stands still half a second before the end
+    world.velocities = np.zeros(REST.size)
     stopped = world.positions.copy()
-    second = world.sign("A")
-    world.run_until(lambda: bool(world.finished()), most=2.0)
+    world.run_until(lambda: bool(world.finished()), most=3.0)
     assert world.finished() == [(first, Outcome.NOT_REACHED)]
+    second = world.sign("A")
     assert any(status.code == "not_reached" for status in world.statuses())
-    np.testing.assert_array_equal(world.sent[1].plan.positions[0], stopped)
     world.run_until(lambda: len(world.finished()) == 2)
     assert world.finished()[1] == (second, Outcome.SUCCESS)
+    np.testing.assert_array_equal(world.sent[1].plan.positions[0], stopped)
 
 
 def test_a_sentence_that_waits_can_be_canceled(world: World) -> None:
@@ -241,15 +221,12 @@ def test_a_canceled_sentence_goes_back_to_rest_smoothly_and_the_next_begins(worl
     world.run(5.0)
     world.cancel(ticket)
     world.cancel(ticket)  # twice is as good as once
-    assert len(world.sent) == 2
-    back = world.sent[1]
-    assert 0.1 <= back.lead <= 0.6
-    full, _ = world.sent[0].plan, world.positions
+    (halt,) = world.stops
+    assert 0.1 <= halt.lead <= 0.6
     limits = world.planner.limits
-    moving = full.at(4.98)[1]
-    assert (np.abs(back.plan.positions[0] - world.positions) <= np.abs(moving) * back.lead + 0.05).all()
-    assert (back.plan.velocities[0] == 0.0).all()
-    assert (back.plan.positions >= limits.lower).all() and (back.plan.positions <= limits.upper).all()
+    assert (halt.end.velocity == 0.0).all()
+    assert (halt.end.position >= limits.lower).all() and (halt.end.position <= limits.upper).all()
+    full = world.sent[0].plan
     world.run_until(lambda: bool(world.finished()))
     assert world.finished() == [(ticket, Outcome.CANCELED)]
     assert world.now < 100.0 + full.duration
@@ -261,23 +238,25 @@ def test_a_canceled_sentence_goes_back_to_rest_smoothly_and_the_next_begins(worl
 def test_a_sentence_canceled_on_its_way_to_rest_just_ends(world: World) -> None:
     world.run(0.1)
     ticket = world.sign("TÚ")
-    world.tick()
+    world.run_until(lambda: bool(world.sent))
     world.run(world.sent[0].plan.duration - 0.5)
     world.cancel(ticket)
     world.run_until(lambda: bool(world.finished()))
-    assert len(world.sent) == 1
+    assert len(world.sent) == 1 and world.stops == []
     assert world.finished() == [(ticket, Outcome.CANCELED)]
 
 
-def test_a_way_back_that_the_driver_refuses_is_sent_again(world: World) -> None:
+def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> None:
     world.run(0.1)
     ticket = world.sign("A-N-A-N-A-N")
     world.run(4.0)
-    world.follows = lambda event: event.lead == 0.0 or len(world.sent) >= 3
+    going_on = world._motions
     world.cancel(ticket)
+    world._motions, world._stop = going_on, None  # the driver has refused it
+    world.run_until(lambda: len(world.stops) == 2, most=2.0)
     world.run_until(lambda: bool(world.finished()))
-    assert len(world.sent) == 3
     assert world.finished() == [(ticket, Outcome.CANCELED)]
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)
 
 
 def test_an_unknown_ticket_cancels_nothing(world: World) -> None:
@@ -317,7 +296,6 @@ def test_a_clock_that_is_set_back_does_not_stop_the_signing(world: World) -> Non
     ticket = world.sign("TÚ")
     world.run(2.0)
     world.now -= 90.0
-    world._begin -= 90.0
     world.run_until(lambda: bool(world.finished()), most=10.0)
     assert world.finished() == [(ticket, Outcome.SUCCESS)]
 
@@ -345,13 +323,15 @@ def test_joint_states_may_come_from_several_publishers(world: World) -> None:
     world.tick()
     assert COMMANDED_JOINTS[half] in world.statuses()[-1].message
     world.queue.joint_states(COMMANDED_JOINTS[half:], REST[half:].tolist(), [], world.now)
-    world.tick()
-    assert len(world.sent) == 1
+    world.run_until(lambda: len(world.sent) == 1, most=1.0)
 
 
 def test_the_next_sentence_waits_for_a_robot_that_is_late_to_stand_still(world: World) -> None:
     world.lag = 0.15  # at the planned end it is within the tolerance of rest, and still moving there
-    first, second = world.sign("A"), world.sign("A")
+    first = world.sign("A")
+    world.run_until(lambda: bool(world.sent))
+    world.run(world.sent[0].plan.duration - 0.2)  # too late to be joined
+    second = world.sign("A")
     world.run_until(lambda: len(world.finished()) == 2)
     assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
     starts = [event.start for event in world.events if isinstance(event, PlanWanted)]

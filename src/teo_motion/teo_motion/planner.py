@@ -17,6 +17,7 @@ import numpy as np
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.collision.motion_clearance import MotionClearance
+from teo_motion.collision.opening import opening
 from teo_motion.head.overlay import HeadOverlay
 from teo_motion.sentence.composition import REST, compose
 from teo_motion.sentence.head_gestures import head_gestures
@@ -89,6 +90,10 @@ class Planner:
         self._bounds = self.limits.for_points(period)
         self._lexicon = Lexicon(signs, least_standing)
         motion_clearance = None if robot is None else MotionClearance(robot)
+        self._motion_clearance = motion_clearance
+        self._least_clearance = least_clearance
+        self._period = period
+        self._max_duration = max_duration
         self._avoidance = CollisionAvoidance(
             SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
             motion_clearance,
@@ -104,15 +109,40 @@ class Planner:
             strength=self.style.head_motion,
         )
 
+    def check(self, tokens: Sequence[Token], *, form: SentenceForm = STATEMENT) -> None:
+        """Refuse what is known to be no sentence without planning it.
+
+        Raises:
+            PlanError: The sentence cannot be signed; the code says why.
+        """
+        check_form(form)
+        style, least = self.style, 0.0
+        for item in self._lexicon.resolve(tokens):
+            spelled = style.letter_hold if item.token.spelled else 0.0
+            still = style.pause if item.sign is None else spelled
+            least += style.transition + still * item.token.duration_scale
+        if least > self._max_duration:
+            raise PlanError(
+                "too_long",
+                f"expected a sentence of at most {self._max_duration:.0f} s, got one that takes more than "
+                f"{least:.0f} s: send it in parts",
+            )
+
     def plan(
-        self, tokens: Sequence[Token], start: State | None = None, *, form: SentenceForm = STATEMENT
+        self,
+        tokens: Sequence[Token],
+        start: State | None = None,
+        *,
+        form: SentenceForm = STATEMENT,
+        hold: float = 0.0,
     ) -> Plan:
         """Plan a sentence.
 
         Args:
             tokens: What to sign, in order.
-            start: State of the 28 commanded joints; None for rest.
+            start: State of the 28 commanded joints, which may be in motion; None for rest.
             form: Type and negation, which the head shows.
+            hold: Time for which limbs that stand still at the start stay there first [s].
 
         Raises:
             PlanError: The sentence cannot be signed; the code says why.
@@ -120,9 +150,39 @@ class Planner:
         check_form(form)
         begin = self._checked(start)
         signed = choose_postures(self._lexicon.resolve(tokens), start=begin.position, limits=self.limits)
-        composition = compose(signed, start=begin, limits=self.limits, style=self.style.for_form(form))
+        style = self.style.for_form(form)
+        composition = compose(signed, start=begin, limits=self.limits, style=style, hold=hold)
         plan = self._avoidance.plan(composition)
         return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
+
+    def plan_opening(
+        self, tokens: Sequence[Token], start: State, *, lasting: float
+    ) -> tuple[Plan, float] | None:
+        """The first motion of a sentence, in a small part of the time that planning it takes.
+
+        Args:
+            tokens: What is to be signed.
+            start: State of the 28 commanded joints, at a standstill.
+            lasting: Time after which the plan of the whole sentence will take over [s].
+
+        Returns:
+            A motion towards the first sign that ends at a standstill, and the time at which the plan of the
+            whole sentence is to take over [s]: `lasting`, or less where the first sign is near. None if there
+            is no such motion that is known to be safe, or it is not worth while.
+
+        Raises:
+            PlanError: The sentence cannot be signed; the code says why.
+        """
+        begin = self._checked(start)
+        signed = choose_postures(self._lexicon.resolve(tokens), start=begin.position, limits=self.limits)
+        return opening(
+            compose(signed[:1], start=begin, limits=self.limits, style=self.style),
+            limits=self.limits,
+            period=self._period,
+            lasting=lasting,
+            motion_clearance=self._motion_clearance,
+            least_clearance=self._least_clearance,
+        )
 
     def plan_to_rest(self, start: State) -> Plan:
         """Plan the way to rest from any state, moving ones included.

@@ -13,6 +13,13 @@ from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.tokens import Token
 
 
+class Preemption(enum.StrEnum):
+    """What a new sentence does to those that came before it."""
+
+    QUEUE = "queue"  # it waits its turn
+    REPLACE = "replace"  # it takes the place of every sentence of earlier texts
+
+
 @dataclass(frozen=True, kw_only=True)
 class QueueSettings:
     """Limits of waiting and of what counts as reached."""
@@ -20,7 +27,8 @@ class QueueSettings:
     # Most sentences that wait [1]: two of the longest texts that the translator takes.
     capacity: int = 200
 
-    # A start is not planned from joint states older than this [s]: 50 of TEO's periods.
+    # Joint states older than this are stale: no motion begins, one in progress is given up [s]: 50 of TEO's
+    # periods, and soon enough to be told within a second.
     joint_state_timeout: float = 0.5
 
     # How near every joint must come to the end of a sentence [rad]: 1.1 deg, 13 encoder steps of TEO, and
@@ -37,6 +45,17 @@ class QueueSettings:
     # For how long it may be farther [s].
     path_time: float = 0.5
 
+    # Time for which the hands stay still between two sentences that are joined, beyond the hold of the last
+    # sign [s]: with `final_hold` the half second that deaf users ask for at a full stop.
+    sentence_pause: float = 0.25
+
+    # How often a sentence is begun before it is given up [1]: a robot that was pushed, or a driver that was
+    # restarted, gets a second chance; a sentence that cannot be signed does not hold up the others for long.
+    attempts: int = 2
+
+    # What a new sentence does to those before it.
+    preemption: Preemption = Preemption.QUEUE
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sentence:
@@ -48,6 +67,7 @@ class Sentence:
         index: Its place in the text, from 0.
         count: Number of sentences in the text.
         form: Type and negation.
+        text: As it was typed; empty if not known.
     """
 
     tokens: tuple[Token, ...]
@@ -55,6 +75,7 @@ class Sentence:
     index: int = 0
     count: int = 1
     form: SentenceForm = STATEMENT
+    text: str = ""
 
 
 class Activity(enum.IntEnum):
@@ -64,6 +85,9 @@ class Activity(enum.IntEnum):
     SIGNING = 1
     WAITING = 2
     REFUSED = 3
+    PAUSED = 4
+    STOPPED = 5
+    FAULT = 6
 
 
 class Outcome(enum.IntEnum):
@@ -75,32 +99,99 @@ class Outcome(enum.IntEnum):
     NOT_REACHED = 3
 
 
+class DriverMode(enum.IntEnum):
+    """What the driver is doing; the numbers are those of `teo_sign_msgs/DriverState`."""
+
+    HOLDING = 0
+    MOVING = 1
+    PAUSED = 2
+    STOPPED = 3
+    INACTIVE = 4
+    FAULT = 5
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriverReport:
+    """What the driver says of itself.
+
+    Attributes:
+        mode: What it is doing.
+        speed_scaling: Trajectory time per time, 0 to 1.
+        remaining: Trajectory time to the end of the trajectory that is executed [s]; None if none is.
+        message: A sentence for people: why it does not move.
+    """
+
+    mode: DriverMode
+    speed_scaling: float = 1.0
+    remaining: float | None = None
+    message: str = ""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PlanWanted:
-    """Plan this sentence from this state, then call `planned` or `not_planned`."""
+    """Plan this sentence from this state.
 
+    Answered by `opened` (only if an opening is wanted, and there is one) and then by `planned` or
+    `not_planned`.
+
+    Attributes:
+        number: Names the request in the answers.
+        sentence: What to sign.
+        start: State from which to plan; it may be in motion.
+        hold: Time for which limbs at rest stay as they are before the first sign [s].
+        opening: Whether the robot stands still and waits: a first motion is wanted at once.
+    """
+
+    number: int
     sentence: Sentence
     start: State
+    hold: float = 0.0
+    opening: bool = False
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ReturnWanted:
-    """Plan the way to rest from this state, then call `return_planned`; without one the sentence goes on."""
+    """Plan the way to rest from this state, at a standstill; answered by `planned` or `not_planned`."""
 
+    number: int
     start: State
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class TrajectoryReady:
-    """Send this motion to the robot, now.
+    """Send this motion to the robot.
 
     Attributes:
+        number: Names the motion in `driver_refused`.
         plan: The motion.
-        lead: When its first sample is to be reached [s]; 0: the robot is there.
+        start: When the robot is to be at its first sample [s].
     """
 
+    number: int
     plan: Plan
-    lead: float = 0.0
+    start: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StopReady:
+    """Have the robot stop.
+
+    Attributes:
+        number: Names the motion in `driver_refused`.
+        end: Where it is to stand.
+        lead: In which time [s].
+    """
+
+    number: int
+    end: State
+    lead: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Begun:
+    """The robot begins to sign a sentence, not for the first time if it was interrupted before."""
+
+    ticket: int
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -113,7 +204,7 @@ class Status:
         sentence: Which sentence it is about, if any.
         queued: Sentences that wait behind it.
         plan: Motion of the sentence that is signed.
-        code: Stable reason of a refusal, else empty.
+        code: Stable reason where something is wrong, else empty.
         message: A sentence for people.
     """
 
@@ -143,7 +234,7 @@ class Finished:
     timings: tuple[TokenTiming, ...] = field(default=())
 
 
-Event = PlanWanted | ReturnWanted | TrajectoryReady | Status | Finished
+Event = PlanWanted | ReturnWanted | TrajectoryReady | StopReady | Begun | Status | Finished
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,69 +6,93 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from teo_lut_executor.execution.events import QueueSettings
 from teo_lut_executor.execution.robot_state import RobotState
 from teo_motion.sentence.plan import Plan
+from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
+
+# The driver's own path time is taken where it differs from ours by less than this [s]: more, and it speaks of
+# another trajectory, the one before ours or one of somebody else.
+_SAME_TRAJECTORY = 0.5
 
 
 @dataclass(kw_only=True, eq=False)
 class PathMonitor:
     """Compares a motion that was sent with the joint states.
 
+    Times along the motion are the driver's path time: it runs slower than the clock, or stands still, while
+    the driver is told to go slowly or to pause.
+
     Attributes:
+        number: Names the motion.
         motion: What was sent.
-        started: When the robot is to be at its first sample [s].
+        elapsed: Path time since its first sample [s]; negative before it.
         settings: What counts as followed and reached.
     """
 
+    number: int
     motion: Plan
-    started: float
+    elapsed: float
     settings: QueueSettings
-    _away_since: float | None = None
+    _away_for: float = 0.0
+    _was_away: bool = False
 
-    def elapsed(self, now: float) -> float:
-        """Time since the start [s]; negative before it."""
-        return now - self.started
+    def advance(self, duration: float) -> None:
+        """Let path time pass [s]."""
+        self.elapsed += duration
+        if self._was_away:
+            self._away_for += duration
 
-    def shift_clock(self, by: float) -> None:
-        """Follow a clock that was set by so much [s]."""
-        self.started += by
-        if self._away_since is not None:
-            self._away_since += by
+    def synchronise(self, remaining: float) -> None:
+        """Take the driver's word for the path time that is left to the end [s]."""
+        elapsed = self.motion.duration - remaining
+        if abs(elapsed - self.elapsed) < _SAME_TRAJECTORY:
+            self.elapsed = elapsed
 
-    def is_reached(self, robot: RobotState) -> bool:
-        """Whether joint states of after the end show the robot there, at rest."""
+    def state_at(self, time: float) -> State:
+        """State of the joints at a path time [s]."""
+        position, velocity, acceleration = self.motion.at(time)
+        return State(position=position, velocity=velocity, acceleration=acceleration)
+
+    def is_reached(self, robot: RobotState, age: float) -> bool:
+        """Whether joint states of after the end show the robot there, at rest.
+
+        Args:
+            robot: The joint states.
+            age: Of the oldest of them, in path time [s].
+        """
         # A robot a little late is within the tolerance, but still moving: no start for the next motion.
-        if self.elapsed(robot.oldest) < self.motion.duration or not robot.is_still:
+        if self.elapsed - age < self.motion.duration or not robot.is_still:
             return False
         return robot.farthest(self.motion.positions[-1])[0] <= self.settings.goal_tolerance
 
-    def problem(self, robot: RobotState, now: float) -> PlanError | None:
+    def problem(self, robot: RobotState, age: float) -> PlanError | None:
         """What is wrong ("not_followed" or "not_reached"); None while all may still be well."""
-        if self.elapsed(now) < self.motion.duration:
-            return self._path_problem(robot, now)
-        if self.elapsed(now) <= self.motion.duration + self.settings.goal_time:
+        if self.elapsed < self.motion.duration:
+            return self._path_problem(robot, self.elapsed - age)
+        if self.elapsed <= self.motion.duration + self.settings.goal_time:
             return None
         found = "no joint states since"
-        if self.elapsed(robot.oldest) >= self.motion.duration:
+        if self.elapsed - age >= self.motion.duration:
             distance, joint = robot.farthest(self.motion.positions[-1])
             found = f"{joint} {distance:.3f} rad away from it" + ("" if robot.is_still else ", moving")
         patience = self.settings.goal_time
         message = f"expected every joint at rest {patience:g} s after the end, got {found}"
         return PlanError("not_reached", message)
 
-    def _path_problem(self, robot: RobotState, now: float) -> PlanError | None:
-        seen = self.elapsed(robot.oldest)
+    def _path_problem(self, robot: RobotState, seen: float) -> PlanError | None:
         if seen < 0.0:
             return None  # nothing was heard of the robot since
-        distance, joint = robot.farthest(self.motion.at(seen)[0])
-        if distance <= self.settings.path_tolerance:
-            self._away_since = None
-            return None
-        if self._away_since is None:
-            self._away_since = now
-        if now - self._away_since <= self.settings.path_time:
+        # Of the samples the nearest: they are 0.02 s apart, in which no joint moves a tenth of the tolerance.
+        nearest = int(np.searchsorted(self.motion.times, seen))
+        distance, joint = robot.farthest(self.motion.positions[nearest])
+        self._was_away = distance > self.settings.path_tolerance
+        if not self._was_away:
+            self._away_for = 0.0
+        if self._away_for <= self.settings.path_time:
             return None
         return PlanError(
             "not_followed",

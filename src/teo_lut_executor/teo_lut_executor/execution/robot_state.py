@@ -24,6 +24,7 @@ class RobotState:
         self._positions = np.full(len(names), np.nan)
         self._velocities = np.zeros(len(names))
         self._seen = np.full(len(names), -np.inf)
+        self._still_since = np.inf
 
     def update(
         self, names: Sequence[str], positions: Sequence[float], velocities: Sequence[float], now: float
@@ -58,6 +59,10 @@ class RobotState:
         self._positions[columns] = position
         self._velocities[columns] = np.where(np.abs(velocity) < _STILL, 0.0, velocity)
         self._seen[columns] = now
+        if self._velocities.any():
+            self._still_since = np.inf
+        elif self._still_since == np.inf:
+            self._still_since = now
         return ""
 
     @property
@@ -80,9 +85,14 @@ class RobotState:
         """Whether no joint moves."""
         return not self._velocities.any()
 
+    def still_for(self, now: float) -> float:
+        """How long no joint has moved [s]; minus infinity if one does."""
+        return float(now - self._still_since)
+
     def shift_clock(self, by: float) -> None:
         """Follow a clock that was set by so much [s]."""
         self._seen += by
+        self._still_since += by
 
     def state(self) -> State:
         """Positions and velocities, no acceleration; NaN for joints not heard of."""

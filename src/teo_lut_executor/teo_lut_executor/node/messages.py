@@ -5,16 +5,19 @@
 from __future__ import annotations
 
 import array
+from collections.abc import Sequence
 from typing import cast
 
 from builtin_interfaces.msg import Duration, Time
-from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
+from teo_sign_msgs.msg import DriverState, ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.msg import TokenTiming as TokenTimingMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from teo_lut_executor.execution.events import Sentence, Status
+from teo_common.arrays import Array
+from teo_lut_executor.execution.events import DriverMode, DriverReport, Sentence, Status
 from teo_motion.sentence.plan import Plan, TokenTiming
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
@@ -32,37 +35,66 @@ def to_sentence(message: SignSentence) -> Sentence:
             type=cast(SentenceType, message.type),  # `check_form` refuses what is none
             negated=message.negated,
         ),
+        text=message.text,
     )
 
 
-def to_trajectory(plan: Plan, *, lead: float = 0.0) -> JointTrajectory:
-    """A plan as the driver takes it, to start now (stamp 0).
+def to_trajectory(plan: Plan, *, start: float) -> JointTrajectory:
+    """A plan as the driver takes it.
 
     Args:
-        plan: The motion.
-        lead: When its first sample is to be reached [s]. Without lead the robot is there, and the first point
-            is the second sample.
+        plan: The motion. Its first sample is where the robot is by then, and is left out: the driver goes on
+            from its own state.
+        start: When the robot is to be there [s], the message's stamp.
     """
     samples = plan.samples
-    first = 0 if lead > 0.0 else 1
     message = JointTrajectory(joint_names=list(plan.names))
+    message.header.stamp = to_time(start)
     message.points = [
-        JointTrajectoryPoint(
-            # The generated setters take arrays as they are, and check lists number for number.
-            positions=array.array("d", position.tobytes()),
-            velocities=array.array("d", velocity.tobytes()),
-            accelerations=array.array("d", acceleration.tobytes()),
-            time_from_start=_to_duration(time + lead),
-        )
+        _point(position, velocity, acceleration, time)
         for time, position, velocity, acceleration in zip(
-            samples.times[first:].tolist(),
-            samples.positions[first:],
-            samples.velocities[first:],
-            samples.accelerations[first:],
+            samples.times[1:].tolist(),
+            samples.positions[1:],
+            samples.velocities[1:],
+            samples.accelerations[1:],
             strict=True,
         )
     ]
     return message
+
+
+def to_stop(names: Sequence[str], end: State, lead: float) -> JointTrajectory:
+    """Come to a standstill, beginning now (stamp 0).
+
+    Args:
+        names: Joints.
+        end: Where to stand.
+        lead: In which time [s].
+    """
+    point = _point(end.position, end.velocity, end.acceleration, lead)
+    return JointTrajectory(joint_names=list(names), points=[point])
+
+
+def _point(position: Array, velocity: Array, acceleration: Array, time: float) -> JointTrajectoryPoint:
+    # The generated setters take arrays as they are, and check lists number for number.
+    return JointTrajectoryPoint(
+        positions=array.array("d", position.tobytes()),
+        velocities=array.array("d", velocity.tobytes()),
+        accelerations=array.array("d", acceleration.tobytes()),
+        time_from_start=_to_duration(time),
+    )
+
+
+def to_report(message: DriverState) -> DriverReport:
+    """What the driver says of itself."""
+    under_way = message.mode in (DriverState.MODE_MOVING, DriverState.MODE_PAUSED)
+    known = under_way and message.path_duration > 0.0
+    return DriverReport(
+        mode=DriverMode(message.mode),
+        speed_scaling=message.speed_scaling,
+        remaining=message.path_duration - message.path_time if known else None,
+        message=message.message,
+    )
 
 
 def to_status(status: Status) -> ExecutorStatus:

@@ -6,17 +6,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import fields
+from pathlib import Path
 
 from teo_common.parameters import ParameterRow
-from teo_lut_executor.execution.events import QueueSettings
+from teo_lut_executor.execution.events import Preemption, QueueSettings
+from teo_lut_executor.planning.settings import PlannerSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
 from teo_motion.sentence.rhythm import SigningStyle
-from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
+from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import DEFAULT_STANDING
 from teo_signs.sign_schema import STANDINGS, Standing
 
 Value = str | int | float
+
+# Values of `trajectory_interface`.
+TOPIC, ACTION = "topic", "action"
 
 _STYLE = SigningStyle()
 _QUEUE = QueueSettings()
@@ -42,6 +47,35 @@ PARAMETERS = (
         name="dominant_hand",
         default="right",
         description="Hand that makes one-handed signs (right, left); left mirrors every sign.",
+    ),
+    ParameterRow(
+        name="autostart",
+        default=True,  # `ros2 run` without a lifecycle manager must give a node that signs
+        description="Whether the node configures and activates itself when it starts; else a manager does.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="journal",
+        default="~/.ros/teo_lut_executor",  # where ROS keeps its logs
+        description="Folder of the journal, by which sentences survive a killed process; empty for none.",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="journal_age",
+        default=60.0,  # later nobody waits for them, and a robot that signs out of the blue frightens people
+        low=0.0,
+        high=86_400.0,
+        description="Age up to which sentences of the journal are signed after a restart; older ones are "
+        "named only [s].",
+        read_only=True,
+    ),
+    ParameterRow(
+        name="trajectory_interface",
+        default=TOPIC,  # to be seen and recorded by whoever listens
+        choices=(TOPIC, ACTION),
+        description="How motions reach the driver: on joint_trajectory, or as goals of "
+        "follow_joint_trajectory where a driver serves it (else on the topic).",
+        read_only=True,
     ),
     # Motion.
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
@@ -106,17 +140,28 @@ PARAMETERS = (
     _row("goal_tolerance", _QUEUE.goal_tolerance, 0.001, 0.2, "How near to rest a sentence has ended [rad]."),
     _row("goal_time", _QUEUE.goal_time, 0.0, 30.0, "Time after its planned end to be that near [s]."),
     _row("path_tolerance", _QUEUE.path_tolerance, 0.02, 3.0, "How far a joint may be from the plan [rad]."),
+    _row(
+        "sentence_pause",
+        _QUEUE.sentence_pause,
+        0.0,
+        10.0,
+        "Time of standing still between sentences that follow one another, beyond the last sign's hold [s].",
+    ),
+    ParameterRow(
+        name="attempts",
+        default=_QUEUE.attempts,
+        low=1,
+        high=5,
+        description="How often a sentence that the robot does not follow is begun before it is given up [1].",
+    ),
+    ParameterRow(
+        name="preempt_policy",
+        default=str(_QUEUE.preemption),
+        choices=tuple(Preemption),
+        description="What a new text does: wait in the queue, or replace every earlier one.",
+    ),
     _row("path_time", _QUEUE.path_time, 0.0, 10.0, "For how long it may be farther [s]."),
 )
-
-
-def limits_from(values: Mapping[str, Value]) -> MotionLimits:
-    """Limits of the joints.
-
-    Raises:
-        PlanError: See `MotionLimits`.
-    """
-    return MotionLimits.of_robot(acceleration=float(values["acceleration"]), jerk=float(values["jerk"]))
 
 
 def standing_from(values: Mapping[str, Value]) -> Standing:
@@ -144,13 +189,41 @@ def left_handed_from(values: Mapping[str, Value]) -> bool:
     return hand == "left"
 
 
-def style_from(values: Mapping[str, Value]) -> SigningStyle:
-    """Times of holds and pauses."""
-    return SigningStyle(**{field.name: float(values[field.name]) for field in fields(SigningStyle)})
+def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
+    """What the planner is made of.
+
+    Raises:
+        PlanError: A value is none that there is ("bad_standing", "bad_hand", "bad_style").
+    """
+    directory = str(values["lut_directory"])
+    return PlannerSettings(
+        lut_directory=Path(directory) if directory else None,
+        left_handed=left_handed_from(values),
+        least_standing=standing_from(values),
+        style=SigningStyle(**{field.name: float(values[field.name]) for field in fields(SigningStyle)}),
+        acceleration=float(values["acceleration"]),
+        jerk=float(values["jerk"]),
+        least_clearance=float(values["least_clearance"]),
+        period=float(values["period"]),
+        max_duration=float(values["max_duration"]),
+    )
 
 
 def queue_settings_from(values: Mapping[str, Value]) -> QueueSettings:
-    """How patient the queue is."""
-    names = [field.name for field in fields(QueueSettings) if field.name != "capacity"]
-    times = {name: float(values[name]) for name in names}
-    return QueueSettings(capacity=int(values["capacity"]), **times)
+    """How patient the queue is.
+
+    Raises:
+        PlanError: There is no such policy ("bad_policy").
+    """
+    policy = values["preempt_policy"]
+    if policy not in tuple(Preemption):
+        message = f"preempt_policy: expected one of {', '.join(Preemption)}, got {policy!r}"
+        raise PlanError("bad_policy", message)
+    apart = ("capacity", "attempts", "preemption")
+    names = [field.name for field in fields(QueueSettings) if field.name not in apart]
+    return QueueSettings(
+        capacity=int(values["capacity"]),
+        attempts=int(values["attempts"]),
+        preemption=Preemption(str(policy)),
+        **{name: float(values[name]) for name in names},
+    )

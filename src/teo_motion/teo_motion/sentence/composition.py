@@ -112,7 +112,12 @@ class Composition:
 
 
 def compose(
-    signed: Sequence[SignedToken], *, start: State, limits: MotionLimits, style: SigningStyle
+    signed: Sequence[SignedToken],
+    *,
+    start: State,
+    limits: MotionLimits,
+    style: SigningStyle,
+    hold: float = 0.0,
 ) -> Composition:
     """Lay a sentence out, from a start to rest.
 
@@ -121,11 +126,13 @@ def compose(
         start: State of the 28 joints at the beginning.
         limits: Limits of the joints, which every waypoint keeps.
         style: Times of holds and pauses.
+        hold: Time for which limbs that stand still at the start stay there first [s].
 
     Raises:
         PlanError: A sign has a knot outside the limits ("sign_outside_limits").
     """
     composer = _Composer(start, limits, style)
+    composer.hold_start(hold)
     last_sign = max((index for index, item in enumerate(signed) if item.sign is not None), default=-1)
     for index, item in enumerate(signed):
         following = signed[index + 1] if index + 1 < len(signed) else None
@@ -203,6 +210,17 @@ class _Composer:
         """Keep the limbs of the latest sign where they are [s]."""
         if duration > 0.0:
             self._fix(duration, self._posture, self._used)
+
+    def hold_start(self, duration: float) -> None:
+        """Keep the limbs that stand still at the start where they are [s]; the others are free."""
+        start = self._start
+        still = tuple(
+            limb
+            for limb, columns in enumerate(LIMBS)
+            if not (start.velocity[list(columns)].any() or start.acceleration[list(columns)].any())
+        )
+        if duration > 0.0 and still:
+            self._fix(duration, self._posture, still)
 
     def finish(self) -> Composition:
         self._fix(self._style.transition, REST, tuple(range(len(LIMBS))))

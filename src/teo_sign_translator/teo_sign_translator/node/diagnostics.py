@@ -30,6 +30,7 @@ class Statistics:
     done: int = 0
     refused: int = 0
     last_refusal: str = ""
+    _told: int = 0  # refusals at the last diagnosis
     _latencies: deque[float] = field(default_factory=lambda: deque(maxlen=_KEPT))
 
     def add_done(self, latency: float) -> None:
@@ -41,6 +42,11 @@ class Statistics:
         """Count a text that was not translated, and keep why."""
         self.refused += 1
         self.last_refusal = reason
+
+    def newly_refused(self) -> int:
+        """Texts refused since this was asked last."""
+        told, self._told = self._told, self.refused
+        return self._told - told
 
     def latency(self, percentile: float) -> float | None:
         """A percentile, 0 to 100, of the latest texts' latencies [s]; None if there are none."""
@@ -61,7 +67,7 @@ def short(text: str) -> str:
 def diagnose(
     statistics: Statistics, *, model: str, active: bool, waiting: int, signs: int | None
 ) -> Diagnosis:
-    """How the translator is; a text that it refuses is no fault of its own.
+    """How the translator is: a warning where it has refused texts since the last diagnosis.
 
     Args:
         statistics: What it has done.
@@ -81,6 +87,9 @@ def diagnose(
         "last refusal": statistics.last_refusal,
         "signs known": "unknown" if signs is None else str(signs),
     }
+    refused = statistics.newly_refused()
+    if refused:
+        return Diagnosis(Level.WARN, f"{refused} texts refused: {statistics.last_refusal}", values)
     return Diagnosis(Level.OK, f"{values['state']}, model {model}", values)
 
 

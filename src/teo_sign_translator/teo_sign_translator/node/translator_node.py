@@ -14,10 +14,10 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from std_msgs.msg import String
-from teo_sign_msgs.msg import SignSentence
+from teo_sign_msgs.msg import SignSentence, TranslationStatus
 from teo_sign_msgs.srv import Translate
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
@@ -33,21 +33,27 @@ from teo_sign_translator.output.known_signs import listed_signs
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.pipeline.translator import Translator
 
-#: Texts that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own queue
-#: that is full first, and that says so.
-TEXT_DEPTH = 1000
+#: Outcomes that DDS keeps for a reader that is slow; a text in a flood of them is refused in a tenth of a
+#: millisecond.
+STATUS_DEPTH = 5000
 
 # How long the end of the text that is being translated is awaited [s]; the longest text takes less.
 _STOP_TIMEOUT = 5.0
 
-_NOT_ACTIVE = "[not_active] the translator is being stopped: activate it, then send the text again"
+# Refusals of a flood are logged so often [s]; each is counted and published.
+_LOG_PERIOD = 1.0
+
+_NOT_ACTIVE = TranslationError(
+    "not_active", "the translator is being stopped: activate it, then send the text again"
+)
 
 
 class _Text(NamedTuple):
-    """A text and when it came."""
+    """A text, when it came, and what it is called from then on."""
 
     text: str
     received: Time
+    utterance_id: str
 
 
 class TranslatorNode(LifecycleNode):
@@ -95,6 +101,9 @@ class TranslatorNode(LifecycleNode):
         self._tokens = self.create_lifecycle_publisher(
             SignSentence, "sign_tokens", QoSProfile(depth=SIGN_TOKENS_DEPTH, reliability=reliable)
         )
+        self._outcomes = self.create_publisher(
+            TranslationStatus, "translation_status", QoSProfile(depth=STATUS_DEPTH, reliability=reliable)
+        )
         self._service = self.create_service(Translate, "translate", self._on_translate)
         self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)
         self._inventory = SignInventory(self, listed)
@@ -105,7 +114,8 @@ class TranslatorNode(LifecycleNode):
         """Listen to `text`."""
         result = super().on_activate(state)
         self._worker = TextWorker(self._answer_text, size=self._value("queue_size"))
-        qos = QoSProfile(depth=TEXT_DEPTH, reliability=ReliabilityPolicy.RELIABLE)
+        # DDS keeps all of a flood while a callback runs: it is our own queue that is full, and says so.
+        qos = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
         self._texts = self.create_subscription(String, "text", self._on_text, qos)
         assert self._translator is not None
         self.get_logger().info(f"ready, model {self._translator.name}")
@@ -138,7 +148,7 @@ class TranslatorNode(LifecycleNode):
             return
         self.destroy_subscription(self._texts)
         for item in worker.stop(_STOP_TIMEOUT):
-            self._refuse(item.text, _NOT_ACTIVE)
+            self._refuse(item, _NOT_ACTIVE)
 
     def _let_go(self) -> None:
         if self._translator is None:
@@ -148,35 +158,40 @@ class TranslatorNode(LifecycleNode):
         self.destroy_timer(self._timer)
         self.destroy_service(self._service)
         self.destroy_lifecycle_publisher(self._tokens)
+        self.destroy_publisher(self._outcomes)
         self._translator = self._inventory = None
 
     def _on_text(self, message: String) -> None:
+        item = self._received(message.data)
         if self._worker is None:  # taken from the topic just before the node was deactivated
-            self._refuse(message.data, _NOT_ACTIVE)
-        elif not self._worker.offer(_Text(message.data, self.get_clock().now())):
-            self._refuse(
-                message.data, f"[queue_full] {self._worker.size} texts wait already: send fewer at a time"
-            )
+            self._refuse(item, _NOT_ACTIVE)
+        elif not self._worker.offer(item):
+            full = f"{self._worker.size} texts wait already: send fewer at a time"
+            self._refuse(item, TranslationError("queue_full", full))
+
+    def _received(self, text: str) -> _Text:
+        return _Text(text, self.get_clock().now(), str(uuid.uuid4()))
 
     def _answer_text(self, item: _Text) -> None:
         """Translate and publish a text of the topic; in the worker's thread."""
         try:
             sentences = self._translate(item)
         except TranslationError as error:
-            self._refuse(item.text, f"[{error.code}] {error}")
+            self._refuse(item, error)
             return
         except Exception as error:  # a fault of ours with one text must not keep the node from the next
-            self._statistics.add_refused(f"[internal_error] {error!r}")
             self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
+            self._refuse(item, TranslationError("internal_error", f"{error!r}; the log says more"))
             return
         for sentence in sentences:
             self._tokens.publish(sentence)
+        self._tell(item, sentences=len(sentences))
         if self._tokens.get_subscription_count() == 0:
             self.get_logger().warning("nobody listens to sign_tokens: this text will not be signed")
 
     def _on_translate(self, request: Translate.Request, response: Translate.Response) -> Translate.Response:
         try:
-            response.sentences = self._translate(_Text(request.text, self.get_clock().now()))
+            response.sentences = self._translate(self._received(request.text))
             response.success = True
         except TranslationError as error:
             self._statistics.add_refused(f"[{error.code}] {error}")
@@ -214,11 +229,27 @@ class TranslatorNode(LifecycleNode):
             self.get_logger().warning(
                 f"nothing stands for {short(' '.join(map(ascii, translation.ignored)))}"
             )
-        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=str(uuid.uuid4()))
+        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=item.utterance_id)
 
-    def _refuse(self, text: str, reason: str) -> None:
-        self._statistics.add_refused(reason)
-        self.get_logger().warning(f"refused {quoted(text)}: {reason}")
+    def _refuse(self, item: _Text, error: TranslationError) -> None:
+        self._statistics.add_refused(f"[{error.code}] {error}")
+        self._tell(item, code=error.code, message=str(error))
+        self.get_logger().warning(
+            f"refused {quoted(item.text)}: [{error.code}] {error} ({self._statistics.refused} so far)",
+            throttle_duration_sec=_LOG_PERIOD,
+        )
+
+    def _tell(self, item: _Text, *, sentences: int = 0, code: str = "", message: str = "") -> None:
+        """Say what became of a text of the topic."""
+        outcome = TranslationStatus(
+            utterance_id=item.utterance_id,
+            code=code,
+            message=message,
+            text=short(item.text),
+            sentence_count=sentences,
+        )
+        outcome.header.stamp = self.get_clock().now().to_msg()
+        self._outcomes.publish(outcome)
 
     def _publish_diagnostics(self) -> None:
         assert self._translator is not None

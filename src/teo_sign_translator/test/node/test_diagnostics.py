@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.node.diagnostics import Statistics
+from teo_common.diagnostics import Level
+from teo_sign_translator.node.diagnostics import Statistics, diagnose
 
 
 def test_texts_are_counted_and_the_last_refusal_kept() -> None:
@@ -27,3 +28,13 @@ def test_only_the_latest_texts_count_for_the_latency() -> None:
     for latency in [9.0] * 10 + [0.001] * 1000:
         statistics.add_done(latency)
     assert statistics.latency(100.0) == pytest.approx(0.001)
+
+
+def test_a_refused_text_is_a_warning_once() -> None:
+    statistics = Statistics()
+    levels = []
+    for refusals in (0, 2, 0):
+        for _ in range(refusals):
+            statistics.add_refused("[queue_full] too many")
+        levels.append(diagnose(statistics, model="m", active=True, waiting=0, signs=None).level)
+    assert levels == [Level.OK, Level.WARN, Level.OK]

@@ -16,9 +16,9 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import QoSProfile
+from rclpy.qos import HistoryPolicy, QoSProfile
 from std_msgs.msg import String
-from teo_sign_msgs.msg import SignSentence, SignToken
+from teo_sign_msgs.msg import SignSentence, SignToken, TranslationStatus
 from teo_sign_msgs.srv import ListSigns, Translate
 
 from teo_sign_translator.node.translator_node import TranslatorNode
@@ -38,7 +38,13 @@ class Bench:
         assert self.node.start()
         self.person = Node("person", context=self.context)
         self.received: list[SignSentence] = []
-        self.texts = self.person.create_publisher(String, "text", QoSProfile(depth=100))
+        self.outcomes: list[TranslationStatus] = []
+        self.texts = self.person.create_publisher(
+            String, "text", QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
+        )
+        self.person.create_subscription(
+            TranslationStatus, "translation_status", self.outcomes.append, QoSProfile(depth=5000)
+        )
         self.person.create_subscription(
             SignSentence, "sign_tokens", self.received.append, QoSProfile(depth=200)
         )
@@ -49,6 +55,7 @@ class Bench:
             self.executor.add_node(node)
         self.wait(lambda: self.texts.get_subscription_count() == 1, "the text topic")
         self.wait(lambda: self.person.count_publishers("sign_tokens") == 1, "the sign_tokens topic")
+        self.wait(lambda: self.person.count_publishers("translation_status") == 1, "the outcomes")
 
     def wait(self, done: Callable[[], bool], what: str) -> None:
         end = time.monotonic() + PATIENCE
@@ -214,6 +221,37 @@ def held_translations(bench: Bench) -> tuple[threading.Event, threading.Event]:
 
     bench.node._translator.translate = slow
     return begun, held
+
+
+def test_what_became_of_every_text_is_told(bench: Bench) -> None:
+    bench.type("Hola", "", "Hola. ¿Qué tal?", "мир")
+    bench.wait(lambda: len(bench.outcomes) == 4, "four outcomes")
+    told = {outcome.text: (outcome.code, outcome.sentence_count) for outcome in bench.outcomes}
+    assert told == {
+        "Hola": ("", 1),
+        "": ("empty_text", 0),
+        "Hola. ¿Qué tal?": ("", 2),
+        "мир": ("unsignable_text", 0),
+    }
+    assert all(bool(outcome.message) == bool(outcome.code) for outcome in bench.outcomes)
+    ids = [outcome.utterance_id for outcome in bench.outcomes]
+    assert len(set(ids)) == 4
+    assert {sentence.utterance_id for sentence in bench.wait_for(3)} == {ids[0], ids[2]}
+
+
+def test_of_two_thousand_texts_at_once_none_is_lost_without_a_word(bench: Bench) -> None:
+    begun, held = held_translations(bench)
+    texts = [f"Yo tengo {age} años" for age in range(2000)]
+    bench.type(texts[0])
+    bench.wait(begun.is_set, "the first text to be worked on")
+    bench.type(*texts[1:])
+    waiting = 100  # the default of queue_size
+    bench.wait(lambda: len(bench.outcomes) == 2000 - waiting - 1, "all but those that wait to be refused")
+    assert {outcome.code for outcome in bench.outcomes} == {"queue_full"}
+    held.set()
+    bench.wait(lambda: len(bench.outcomes) == 2000, "the others")
+    assert {outcome.text for outcome in bench.outcomes} == set(texts)
+    assert (bench.node._statistics.done, bench.node._statistics.refused) == (101, 1899)
 
 
 def test_a_full_queue_refuses_and_what_waits_is_answered_in_order(domain_id: int) -> None:

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What goes to the driver and what it says: motions by topic or action, `driver_state`, refusals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from action_msgs.msg import GoalStatus
+from control_msgs.action import FollowJointTrajectory
+from rclpy.action import ActionClient
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.task import Future
+from teo_sign_msgs.msg import DriverState
+from trajectory_msgs.msg import JointTrajectory
+
+from teo_lut_executor.execution.events import DriverReport
+from teo_lut_executor.node.messages import to_report
+from teo_lut_executor.node.parameters import ACTION
+
+_RESULT = FollowJointTrajectory.Result
+
+# Results that say that a goal was not taken, or not followed; others tell of a newer goal.
+_REFUSALS = {
+    _RESULT.INVALID_GOAL: "INVALID_GOAL",
+    _RESULT.INVALID_JOINTS: "INVALID_JOINTS",
+    _RESULT.OLD_HEADER_TIMESTAMP: "OLD_HEADER_TIMESTAMP",
+    _RESULT.PATH_TOLERANCE_VIOLATED: "PATH_TOLERANCE_VIOLATED",
+    _RESULT.GOAL_TOLERANCE_VIOLATED: "GOAL_TOLERANCE_VIOLATED",
+}
+
+
+class DriverLink:
+    """Sends motions to the driver."""
+
+    def __init__(
+        self,
+        node: Node,
+        *,
+        interface: str,
+        on_report: Callable[[DriverReport], None],
+        on_refused: Callable[[int, str], None],
+    ) -> None:
+        """Connect.
+
+        Args:
+            node: Owns publisher, client and subscription.
+            interface: "topic" or "action".
+            on_report: Called with what the driver says of itself.
+            on_refused: Called with the number of a motion that the driver did not take, and why.
+        """
+        self._node = node
+        self._on_report = on_report
+        self._on_refused = on_refused
+        self._topic = node.create_publisher(JointTrajectory, "joint_trajectory", 10)
+        self._action: ActionClient | None = None
+        if interface == ACTION:
+            self._action = ActionClient(node, FollowJointTrajectory, "follow_joint_trajectory")
+        self._by_topic: int | None = None  # number of the motion that was sent last, if by topic
+        self._refused: int | None = None  # trajectories that the driver had refused by its last report
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self._states = node.create_subscription(DriverState, "driver_state", self._on_state, latched)
+
+    @property
+    def listening(self) -> bool:
+        """Whether anybody takes motions."""
+        return self._serves or self._topic.get_subscription_count() > 0
+
+    def send(self, number: int, trajectory: JointTrajectory) -> None:
+        """Send a motion."""
+        if not self._serves:
+            self._by_topic = number
+            self._topic.publish(trajectory)
+            return
+        assert self._action is not None
+        self._by_topic = None
+        sent = self._action.send_goal_async(FollowJointTrajectory.Goal(trajectory=trajectory))
+        sent.add_done_callback(lambda future: self._on_answer(number, future))
+
+    def close(self) -> None:
+        """Disconnect."""
+        if self._action is not None:
+            self._action.destroy()
+        self._node.destroy_publisher(self._topic)
+        self._node.destroy_subscription(self._states)
+
+    @property
+    def _serves(self) -> bool:
+        return self._action is not None and self._action.server_is_ready()
+
+    def _on_answer(self, number: int, sent: Future) -> None:
+        goal = sent.result()
+        if goal is None or not goal.accepted:
+            self._on_refused(number, "the goal was rejected")
+            return
+        goal.get_result_async().add_done_callback(lambda future: self._on_result(number, future))
+
+    def _on_result(self, number: int, future: Future) -> None:
+        response = future.result()
+        if response is None or response.status == GoalStatus.STATUS_SUCCEEDED:
+            return
+        name = _REFUSALS.get(response.result.error_code)
+        if name is not None:
+            self._on_refused(number, f"[{name}] {response.result.error_string}")
+
+    def _on_state(self, message: DriverState) -> None:
+        refused, self._refused = self._refused, message.refused
+        self._on_report(to_report(message))
+        if refused is not None and message.refused > refused and self._by_topic is not None:
+            self._on_refused(self._by_topic, f"[{message.refusal_code}] {message.message}")

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The journal of one executor: where it is, and what becomes of it when it cannot be kept."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+from rclpy.node import Node
+
+from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.journal import Journal, Kept
+
+
+class SentenceJournal:
+    """Keeps a `Journal` if there is to be one, and signs without where it cannot be kept."""
+
+    def __init__(self, node: Node, *, folder: str) -> None:
+        """Open the journal.
+
+        Args:
+            node: Whose it is; its full name and DDS domain name the file.
+            folder: Where it is kept; empty for none.
+        """
+        self._journal: Journal | None = None
+        self.left: tuple[Kept, ...] = ()
+        if not folder:
+            return
+        name = node.get_fully_qualified_name().strip("/").replace("/", ".")
+        file = f"domain{os.environ.get('ROS_DOMAIN_ID', '0')}.{name}.jsonl"
+        path = Path(folder).expanduser() / file
+        try:
+            self._journal = Journal(path)
+        except OSError as error:
+            node.get_logger().warning(f"no journal is kept, a killed executor forgets sentences: {error}")
+        else:
+            self.left = self._journal.left
+
+    def accepted(self, ticket: int, sentence: Sentence, attempts: int = 0) -> None:
+        """A sentence waits to be signed."""
+        if self._journal is not None:
+            self._journal.accepted(ticket, sentence, time.time(), attempts=attempts)
+
+    def begun(self, ticket: int) -> None:
+        """The robot begins to sign it."""
+        if self._journal is not None:
+            self._journal.begun(ticket)
+
+    def ended(self, ticket: int) -> None:
+        """It was signed, or it was told that it is not."""
+        if self._journal is not None:
+            self._journal.ended(ticket)
+
+    def close(self) -> None:
+        """Write no more."""
+        if self._journal is not None:
+            self._journal.close()

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Has the planning process plan, and hears its answers in a thread."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+
+from teo_lut_executor.execution.events import PlanWanted, ReturnWanted
+from teo_lut_executor.planning.settings import PlannerSettings
+from teo_lut_executor.planning.worker import Answer, NotPlanned, Opened, Ready
+
+# How long the process may take to end once its socket is closed [s]; it is killed then.
+_END_TIMEOUT = 1.0
+
+# Not with `-m`: the answers' classes would be those of a module `__main__`, which nobody else knows.
+_COMMAND = "from teo_lut_executor.planning.worker import main; main()"
+
+
+class PlanningProcess:
+    """A planner in another process; it is started again if it dies."""
+
+    def __init__(self, settings: PlannerSettings, wake: Callable[[], object]) -> None:
+        """Start the process.
+
+        Args:
+            settings: What its planner is made of.
+            wake: Called in another thread when `answers` has something to give.
+        """
+        self._settings = settings
+        self._wake = wake
+        self._lock = threading.Lock()
+        self._answers: deque[Answer] = deque()
+        self._open: list[int] = []  # numbers of the requests that are not answered yet
+        self._closed = False
+        self.ready = False
+        self.restarts = 0
+        self._start()
+
+    def ask(self, wanted: PlanWanted | ReturnWanted) -> None:
+        """Have something planned."""
+        with self._lock:
+            self._open.append(wanted.number)
+            self._send(wanted)
+
+    def configure(self, settings: PlannerSettings) -> None:
+        """Plan with other settings from the next request on."""
+        with self._lock:
+            self._settings = settings
+            self._send(settings)
+
+    def answers(self) -> list[Answer]:
+        """What was answered since this was called last, in order."""
+        taken = []
+        while self._answers:
+            taken.append(self._answers.popleft())
+        return taken
+
+    def close(self) -> None:
+        """End the process."""
+        with self._lock:
+            self._closed = True
+            self._send(None)  # it ends, and with it the thread that hears it
+        self._end()
+        self._thread.join(_END_TIMEOUT)
+
+    @property
+    def pid(self) -> int:
+        """Of the process."""
+        return self._process.pid
+
+    def _start(self) -> None:
+        ours, its = socket.socketpair()
+        command = [sys.executable, "-c", _COMMAND, str(its.fileno())]
+        self._process = subprocess.Popen(command, pass_fds=[its.fileno()], stdin=subprocess.DEVNULL)
+        its.close()
+        self._connection = Connection(ours.detach())
+        self._send(self._settings)
+        self._thread = threading.Thread(target=self._hear, args=(self._connection,), daemon=True)
+        self._thread.start()
+
+    def _send(self, request: object) -> None:
+        # Where it has died, the thread that hears it notices, and names what it was asked.
+        with contextlib.suppress(OSError):
+            self._connection.send(request)
+
+    def _end(self) -> None:
+        try:
+            self._process.wait(_END_TIMEOUT)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def _hear(self, connection: Connection) -> None:
+        while True:
+            try:
+                answer = connection.recv()
+            except (EOFError, OSError):
+                break
+            with self._lock:
+                if isinstance(answer, Ready):
+                    self.ready = True
+                elif not isinstance(answer, Opened):
+                    self._open.remove(answer.number)
+                self._answers.append(answer)
+            self._wake()
+        with self._lock:
+            if not self._closed:
+                self._begin_again()
+        self._wake()
+
+    def _begin_again(self) -> None:
+        """The process died: name what it was planning, and start another."""
+        self._end()
+        self.ready = False
+        self.restarts += 1
+        status = self._process.returncode
+        message = f"the planner's process ended with status {status} while it planned: it was started again"
+        self._answers.extend(
+            NotPlanned(number=number, code="planner_lost", message=message) for number in self._open
+        )
+        self._open.clear()
+        self._start()

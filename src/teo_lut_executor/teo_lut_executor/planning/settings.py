@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What a planner is made of, as it travels to the process that plans."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from teo_description.robot import Robot
+from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD, Planner
+from teo_motion.sentence.rhythm import SigningStyle
+from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
+from teo_signs.lexicon import DEFAULT_STANDING
+from teo_signs.mirroring import MirroredSigns
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import Standing
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlannerSettings:
+    """See `Planner` for the meaning of each.
+
+    Attributes:
+        lut_directory: Of the look-up table; None for the package's.
+        left_handed: Whether signs are mirrored.
+        acceleration: Greatest of every joint [rad/s^2].
+        jerk: Greatest of every joint [rad/s^3].
+    """
+
+    lut_directory: Path | None = None
+    left_handed: bool = False
+    least_standing: Standing = DEFAULT_STANDING
+    style: SigningStyle = field(default_factory=SigningStyle)
+    acceleration: float = DEFAULT_ACCELERATION
+    jerk: float = DEFAULT_JERK
+    least_clearance: float = DEFAULT_CLEARANCE
+    period: float = DEFAULT_PERIOD
+    max_duration: float = DEFAULT_MAX_DURATION
+
+    def planner(self, lut: Mapping[str, Sign], robot: Robot | None) -> Planner:
+        """Make the planner.
+
+        Args:
+            lut: The look-up table.
+            robot: For distances between its parts, and to mirror signs; None does neither: enough to see
+                whether these settings go together, and whether a sentence can be looked up.
+
+        Raises:
+            PlanError: They do not ("bad_limits", "bad_period").
+        """
+        return Planner(
+            MirroredSigns(lut, robot) if self.left_handed and robot is not None else lut,
+            limits=MotionLimits.of_robot(acceleration=self.acceleration, jerk=self.jerk),
+            style=self.style,
+            robot=robot,
+            least_clearance=self.least_clearance,
+            period=self.period,
+            max_duration=self.max_duration,
+            least_standing=self.least_standing,
+        )

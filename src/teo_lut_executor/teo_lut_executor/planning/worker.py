@@ -1,0 +1,169 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The process that plans.
+
+It reads `PlannerSettings`, `PlanWanted` and `ReturnWanted` from a socket, answers with what is below, in
+order, and ends when the socket is closed: also when the process at its other end was killed.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+import numpy as np
+
+from teo_description.robot import Robot
+from teo_lut_executor.execution.events import PlanWanted, ReturnWanted, Sentence
+from teo_lut_executor.planning.settings import PlannerSettings
+from teo_motion.sentence.composition import REST
+from teo_motion.sentence.plan import Plan
+from teo_motion.trajectory.ruckig_segment import State
+from teo_signs.errors import LutError, PlanError
+from teo_signs.look_up_table import Lut
+from teo_signs.tokens import Token
+
+# Time that a sentence's plan is given while its opening is under way [s], and the same for each token: about
+# three times the median on two loaded cores. A sentence that is not planned by then begins from a standstill.
+_PLANNING_TIME = 0.25
+_PLANNING_TIME_OF_TOKEN = 0.03
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ready:
+    """The planner is loaded."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Opened:
+    """The first motion of a sentence; its plan follows."""
+
+    number: int
+    plan: Plan
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Planned:
+    """A plan.
+
+    Attributes:
+        number: Of the request.
+        plan: The motion.
+        after: Time from the start of the opening at which it takes over [s]; 0 without opening.
+        took: How long planning took [s].
+    """
+
+    number: int
+    plan: Plan
+    after: float
+    took: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class NotPlanned:
+    """Why there is no plan: code and sentence of the `PlanError`."""
+
+    number: int
+    code: str
+    message: str
+
+
+Answer = Ready | Opened | Planned | NotPlanned
+
+
+class _Worker:
+    """Plans what is asked for."""
+
+    def __init__(self, settings: PlannerSettings) -> None:
+        self._robot = Robot.load()
+        self._lut = Lut.open(settings.lut_directory)
+        self.settings = settings
+
+    @property
+    def settings(self) -> PlannerSettings:
+        """What the planner is made of."""
+        return self._settings
+
+    @settings.setter
+    def settings(self, settings: PlannerSettings) -> None:
+        self._settings = settings
+        self._planner = settings.planner(self._lut, self._robot)
+
+    def warm_up(self) -> None:
+        """Plan something: the first plan of a process takes several times as long as the next."""
+        gloss = next(iter(self._lut.glosses()), None)
+        if gloss is None:
+            return
+        still = np.zeros_like(REST)
+        rest = State(position=REST, velocity=still, acceleration=still)
+        sentence = Sentence(tokens=(Token(gloss=gloss),))
+        wanted = PlanWanted(number=0, sentence=sentence, start=rest, opening=True)
+        for _ in self.answers(wanted):
+            pass
+
+    def answers(self, wanted: PlanWanted | ReturnWanted) -> Iterator[Answer]:
+        """Answer a request, as soon as each part of the answer is known."""
+        self._lut.refresh()  # the node says what is wrong with a table that cannot be read
+        began = time.perf_counter()
+        after, start = 0.0, wanted.start
+        try:
+            if isinstance(wanted, ReturnWanted):
+                plan = self._planner.plan_to_rest(start)
+            else:
+                opened = self._opening(wanted)
+                if opened is not None:
+                    opening, after = opened
+                    yield Opened(number=wanted.number, plan=opening)
+                    position, velocity, acceleration = opening.at(after)
+                    start = State(position=position, velocity=velocity, acceleration=acceleration)
+                sentence = wanted.sentence
+                plan = self._planner.plan(sentence.tokens, start, form=sentence.form, hold=wanted.hold)
+        except PlanError as error:
+            yield NotPlanned(number=wanted.number, code=error.code, message=str(error))
+            return
+        yield Planned(number=wanted.number, plan=plan, after=after, took=time.perf_counter() - began)
+
+    def _opening(self, wanted: PlanWanted) -> tuple[Plan, float] | None:
+        if not wanted.opening:
+            return None
+        tokens = wanted.sentence.tokens
+        lasting = _PLANNING_TIME + _PLANNING_TIME_OF_TOKEN * len(tokens)
+        return self._planner.plan_opening(tokens, wanted.start, lasting=lasting)
+
+
+def serve(connection: Connection) -> None:
+    """Answer what comes, until `None` comes or the other end is closed."""
+    worker: _Worker | None = None
+    while True:
+        try:
+            request = connection.recv()
+        except EOFError:
+            return
+        if request is None:
+            return
+        try:
+            if worker is None:
+                worker = _Worker(request)
+                worker.warm_up()
+                connection.send(Ready())
+            elif isinstance(request, PlannerSettings):
+                worker.settings = request
+            else:
+                for answer in worker.answers(request):
+                    connection.send(answer)
+        except (BrokenPipeError, ConnectionResetError):
+            return
+
+
+def main() -> None:
+    """Serve the socket whose descriptor is the argument."""
+    # Ctrl-C goes to the whole group of processes; ours ends with the one that asks.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        serve(Connection(int(sys.argv[1])))
+    except LutError as error:
+        sys.exit(f"planner: [{error.code}] {error}")

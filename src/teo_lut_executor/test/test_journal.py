@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from teo_lut_executor.execution.events import Sentence
+from teo_lut_executor.execution.journal import Journal, Kept
+from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
+from teo_signs.tokens import parse_printed
+
+QUESTION = SentenceForm(type=SentenceType.YES_NO_QUESTION, negated=True)
+
+
+def sentence(text: str) -> Sentence:
+    return Sentence(
+        tokens=parse_printed(text), utterance_id=text, index=1, count=2, form=QUESTION, text=f"¿{text}?"
+    )
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "folder" / "executor.jsonl"
+
+
+def test_what_was_accepted_and_not_ended_is_left_with_every_field(path: Path) -> None:
+    journal = Journal(path)
+    assert journal.left == ()
+    for ticket, text in enumerate(("TÚ", "A-N _ 352", "AYUDAR[2>1]")):
+        journal.accepted(ticket, sentence(text), 10.0 + ticket)
+    journal.begun(0)
+    journal.ended(0)
+    journal.begun(1)
+    journal.close()
+    assert Journal(path).left == (
+        Kept(sentence("A-N _ 352"), 11.0, 1),
+        Kept(sentence("AYUDAR[2>1]"), 12.0, 0),
+    )
+
+
+def test_a_torn_last_line_costs_that_line_alone(path: Path) -> None:
+    journal = Journal(path)
+    journal.accepted(1, sentence("TÚ"), 1.0)
+    journal.accepted(2, sentence("A"), 2.0)
+    journal.close()
+    path.write_bytes(path.read_bytes()[:-20])
+    assert [kept.sentence.utterance_id for kept in Journal(path).left] == ["TÚ"]
+
+
+def test_what_is_taken_over_is_not_left_twice(path: Path) -> None:
+    first = Journal(path)
+    first.accepted(1, sentence("TÚ"), 1.0)
+    first.close()
+    second = Journal(path)
+    second.close()
+    assert len(second.left) == 1 and Journal(path).left == ()
+
+
+def test_two_executors_do_not_share_a_journal(path: Path) -> None:
+    journal = Journal(path)
+    with pytest.raises(BlockingIOError):
+        Journal(path)
+    journal.close()

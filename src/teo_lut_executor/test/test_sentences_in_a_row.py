@@ -1,0 +1,276 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""How one motion goes on into the next, and what interrupts it: stops, pauses, newer texts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from queue_world import TICK, World
+
+from teo_description import COMMANDED_JOINTS
+from teo_lut_executor.execution.events import (
+    Activity,
+    DriverMode,
+    Outcome,
+    PlanWanted,
+    Preemption,
+    QueueSettings,
+)
+from teo_motion.sentence.composition import REST
+from teo_signs.sign import Sign
+
+ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
+
+
+@pytest.fixture
+def world(table: Mapping[str, Sign]) -> World:
+    made = World(table)
+    made.run(0.2)
+    return made
+
+
+def elbow(world: World) -> np.ndarray:
+    """Angle of the right elbow at every tick [rad]: 0 hanging, about -1.3 while it spells."""
+    return np.array([positions[ELBOW] for positions, _ in world.path])
+
+
+def assert_smooth(world: World) -> None:
+    """No jump: every tick's step and change of velocity are within what the limits allow."""
+    limits = world.planner.limits
+    positions = np.array([position for position, _ in world.path])
+    velocities = np.array([velocity for _, velocity in world.path])
+    assert (np.abs(np.diff(positions, axis=0)) <= limits.velocity * TICK * 1.01 + 1e-9).all()
+    assert (np.abs(np.diff(velocities, axis=0)) <= limits.acceleration * TICK * 1.01 + 1e-9).all()
+
+
+def test_sentences_in_a_row_are_signed_with_the_arms_up(world: World) -> None:
+    tickets = [world.sign(text) for text in ("A-N", "N-A", "A")]
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert_smooth(world)
+    raised = elbow(world) < -1.0
+    assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == 1, "raised once for all three"
+    np.testing.assert_allclose(world.positions, REST, atol=1e-3)
+    singly = sum(world.planner.plan(event.sentence.tokens).duration for event in plans_wanted(world))
+    assert world.now - 100.2 < singly - 4.0
+
+
+def plans_wanted(world: World) -> list[PlanWanted]:
+    return [event for event in world.events if isinstance(event, PlanWanted)]
+
+
+def test_between_joined_sentences_the_hands_stay_for_the_pause(world: World) -> None:
+    world.sign("A-N"), world.sign("N-A")
+    world.run_until(lambda: len(world.sent) == 2)
+    first, second = world.sent
+    last = first.plan.timings[-1]
+    ended = last.start + last.duration
+    assert second.start - first.start == pytest.approx(ended, abs=0.021)
+    stays = second.plan.positions[second.plan.times <= world.queue.settings.sentence_pause]
+    np.testing.assert_allclose(stays - stays[0], 0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("late", [0.1, 0.5, 0.9])
+def test_a_sentence_that_comes_while_the_arms_go_down_turns_them_round(world: World, late: float) -> None:
+    first = world.sign("A-N")
+    world.run_until(lambda: bool(world.sent))
+    last = world.sent[0].plan.timings[-1]
+    world.run(last.start + last.duration + late)
+    second = world.sign("N-A")
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
+    assert plans_wanted(world)[-1].start.velocity.any(), "planned from a robot in motion"
+    assert_smooth(world)
+
+
+def test_a_join_that_is_planned_too_late_is_tried_again(world: World) -> None:
+    first, second = world.sign("A"), world.sign("N-A")
+    world.run_until(lambda: bool(world.sent))
+    world.planning_time = world.sent[0].plan.timings[-1].start + 1.0
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
+    assert_smooth(world)
+
+
+def test_a_sentence_that_cannot_be_signed_is_named_early_and_the_next_is_joined(
+    world: World,
+) -> None:
+    first = world.sign("A-N")
+    bad, third = world.sign("\u03a9"), world.sign("N-A")
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished() == [(bad, Outcome.REFUSED), (first, Outcome.SUCCESS), (third, Outcome.SUCCESS)]
+    assert plans_wanted(world)[-1].hold > 0.0
+    assert_smooth(world)
+
+
+def test_the_arms_rise_before_the_sentence_is_planned(world: World) -> None:
+    world.opening_time, world.planning_time = 0.5, 0.3
+    ticket = world.sign("A-N")
+    world.run(0.2)
+    assert len(world.sent) == 1 and elbow(world)[-1] < 0.0, "they move already"
+    assert world.activities()[-1] == Activity.WAITING, "and nothing is said of a plan that is not there"
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert len(world.sent) == 2
+    assert_smooth(world)
+
+
+def test_a_plan_that_is_not_there_in_time_begins_where_the_opening_stops(world: World) -> None:
+    world.opening_time, world.planning_time = 0.5, 1.5
+    ticket = world.sign("A-N")
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert len(world.sent) == 2
+    np.testing.assert_allclose(world.sent[1].plan.velocities[0], 0.0, atol=1e-9)
+    assert_smooth(world)
+
+
+def test_a_sentence_that_is_refused_after_its_opening_brings_the_robot_back_to_rest(world: World) -> None:
+    world.opening_time, world.planning_time = 0.5, 0.3
+    world.planner._avoidance._timing._max_duration = 1.0  # known only when the whole is timed
+    ticket = world.sign("A-N")
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.REFUSED)]
+    world.planner._avoidance._timing._max_duration = 300.0
+    world.run_until(lambda: world.activities()[-1] == Activity.IDLE)
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)
+
+
+def test_a_latched_stop_ends_the_sentence_and_keeps_the_queue_until_it_is_rearmed(world: World) -> None:
+    first, second = world.sign("A-N-A", utterance_id="one"), world.sign("N-A", utterance_id="two")
+    world.run(3.0)
+    world._motions, world.velocities = [], np.zeros(REST.size)  # the driver brakes by itself
+    world.driver_says(DriverMode.STOPPED)
+    world.run(5.0)
+    assert world.finished() == [(first, Outcome.CANCELED)]
+    named = next(status for status in world.statuses() if status.activity == Activity.REFUSED)
+    assert named.code == "stopped" and named.sentence and named.sentence.utterance_id == "one"
+    assert world.statuses()[-1].activity == Activity.STOPPED
+    assert len(world.sent) == 1 and world.queue.queued == 1
+    world.driver_says(DriverMode.HOLDING)
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished()[1] == (second, Outcome.SUCCESS)
+    np.testing.assert_allclose(world.positions, REST, atol=1e-3)
+
+
+def test_a_robot_that_was_stopped_goes_to_rest_when_it_is_rearmed(world: World) -> None:
+    world.sign("A-N-A")
+    world.run(3.0)
+    world._motions, world.velocities = [], np.zeros(REST.size)
+    world.driver_says(DriverMode.STOPPED)
+    world.run(1.0)
+    world.driver_says(DriverMode.HOLDING)
+    world.run_until(lambda: world.activities()[-1] == Activity.IDLE)
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)
+
+
+def test_a_pause_halts_progress_and_costs_nothing(world: World) -> None:
+    ticket = world.sign("A-N-A")
+    world.run(3.0)
+    world.driver_says(DriverMode.PAUSED)
+    before = world.queue.progress(world.now)
+    world.run(20.0)
+    after = world.queue.progress(world.now)
+    assert before is not None and after is not None
+    assert after.fraction == pytest.approx(before.fraction, abs=0.01)
+    assert world.activities()[-1] == Activity.PAUSED
+    world.driver_says(DriverMode.MOVING)
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+
+
+def test_at_half_speed_progress_follows_and_sentences_are_not_joined_in_motion(world: World) -> None:
+    world.driver_says(DriverMode.MOVING, speed_scaling=0.5)
+    first, second = world.sign("A"), world.sign("N")
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
+    assert not any(wanted.start.velocity.any() for wanted in plans_wanted(world))
+
+
+def test_a_newer_text_replaces_the_one_before_without_going_to_rest(table: Mapping[str, Sign]) -> None:
+    world = World(table, QueueSettings(preemption=Preemption.REPLACE))
+    world.run(0.2)
+    first = world.sign("A-N-A-N-A-N", utterance_id="old", count=2)
+    sister = world.sign("CASA", utterance_id="old", index=1, count=2)
+    world.run(3.0)
+    newer = world.sign("N-A", utterance_id="new")
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished() == [
+        (sister, Outcome.CANCELED),
+        (first, Outcome.CANCELED),
+        (newer, Outcome.SUCCESS),
+    ]
+    replaced = [s.sentence.index for s in world.statuses() if s.code == "replaced" and s.sentence]
+    assert replaced == [1, 0]
+    assert world.now < 100.2 + world.sent[0].plan.duration
+    assert_smooth(world)
+
+
+def test_sentences_that_wait_are_listed_and_cleared(world: World) -> None:
+    first = world.sign("A-N", utterance_id="one")
+    world.run(0.5)
+    others = [world.sign(text, utterance_id=text) for text in ("N", "A")]
+    listed, current = world.queue.sentences()
+    assert [sentence.utterance_id for sentence in listed] == ["one", "N", "A"] and current == 0
+    world.take(world.queue.clear(world.now))
+    assert world.finished() == [(ticket, Outcome.CANCELED) for ticket in others]
+    assert world.queue.sentences()[0] == listed[:1]
+    world.run_until(lambda: len(world.finished()) == 3)
+    assert world.finished()[2] == (first, Outcome.SUCCESS)
+
+
+def test_a_joined_sentence_that_is_canceled_goes_to_rest_instead(world: World) -> None:
+    first, second = world.sign("A"), world.sign("N-A-N-A")
+    world.run_until(lambda: len(world.sent) == 2)
+    world.cancel(second)
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.CANCELED)]
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)
+
+
+def test_a_driver_that_does_not_take_a_joined_sentence_gets_it_from_rest(world: World) -> None:
+    world.follows = lambda _: len(world.sent) != 2
+    first, second = world.sign("A"), world.sign("N")
+    world.run_until(lambda: len(world.sent) == 2)
+    world.take(world.queue.driver_refused(world.sent[1].number, "[start_mismatch] elsewhere", world.now))
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
+    np.testing.assert_allclose(world.sent[2].plan.positions[0], REST, atol=1e-3)
+
+
+def test_why_the_driver_refuses_is_told(world: World) -> None:
+    world.follows = lambda _: False
+    ticket = world.sign("A")
+    for count in (1, 2):
+        world.run_until(lambda count=count: len(world.sent) == count)  # type: ignore[misc]
+        world.take(world.queue.driver_refused(world.sent[-1].number, "[held_joint] no", world.now))
+    assert world.finished() == [(ticket, Outcome.NOT_REACHED)]
+    refused = world.statuses()[-1]
+    assert refused.code == "trajectory_refused" and "[held_joint] no" in refused.message
+
+
+def test_a_robot_that_somebody_else_moves_is_not_called_at_rest(table: Mapping[str, Sign]) -> None:
+    world = World(table)
+    world.velocities = np.full(REST.size, 0.2)
+    world.run(1.0)
+    assert set(world.activities()) == {Activity.WAITING}
+    world.velocities = np.zeros(REST.size)
+    world.run(0.2)
+    assert world.activities()[-1] == Activity.IDLE
+
+
+def test_a_queue_that_is_deactivated_stops_the_robot_and_names_the_sentence(world: World) -> None:
+    first, second = world.sign("A-N-A"), world.sign("N")
+    world.run(3.0)
+    world.take(world.queue.deactivate(world.now))
+    world.obstacle = "not active"
+    assert len(world.stops) == 1 and world.finished() == [(first, Outcome.CANCELED)]
+    assert [status.code for status in world.statuses() if status.code] == ["inactive"]
+    world.run(3.0)
+    assert not world.velocities.any() and len(world.sent) == 1
+    world.obstacle = ""
+    world.run_until(lambda: len(world.finished()) == 2)
+    assert world.finished()[1] == (second, Outcome.SUCCESS)

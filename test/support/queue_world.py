@@ -1,0 +1,174 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A world for tests of the execution queue: its planner, a clock, a driver and a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+
+from teo_description import COMMANDED_JOINTS
+from teo_lut_executor.execution.events import (
+    Activity,
+    DriverMode,
+    DriverReport,
+    Event,
+    Finished,
+    Outcome,
+    PlanWanted,
+    QueueSettings,
+    ReturnWanted,
+    Sentence,
+    Status,
+    StopReady,
+    TrajectoryReady,
+)
+from teo_lut_executor.execution.queue import ExecutionQueue
+from teo_motion.planner import Planner
+from teo_motion.sentence.composition import REST
+from teo_motion.sentence.plan import Plan
+from teo_motion.trajectory.ruckig_segment import State
+from teo_signs.errors import PlanError
+from teo_signs.sign import Sign
+from teo_signs.tokens import parse_printed
+
+TICK = 0.02
+
+
+class World:
+    """A queue, its planner, a clock, and a driver and robot that do what they are sent (or not)."""
+
+    def __init__(self, table: Mapping[str, Sign], settings: QueueSettings | None = None) -> None:
+        self.planner = Planner(table)
+        self.queue = ExecutionQueue(self.planner.limits, settings)
+        self.now = 100.0
+        self.obstacle = ""
+        self.publishes_states = True
+        self.planning_time = 0.0  # [s]
+        self.opening_time: float | None = (
+            None  # after which an opening is left for the plan; None: no opening
+        )
+        self.follows: Callable[[Plan], bool] = lambda _: True
+        self.sent: list[TrajectoryReady] = []
+        self.stops: list[StopReady] = []
+        self.events: list[Event] = []
+        self.positions = REST.copy()
+        self.velocities = np.zeros(REST.size)
+        self.path: list[tuple[np.ndarray, np.ndarray]] = []  # positions and velocities of every tick
+        self.lag = 0.0  # of the robot behind what it was sent [s]
+        self.pace = 1.0  # path time per time
+        self._motions: list[tuple[float, Plan]] = []  # by the path time at which each begins
+        self._stop: tuple[float, float, np.ndarray, np.ndarray] | None = None
+        self._path_time = 0.0
+        self._answers: list[tuple[float, Callable[[], list[Event]]]] = []
+
+    def sign(self, text: str, **fields: object) -> int:
+        sentence = Sentence(tokens=parse_printed(text), **fields)  # type: ignore[arg-type]
+        ticket, events = self.queue.submit(sentence, self.now)
+        self.take(events)
+        return ticket
+
+    def cancel(self, ticket: int) -> None:
+        self.take(self.queue.cancel(ticket, self.now))
+
+    def driver_says(self, mode: DriverMode, *, speed_scaling: float = 1.0) -> None:
+        self.pace = 0.0 if mode is DriverMode.PAUSED else speed_scaling
+        self.take(self.queue.driver_state(DriverReport(mode=mode, speed_scaling=self.pace), self.now))
+
+    def take(self, events: Iterable[Event]) -> None:
+        for event in events:
+            self.events.append(event)
+            if isinstance(event, PlanWanted | ReturnWanted):
+                self._plan(event)
+            elif isinstance(event, TrajectoryReady):
+                self.sent.append(event)
+                if self.follows(event.plan):
+                    begin = self._path_time + (event.start - self.now) * self.pace
+                    self._motions = [item for item in self._motions if item[0] < begin] + [
+                        (begin, event.plan)
+                    ]
+                    self._stop = None
+            elif isinstance(event, StopReady):
+                self.stops.append(event)
+                if self._motions or self._stop:
+                    self._motions = []
+                    self._stop = self.now, event.lead, self.positions, event.end.position
+
+    def _plan(self, wanted: PlanWanted | ReturnWanted) -> None:
+        due, number, start, after = self.now + self.planning_time, wanted.number, wanted.start, 0.0
+        try:
+            if isinstance(wanted, ReturnWanted):
+                plan = self.planner.plan_to_rest(start)
+            else:
+                tokens = wanted.sentence.tokens
+                if wanted.opening and self.opening_time is not None:
+                    opened = self.planner.plan_opening(tokens, start, lasting=self.opening_time)
+                    assert opened is not None
+                    opening, after = opened
+                    self._answers.append((self.now, lambda: self.queue.opened(number, opening, self.now)))
+                    position, velocity, acceleration = opening.at(after)
+                    start = State(position=position, velocity=velocity, acceleration=acceleration)
+                plan = self.planner.plan(tokens, start, form=wanted.sentence.form, hold=wanted.hold)
+        except PlanError as error:
+            refusal = error
+            self._answers.append((due, lambda: self.queue.not_planned(number, refusal, self.now)))
+        else:
+            self._answers.append((due, lambda: self.queue.planned(number, plan, self.now, after=after)))
+
+    def _answer(self) -> None:
+        due = [answer for when, answer in self._answers if when <= self.now]
+        self._answers = [item for item in self._answers if item[0] > self.now]
+        for answer in due:
+            self.take(answer())
+
+    def run(self, seconds: float) -> None:
+        end = self.now + seconds
+        while self.now < end:
+            self.tick()
+
+    def run_until(self, condition: Callable[[], bool], most: float = 120.0) -> None:
+        end = self.now + most
+        while not condition():
+            assert self.now < end, f"not within {most} s"
+            self.tick()
+
+    def tick(self) -> None:
+        self.now += TICK
+        self._path_time += TICK * self.pace
+        before = self.positions
+        if self._stop is not None:
+            began, lead, begin, end = self._stop
+            share = min((self.now - began) / lead, 1.0)
+            self.positions = begin + (end - begin) * (3.0 * share**2 - 2.0 * share**3)
+            self.velocities = (self.positions - before) / TICK
+        for begin, plan in self._motions:
+            if self._path_time - self.lag >= begin:
+                self.positions, velocities = _sample(plan, self._path_time - self.lag - begin)
+                self.velocities = velocities * self.pace
+        self.path.append((self.positions, self.velocities))
+        if self.publishes_states:
+            state = self.positions.tolist(), self.velocities.tolist()
+            self.queue.joint_states(COMMANDED_JOINTS, *state, self.now)
+        self._answer()
+        self.take(self.queue.step(self.now, obstacle=self.obstacle))
+        self._answer()
+
+    def finished(self) -> list[tuple[int, Outcome]]:
+        return [(event.ticket, event.outcome) for event in self.events if isinstance(event, Finished)]
+
+    def statuses(self) -> list[Status]:
+        return [event for event in self.events if isinstance(event, Status)]
+
+    def activities(self) -> list[Activity]:
+        return [status.activity for status in self.statuses()]
+
+
+def _sample(plan: Plan, time: float) -> tuple[np.ndarray, np.ndarray]:
+    """Position and velocity between two samples, linearly: ten times as fast as `Plan.at`."""
+    after = int(np.clip(np.searchsorted(plan.times, time), 1, len(plan.times) - 1))
+    begin, end = plan.times[after - 1], plan.times[after]
+    share = float(np.clip((time - begin) / (end - begin), 0.0, 1.0))
+    positions = plan.positions[after - 1] + share * (plan.positions[after] - plan.positions[after - 1])
+    velocities = plan.velocities[after - 1] + share * (plan.velocities[after] - plan.velocities[after - 1])
+    return positions, velocities if time < plan.duration else np.zeros_like(velocities)
