@@ -21,6 +21,12 @@ _NONE = "-"
 _PAST = "PASADO"
 _NOT = "NO"
 _EVERY = "cada"
+_I = "YO"
+# Forms that the first and the third person share, which morphology names the third.
+_SHARED_FORMS = ("V:ind:impf", "V:cond", "V:sub")
+# Least probability with which a shared form is taken for the first person: of the known sentences where the
+# model said YO for one, those that meant it had 0.95 and more.
+_SURE_OF_SUBJECT = 0.9
 # Tags of words behind which a noun comes, and of what then cannot stand there.
 _NOMINAL = ("PREP", "DET:def", "DET:poss")
 _VERBAL = ("V:ind", "V:cond", "V:sub", "V:imp", "PRON:obj", "PRON:refl")
@@ -92,8 +98,8 @@ class GlossEvidence:
     def invented(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """Places of the glosses that no word is evidence for.
 
-        Besides those listed: of PASADO beside a verb that is now, and of a word said twice that is there
-        once.
+        Besides those listed: of PASADO beside a verb that is now, of a word said twice that is there once,
+        and of YO where the model is not sure and its verb may as well be of the third person ("vivía").
 
         Args:
             words: Of the sentence.
@@ -107,6 +113,7 @@ class GlossEvidence:
             if (self._lacks_evidence(gloss.gloss, readings) and not _unsure(gloss, words))
             or (gloss.gloss == _PAST and _present(glosses[place:], meant))
             or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words))
+            or _doubtful_subject(gloss, meant)
         ]
 
     def _lacks_evidence(self, gloss: str, readings: Sequence[Reading]) -> bool:
@@ -139,6 +146,13 @@ def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
             readings = [each for each in readings if each.exact or each.lemma == first.lemma]
         result.append(readings)
     return result
+
+
+def _doubtful_subject(gloss: OutputGloss, meant: Sequence[Sequence[Reading]]) -> bool:
+    if gloss.gloss != _I or gloss.probability >= _SURE_OF_SUBJECT or not gloss.sources:
+        return False
+    tags = [reading.tag for place in gloss.sources for reading in meant[place]]
+    return all(tag.startswith(_SHARED_FORMS) and tag.endswith(":3s") for tag in tags) and bool(tags)
 
 
 def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:

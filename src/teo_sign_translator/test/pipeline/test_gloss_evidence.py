@@ -49,7 +49,7 @@ def _glosses(*glosses: tuple[str, int]) -> tuple[OutputGloss, ...]:
         ("Quedamos a las 7.", [("HORA", 2), ("7", 3), ("NOSOTROS", 0), ("QUEDAR", 0)], []),
         ("¿Cuándo llegas?", [("USTEDES", 1), ("LLEGAR", 1), ("CUÁNDO", 0)], ["USTEDES"]),
         ("Dímelo.", [("TÚ", 0), ("ESO", 0), ("YO", 0), ("DECIR", 0)], []),
-        ("Deja de llamarla.", [("ELLA", 2), ("LLAMAR", 2), ("DEJAR", 0)], []),
+        ("Deja de llamarla.", [("ELLA", 2), ("LLAMAR", 2), ("DEJAR", 0)], ["ELLA"]),
         ("Bebe agua.", [("AGUA", 1), ("BEBER", 0), ("NO", 0)], ["NO"]),
     ],
 )
