@@ -130,7 +130,7 @@ def without_addressee(signs: Sequence[Sign], *, asked: bool) -> list[Sign]:
 def denied_once(signs: Sequence[Sign]) -> list[Sign]:
     """The signs without NO where one word more denies: "no digo nada" is DECIR NADA.
 
-    Only where they stand side by side, so that both deny the same: "no hace falta nada más que ..." keeps both.
+    Only where they stand side by side, so that both deny the same verb.
     """
     result: list[Sign] = []
     for sign in signs:
