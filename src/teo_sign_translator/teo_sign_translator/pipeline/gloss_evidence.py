@@ -22,6 +22,8 @@ _PAST = "PASADO"
 _NOT = "NO"
 _EVERY = "cada"
 _I = "YO"
+# Tags of what may stand between a subject's determiner and its verb.
+_BETWEEN = ("N:", "A:", "ADV:neg", "PRON:obj", "PRON:refl")
 # Forms that the first and the third person share, which morphology names the third.
 _SHARED_FORMS = ("V:ind:impf", "V:cond", "V:sub")
 # Least probability with which a shared form is taken for the first person: of the known sentences where the
@@ -99,7 +101,8 @@ class GlossEvidence:
         """Places of the glosses that no word is evidence for.
 
         Besides those listed: of PASADO beside a verb that is now, of a word said twice that is there once,
-        and of YO where the model is not sure and its verb may as well be of the third person ("vivía").
+        and of YO where its verb may as well be of the third person ("vivía") and the model is not sure, or a
+        subject stands before it ("que la casa sea").
 
         Args:
             words: Of the sentence.
@@ -113,7 +116,7 @@ class GlossEvidence:
             if (self._lacks_evidence(gloss.gloss, readings) and not _unsure(gloss, words))
             or (gloss.gloss == _PAST and _present(glosses[place:], meant))
             or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words))
-            or _doubtful_subject(gloss, meant)
+            or _doubtful_subject(gloss, words)
         ]
 
     def _lacks_evidence(self, gloss: str, readings: Sequence[Reading]) -> bool:
@@ -148,11 +151,28 @@ def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
     return result
 
 
-def _doubtful_subject(gloss: OutputGloss, meant: Sequence[Sequence[Reading]]) -> bool:
-    if gloss.gloss != _I or gloss.probability >= _SURE_OF_SUBJECT or not gloss.sources:
+def _doubtful_subject(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
+    if gloss.gloss != _I:
         return False
-    tags = [reading.tag for place in gloss.sources for reading in meant[place]]
-    return all(tag.startswith(_SHARED_FORMS) and tag.endswith(":3s") for tag in tags) and bool(tags)
+    named = [place for place in gloss.sources if not words[place].readings[0].tag.startswith("N:")]
+    tags = [reading.tag for place in named for reading in words[place].readings if reading.exact]
+    if not any(map(_is_shared, tags)) or not all(tag.endswith(":3s") for tag in tags):
+        return False
+    return gloss.probability < _SURE_OF_SUBJECT or any(_has_subject(place, words) for place in named)
+
+
+def _is_shared(tag: str) -> bool:
+    return tag.startswith(_SHARED_FORMS)
+
+
+def _has_subject(verb: int, words: Sequence[SourceWord]) -> bool:
+    """Whether a noun with its determiner, and no preposition before it, stands before a verb."""
+    tags = [word.readings[0].tag for word in words[:verb]]
+    at = len(tags) - 1
+    while at >= 0 and tags[at].startswith(_BETWEEN):
+        at -= 1
+    noun = any(tag.startswith("N:") for tag in tags[at + 1 :])
+    return at >= 0 and noun and tags[at].startswith("DET") and not (at and tags[at - 1].startswith("PREP"))
 
 
 def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:
