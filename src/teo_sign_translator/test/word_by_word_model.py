@@ -14,7 +14,7 @@ from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.coverage import FunctionWords
-from teo_sign_translator.pipeline.drafted import Drafter
+from teo_sign_translator.pipeline.drafting.drafter import Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator

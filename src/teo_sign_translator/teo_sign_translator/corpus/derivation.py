@@ -15,7 +15,7 @@ from teo_sign_translator.corpus.sides import Sides
 from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tenses import Tenses
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, looked_up
-from teo_sign_translator.corpus.verb_phrase import without_addressee
+from teo_sign_translator.corpus.verb_phrase import denied_once, without_addressee
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
@@ -74,7 +74,7 @@ class Derivation:
         phrase = self._phrase(rule, {}, "", spread)
         stressed = frozenset(self.grammar.word_lists.get("stressed_a", ()))
         text, places = write(phrase.tokens, stressed)
-        signs = without_addressee(phrase.signs, asked="?" in text)
+        signs = denied_once(without_addressee(phrase.signs, asked="?" in text))
         lost = [sign.gloss for sign in signs if any(id(token) not in places for token in sign.sources)]
         if lost:
             raise TranslationError(

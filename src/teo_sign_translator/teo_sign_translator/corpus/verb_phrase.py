@@ -12,6 +12,8 @@ from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.morphology.enclitics import attach_pronouns
 
 _CAN = "PODER"
+_NO = "NO"
+_NOTHING = frozenset(("NADA", "NADIE", "NINGUNO", "NUNCA"))
 _ADDRESSEES = frozenset(("TÚ", "USTED", "VOSOTROS", "USTEDES"))
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
@@ -123,6 +125,24 @@ def without_addressee(signs: Sequence[Sign], *, asked: bool) -> list[Sign]:
         return list(signs)
     finite = signs[-1].sources
     return [sign for sign in signs if not (sign.gloss in _ADDRESSEES and sign.sources == finite[:1])]
+
+
+def denied_once(signs: Sequence[Sign]) -> list[Sign]:
+    """The signs without NO where one word more denies: "no digo nada" is DECIR NADA.
+
+    Only where they stand side by side, so that both deny the same verb.
+    """
+    result: list[Sign] = []
+    for sign in signs:
+        last = result[-1].gloss if result else ""
+        if sign.gloss == _NO and last in _NOTHING:
+            result[-1].sources.extend(sign.sources)
+        elif sign.gloss in _NOTHING and last == _NO:
+            sign.sources.extend(result.pop().sources)
+            result.append(sign)
+        else:
+            result.append(sign)
+    return result
 
 
 def _carriers(

@@ -14,7 +14,7 @@ from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
-from teo_sign_translator.pipeline.drafted import Drafter
+from teo_sign_translator.pipeline.drafting.drafter import Drafter
 from teo_sign_translator.pipeline.gloss_output import gloss_output_words
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair, Repaired, as_said
 from teo_sign_translator.pipeline.long_sentences import parts, pieces

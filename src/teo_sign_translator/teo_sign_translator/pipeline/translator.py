@@ -25,7 +25,7 @@ from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
-from teo_sign_translator.pipeline.drafted import Drafter
+from teo_sign_translator.pipeline.drafting.drafter import Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd

@@ -49,7 +49,7 @@ def _glosses(*glosses: tuple[str, int]) -> tuple[OutputGloss, ...]:
         ("Quedamos a las 7.", [("HORA", 2), ("7", 3), ("NOSOTROS", 0), ("QUEDAR", 0)], []),
         ("¿Cuándo llegas?", [("USTEDES", 1), ("LLEGAR", 1), ("CUÁNDO", 0)], ["USTEDES"]),
         ("Dímelo.", [("TÚ", 0), ("ESO", 0), ("YO", 0), ("DECIR", 0)], []),
-        ("Deja de llamarla.", [("ELLA", 2), ("LLAMAR", 2), ("DEJAR", 0)], []),
+        ("Deja de llamarla.", [("ELLA", 2), ("LLAMAR", 2), ("DEJAR", 0)], ["ELLA"]),
         ("Bebe agua.", [("AGUA", 1), ("BEBER", 0), ("NO", 0)], ["NO"]),
     ],
 )
@@ -59,6 +59,34 @@ def test_glosses_without_evidence_are_found(
     said = _glosses(*glosses)
     found = EVIDENCE.invented(source_words(sentence, MORPHOLOGY), said)
     assert [said[place].gloss for place in found] == invented
+
+
+@pytest.mark.parametrize(
+    ("sentence", "verb", "probability", "named"),
+    [
+        ("Vivía en Cádiz.", 0, 0.95, True),
+        ("Vivía en Cádiz.", 0, 0.6, False),
+        ("La abuela vivía en Cádiz.", 2, 0.95, False),
+        ("Para que tu hijo estudie.", 4, 0.95, False),
+        ("En la casa vivía solo.", 3, 0.95, True),
+        ("Yo vivía en Cádiz.", 1, 0.95, True),
+        ("Vivo en Cádiz.", 0, 0.4, True),
+    ],
+)
+def test_a_form_of_two_persons_names_the_signer_only_where_nobody_else_is_named(
+    sentence: str, verb: int, probability: float, named: bool
+) -> None:
+    subject = OutputGloss("YO", (verb,), probability, copied=False)
+    assert (not EVIDENCE.invented(source_words(sentence, MORPHOLOGY), [subject])) is named
+
+
+@pytest.mark.parametrize(
+    ("sentence", "invented"), [("Voy cada dos días.", []), ("Voy los dos días.", ["DÍA"])]
+)
+def test_what_repeats_is_said_twice(sentence: str, invented: list[str]) -> None:
+    words = source_words(sentence, MORPHOLOGY)
+    said = [OutputGloss("DÍA", (3,), 1.0, copied=True), OutputGloss("DÍA", (1, 2), 1.0, copied=False)]
+    assert [said[place].gloss for place in EVIDENCE.invented(words, said)] == invented
 
 
 def test_the_best_translation_that_invents_nothing_is_taken() -> None:

@@ -57,7 +57,7 @@ def test_the_projects_pairs_come_out_exactly() -> None:
     [
         ("Mañana voy a comprar pan.", "MAÑANA YO PAN COMPRAR"),
         ("ayer no fui al cine", "AYER YO CINE IR NO"),
-        ("Quiero comer una manzana.", "YO MANZANA COMER QUERER"),
+        ("Quiero comer una manzana.", "YO QUERER MANZANA COMER"),
         ("¿Dónde vive tu hermana?", "HERMANA TU VIVIR DÓNDE"),
         ("Mi hermano trabaja en un hospital.", "HERMANO MI HOSPITAL TRABAJAR"),
         ("Tengo dos gatos.", "YO 2 GATO"),
