@@ -13,6 +13,7 @@ import lexicon
 import lifting
 import limbs
 import planning
+import recognition
 import retargeting
 import retriever_accuracy
 import retriever_node
@@ -39,6 +40,7 @@ BENCHES = (
     text_to_trajectory,
     limbs,
     retargeting,
+    recognition,
     retriever_accuracy,
     retriever_node,
     retriever_robustness,
