@@ -14,6 +14,7 @@ import lexicon
 import lifting
 import limbs
 import planning
+import recognition
 import retargeting
 import retriever_accuracy
 import retriever_node
@@ -41,6 +42,7 @@ BENCHES = (
     text_to_trajectory,
     limbs,
     retargeting,
+    recognition,
     retriever_accuracy,
     retriever_node,
     retriever_robustness,

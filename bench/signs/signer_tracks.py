@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
 from teo_synthetic_signer.body.signer import Signer
+from teo_synthetic_signer.script.keys import Key
 from teo_synthetic_signer.script.motion import Motion
 from teo_synthetic_signer.script.scripts import script as script_named
 
@@ -22,8 +25,12 @@ def signer_track(script: str, body: str, rate: float = 30.0) -> SkeletonTrack:
         body: One of `BODIES`.
         rate: Frames per second [Hz].
     """
-    signer = Signer(body)
-    motion = Motion(signer.poser, script_named(script))
+    return keys_track(Signer(body), script_named(script), rate, source=f"{script} by {body}")
+
+
+def keys_track(signer: Signer, keys: Sequence[Key], rate: float, *, source: str) -> SkeletonTrack:
+    """Key poses played by a person, at a rate of frames [Hz]."""
+    motion = Motion(signer.poser, keys)
     times = np.arange(0.0, motion.duration, 1.0 / rate)
     frames = []
     for time in times.tolist():
@@ -36,7 +43,7 @@ def signer_track(script: str, body: str, rate: float = 30.0) -> SkeletonTrack:
         left_hand=parts[1],
         right_hand=parts[2],
         face=parts[3],
-        source=f"{script} by {body}",
+        source=source,
         recorded=None,
         up=(0.0, 0.0, 1.0),
     )

@@ -53,11 +53,14 @@ def held_entry(table: Path, gloss: str) -> Path | None:
         LutError: The directory cannot be looked at ("no_directory").
     """
     name = f"{gloss_key(gloss)}.json"
-    directories = [table, default_lut_directory()] if table == user_lut_directory() else [table]
+    directories = [table]
+    if table == user_lut_directory():
+        directories.append(default_lut_directory())
     for directory in directories:
+        path = directory / name
         try:
-            if (directory / name).exists():
-                return directory / name
+            if path.exists():
+                return path
         except OSError as error:
             raise _unlisted(directory, error) from error
     return None

@@ -23,7 +23,7 @@ class PlannerSettings:
     """See `Planner` for the meaning of each.
 
     Attributes:
-        lut_directory: Of the look-up table; None for the package's.
+        lut_directory: Of the look-up table; None for the user's own and the package's.
         left_handed: Whether signs are mirrored.
         acceleration: Greatest of every joint [rad/s^2].
         jerk: Greatest of every joint [rad/s^3].

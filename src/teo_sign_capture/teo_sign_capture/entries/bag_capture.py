@@ -14,6 +14,7 @@ from pydantic import TypeAdapter, ValidationError
 from teo_description.robot import Robot
 from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
+from teo_sign_capture.entries.similar_signs import similar_sign_warnings
 from teo_sign_capture.entries.take import Cut, Take, capture_take
 from teo_sign_capture.recordings.recording import Recording, default_cache, open_recording, track_of
 from teo_signs.errors import LutError
@@ -138,8 +139,9 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
     left_out = [f"Left out: {error.code}: {error}" for error in failed]
     origin = _origin(job, settings, recordings, left_out)
     captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind, accept=settings.accept)
+    similar = similar_sign_warnings(robot, captured.sign, settings.table)
     path = save_captured(captured, settings)
-    saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out))
+    saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out, *similar))
     return saved if settings.pictures is None else _with_picture(saved, recordings, settings)
 
 

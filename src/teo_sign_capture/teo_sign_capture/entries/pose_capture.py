@@ -12,6 +12,7 @@ from teo_description.robot import Robot
 from teo_sign_capture.entries.bag_capture import DIGEST, Job, Saved, Settings, check_free, save_captured
 from teo_sign_capture.entries.capture_picture import save_capture_picture
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
+from teo_sign_capture.entries.similar_signs import similar_sign_warnings
 from teo_sign_capture.entries.take import capture_take
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recordings.pose_file import read_pose_file
@@ -50,7 +51,9 @@ def capture_pose_file(
         notes=" ".join(filter(None, (settings.notes, LIFTED))),
     )
     captured = make_sign(robot, job.gloss, [take], origin, kind=settings.kind, accept=settings.accept)
-    saved = Saved(captured=captured, path=save_captured(captured, settings), picture=None, warnings=())
+    similar = similar_sign_warnings(robot, captured.sign, settings.table)
+    path_saved = save_captured(captured, settings)
+    saved = Saved(captured=captured, path=path_saved, picture=None, warnings=similar)
     if settings.pictures is None:
         return saved
     picture = settings.pictures / f"{captured.sign.gloss}.png"
@@ -58,5 +61,11 @@ def capture_pose_file(
         settings.pictures.mkdir(parents=True, exist_ok=True)
         save_capture_picture(picture, captured, None, settings.cache)
     except OSError as error:
-        return replace(saved, warnings=(f"{picture}: not drawn: {error}",))
+        return replace(
+            saved,
+            warnings=(
+                *similar,
+                f"{picture}: not drawn: {error}",
+            ),
+        )
     return replace(saved, picture=picture)

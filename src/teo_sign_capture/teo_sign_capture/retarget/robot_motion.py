@@ -90,7 +90,7 @@ def retarget_motion(
     """
     sides = _SIDES[handedness]
     chain, table = ArmKinematics(robot), dextra_table(robot)
-    hands = {side: _hand(track, side) for side in sides}
+    hands = {side: hand_keypoints(track, side) for side in sides}
     person = person or measure_person(track)
     head = follow_head(robot, head_pose(track, person.head_shape), person)
     trunk = follow_trunk(np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk)
@@ -100,7 +100,7 @@ def retarget_motion(
         for side, hand in hands.items()
     }
     points = {side: teo_hand_points(table, shape.axes) for side, shape in shapes.items()}
-    limbs = {side: _arm(track, side) for side in sides}
+    limbs = {side: arm_keypoints(track, side) for side in sides}
     goals = tuple(hand_goals(body, head, side, hands[side], limbs[side], points[side]) for side in sides)
     pair = None
     if handedness == "both":
@@ -136,7 +136,7 @@ def retarget_motion(
     )
 
 
-def _hand(track: SkeletonTrack, side: str) -> Array:
+def hand_keypoints(track: SkeletonTrack, side: str) -> Array:
     """A hand's keypoints, gaps filled. Shape (T, 21, 3)."""
     hand = track.hand(side).positions
     seen = np.isfinite(hand).all(axis=2).any(axis=0)
@@ -149,7 +149,7 @@ def _hand(track: SkeletonTrack, side: str) -> Array:
     return np.stack([filled(track.times, keypoint) for keypoint in hand.transpose(1, 0, 2)], axis=1)
 
 
-def _arm(track: SkeletonTrack, side: str) -> Array:
+def arm_keypoints(track: SkeletonTrack, side: str) -> Array:
     """Shoulder, elbow and wrist, gaps filled. Shape (T, 3, 3)."""
     joints = track.body.positions[:, (SHOULDER[side], ELBOW[side], WRIST[side])]
     flat = joints.reshape(len(joints), -1)

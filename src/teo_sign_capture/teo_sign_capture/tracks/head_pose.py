@@ -141,8 +141,8 @@ def _held(
         off = np.linalg.norm(_straightened(seen, turns, places) - model, axis=2) / points.sigma
         fitting = known & (off < _OFF * np.sqrt(3.0))
         # While most is off, the half that is least off leads to the head.
-        usual = np.ma.median(np.ma.masked_array(off, ~known), axis=1).filled(1.0)[:, None]
-        counts = 1.0 / np.square(1.0 + np.square(off / np.maximum(usual, _QUARTER)))
+        usual = _median(np.where(known, off, np.nan).T)[:, None]
+        counts = 1.0 / np.square(1.0 + np.square(off / np.fmax(usual, _QUARTER)))
         turns, places = _aligned(model, seen, precise * counts)
     least = max(_LEAST_POINTS, _SEEN * np.count_nonzero(_known(shape)))
     enough = (fitting.sum(axis=1) >= least) & (np.abs(_yaw(turns)) <= _NECK_RANGE)

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a new sign is nearly one that the table has: said when it is captured, before both are confused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from teo_description.robot import Robot
+from teo_sign_capture.recognition.appearance import sign_appearance
+from teo_sign_capture.recognition.sign_index import SignIndex
+from teo_signs.errors import LutError
+from teo_signs.likeness import nearest_pairs
+from teo_signs.look_up_table import Lut, user_lut_directory
+from teo_signs.sign import Sign
+
+# Signs whose largest difference is below two of those that are just seen are told apart only by who looks for
+# it; no two words of the shipped table are below one.
+_ALIKE = 2.0
+
+
+def similar_sign_warnings(robot: Robot, sign: Sign, table: Path) -> tuple[str, ...]:
+    """What a teacher should know of signs that look like a new one, a sentence each.
+
+    Args:
+        robot: The robot.
+        sign: The new sign; an entry of the same name is no other sign.
+        table: Directory that it goes to; of the user's own, what the package's table holds counts as well.
+    """
+    others: dict[str, Sign] = {}
+    try:
+        signs = Lut.open(None if table == user_lut_directory() else table)
+    except LutError:  # a table that is made with its first sign
+        return ()
+    for gloss in signs.glosses():
+        try:
+            other = signs[gloss]
+        except LutError:  # entries that are not valid are `lut validate`'s to tell
+            continue
+        if gloss != sign.gloss and other.kind == sign.kind:
+            others[gloss] = other
+    if not others:
+        return ()
+    warnings = []
+    for match in SignIndex.of_signs(robot, others.values()).nearest(sign_appearance(robot, sign)):
+        pairs = nearest_pairs(robot, [sign, others[match.gloss]])
+        if not pairs:
+            warnings.append(f"{sign.gloss} is the same motion as {match.gloss}.")
+        elif pairs[0].seen < _ALIKE:
+            warnings.append(
+                f"{sign.gloss} looks nearly like {match.gloss}: what differs most is {pairs[0].seen:.1f} "
+                "times what is just seen."
+            )
+    return tuple(warnings)

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A sign is found again among those of the table, at any pace, and none nearer is missed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from made_bags import signing, write_bag
+from typer.testing import CliRunner, Result
+
+from teo_description import RIGHT_HAND
+from teo_description.robot import Robot
+from teo_lut_executor.cli.lut import app
+from teo_sign_capture.entries.similar_signs import similar_sign_warnings
+from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance, sign_appearance
+from teo_sign_capture.recognition.sign_index import SignIndex
+from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.sign import Sign
+from teo_signs.sign_file import save_sign
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def words() -> list[Sign]:
+    return [sign for sign in Lut.open(default_lut_directory()).values() if sign.kind == "lexical"]
+
+
+@pytest.fixture(scope="module")
+def index(robot: Robot, words: list[Sign]) -> SignIndex:
+    return SignIndex.of_signs(robot, words)
+
+
+def run(*arguments: str | Path) -> Result:
+    return CliRunner(env={"COLUMNS": "200"}).invoke(app, [str(argument) for argument in arguments])
+
+
+def slowed(sign: Sign) -> Sign:
+    """The sign begun at half its pace and ended at one and a half."""
+    return replace(sign, times=np.sqrt(sign.times / sign.times[-1]) * sign.times[-1])
+
+
+@pytest.mark.parametrize("gloss", ["CASA", "GRACIAS", "TREN", "MADRE", "COLEGIO"])
+def test_a_sign_at_another_pace_is_still_itself(robot: Robot, index: SignIndex, gloss: str) -> None:
+    sign = Lut.open(default_lut_directory())[gloss]
+    found = index.nearest(sign_appearance(robot, slowed(sign)))
+    assert found[0].gloss == gloss
+    assert len(found) == 5
+    assert [match.distance for match in found] == sorted(match.distance for match in found)
+
+
+def test_a_form_that_two_glosses_share_is_found_under_both(robot: Robot, index: SignIndex) -> None:
+    sign = Lut.open(default_lut_directory())["COMER"]
+    found = index.nearest(sign_appearance(robot, sign), 2)
+    assert {match.gloss for match in found} == {"COMER", "COMIDA"}
+    assert found[1].distance < 0.05
+
+
+@settings(max_examples=25)
+@given(st.integers(0, 10_000))
+def test_the_bound_leaves_out_none_of_the_nearest(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    shown = np.cumsum(rng.normal(size=(41, MOMENTS, 3)), axis=1)
+    index = SignIndex([str(number) for number in range(40)], shown[:40])
+    every = index.nearest(shown[40], 40)
+    bounds = index.lower_bounds(shown[40])
+    assert all(bounds[int(match.gloss)] <= match.distance + 1e-9 for match in every)
+    assert index.nearest(shown[40], 5) == every[:5]
+
+
+def test_a_warped_distance_is_that_of_the_textbook() -> None:
+    """Sakoe and Chiba's recursion, written out, on moments that may be 8 ahead."""
+    rng = np.random.default_rng(7)
+    first, second = np.cumsum(rng.normal(size=(2, MOMENTS, 4)), axis=1)
+    cost = np.square(first[:, None] - second[None]).sum(axis=2)
+    total = np.full((MOMENTS + 1, MOMENTS + 1), np.inf)
+    total[0, 0] = 0.0
+    for row in range(MOMENTS):
+        for column in range(max(0, row - 8), min(MOMENTS, row + 9)):
+            before = min(total[row, column], total[row, column + 1], total[row + 1, column])
+            total[row + 1, column + 1] = cost[row, column] + before
+    (match,) = SignIndex(["X"], second[None]).nearest(first)
+    assert match.distance == pytest.approx(np.sqrt(total[-1, -1] / MOMENTS))
+
+
+def test_what_was_captured_of_one_take_is_among_the_first_for_another(robot: Robot, tmp_path: Path) -> None:
+    bags = [write_bag(tmp_path / f"{seed}.mcap", signing(seed=seed, rate=15.0)) for seed in range(2)]
+    captured = run("capture", bags[0], "--gloss", "INVENTADA", "--no-draw")
+    assert captured.exit_code == 0, captured.output
+    result = run("recognise", bags[1])
+    assert result.exit_code == 0, result.output
+    named = [line.split()[0] for line in result.output.split("\n")[1:6]]
+    assert "INVENTADA" in named[:3]
+    refused = run("recognise", write_bag(tmp_path / "still.mcap", signing(moves=[], rate=15.0)))
+    assert refused.exit_code == 1
+    assert refused.output.startswith("no_motion")
+    left = recording_appearance(robot, signing(), handedness="left")
+    assert left.shape == (MOMENTS, 32)
+
+
+def test_a_new_sign_that_is_nearly_another_is_warned_of(
+    robot: Robot, words: list[Sign], tmp_path: Path
+) -> None:
+    casa = next(sign for sign in words if sign.gloss == "CASA")
+    for sign in words[::20]:
+        save_sign(tmp_path, sign, replace=True)
+    save_sign(tmp_path, casa, replace=True)
+    assert similar_sign_warnings(robot, casa, tmp_path) == ()  # an entry made anew is not like itself
+    same = replace(casa, gloss="HOGAR")
+    assert any("CASA" in warning for warning in similar_sign_warnings(robot, same, tmp_path))
+    knots = casa.knots.copy()
+    knots[:, casa.joints.index(RIGHT_HAND[3])] *= 0.5
+    near = replace(casa, gloss="HOGAR", knots=knots)
+    (warning, *_) = similar_sign_warnings(robot, near, tmp_path)
+    assert "looks nearly like CASA" in warning or "same motion" in warning
+    other = replace(words[0], gloss="OTRO")
+    assert not any("CASA" in warning for warning in similar_sign_warnings(robot, other, tmp_path))
+    assert similar_sign_warnings(robot, casa, tmp_path / "nowhere") == ()
