@@ -88,6 +88,13 @@ PARAMETERS = (
         1.0,
         "Size of the head gestures of questions, negation and exclamations; 0 leaves them away [1].",
     ),
+    _row(
+        "least_size",
+        _STYLE.least_size,
+        0.1,
+        1.0,
+        "Smallest size of a word that is too slow as large as in the table; 1 keeps all as large [1].",
+    ),
     # Queue.
     ParameterRow(
         name="capacity",
