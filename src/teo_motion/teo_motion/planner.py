@@ -17,7 +17,7 @@ import numpy as np
 
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
-from teo_motion.collision.motion_clearance import MotionClearance
+from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.head.overlay import HeadOverlay
 from teo_motion.sentence.composition import REST, compose
 from teo_motion.sentence.head_gestures import head_gestures
@@ -43,9 +43,10 @@ DEFAULT_PERIOD = 0.02
 # 28 joints fill a message of 10 MB.
 DEFAULT_MAX_DURATION = 300.0
 
-# Parts of the robot keep this far apart [m]: signs touch, and the shapes of the collision model are larger
-# than the parts, so it is overlap that is refused.
-DEFAULT_CLEARANCE = 0.0
+# Parts of the robot keep this far apart [m]: what is found to within so much overlaps nowhere. Signs touch,
+# but the shapes of the collision model are larger than the parts: no entry of the table comes nearer than 6
+# mm.
+DEFAULT_CLEARANCE = RESOLUTION
 
 # A start this far outside the limits is taken to be on the limit [rad]: encoders of 0.0015 rad and a control
 # error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).

@@ -46,7 +46,7 @@ PARAMETERS = (
     # Motion.
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
     _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of every joint [rad/s^3]."),
-    _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Most time between two points of a trajectory [s]."),
+    _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Time between two points of a trajectory [s]."),
     _row(
         "least_clearance",
         DEFAULT_CLEARANCE,
