@@ -154,7 +154,7 @@ def check(plan: Plan) -> Broken:
     """What one plan does to the limits, also between its points."""
     limits = MotionLimits.of_robot()
     reached = [motion.extremes() for motion in plan.motions]
-    position, velocity, acceleration = _interpolated(plan)
+    position, velocity, acceleration, jerk = _interpolated(plan)
     beyond = max(
         float((limits.lower - position).max()),
         float((position - limits.upper).max()),
@@ -169,14 +169,17 @@ def check(plan: Plan) -> Broken:
         float((np.abs(acceleration) / limits.acceleration).max()),
         max(item.acceleration / limit for item, limit in zip(reached, limits.acceleration, strict=True)),
     )
-    jerkiest = max(item.jerk / limit for item, limit in zip(reached, limits.jerk, strict=True))
+    jerkiest = max(
+        float((np.abs(jerk) / limits.jerk).max()),
+        max(item.jerk / limit for item, limit in zip(reached, limits.jerk, strict=True)),
+    )
     # Rounding, and for positions the 1.5e-5 rad of one encoder count.
-    broken = (beyond > 1.5e-5) + sum(share > 1.0 + 1e-9 for share in (fastest, strongest, jerkiest))
+    broken = (beyond > 1.5e-5) + sum(share > 1.0 + 1e-6 for share in (fastest, strongest, jerkiest))
     return Broken(1, 0, int(broken), fastest, strongest, jerkiest, beyond)
 
 
-def _interpolated(plan: Plan) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Positions, velocities, accelerations of the quintics between points. Shape (looks, n - 1, 28)."""
+def _interpolated(plan: Plan) -> tuple[NDArray[np.float64], ...]:
+    """Position, velocity, acceleration, jerk of the quintics between points. Shape (looks, n - 1, 28)."""
     h = np.diff(plan.times)[:, None]
     p, d = plan.positions[:-1], np.diff(plan.positions, axis=0)
     v0, v1 = plan.velocities[:-1] * h, plan.velocities[1:] * h
@@ -188,7 +191,8 @@ def _interpolated(plan: Plan) -> tuple[NDArray[np.float64], NDArray[np.float64],
     position = p + s * (v0 + s * (a0 / 2.0 + s * (c3 + s * (c4 + s * c5))))
     velocity = (v0 + s * (a0 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / h
     acceleration = (a0 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / h**2
-    return position, velocity, acceleration
+    jerk = (6.0 * c3 + s * (24.0 * c4 + s * 60.0 * c5)) / h**3
+    return position, velocity, acceleration, jerk
 
 
 def _worst(found: list[Broken]) -> tuple[float, float, float, float]:

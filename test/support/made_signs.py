@@ -186,6 +186,7 @@ class DriverView:
         self.accelerations = (
             sum(k * (k - 1) * item * s ** (k - 2) for k, item in enumerate(coefficients) if k > 1) / h**2
         )
+        self.jerks = sum(k * (k - 1) * (k - 2) * coefficients[k] * s ** (k - 3) for k in (3, 4, 5)) / h**3
 
 
 @pytest.fixture

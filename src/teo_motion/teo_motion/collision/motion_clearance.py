@@ -1,15 +1,25 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How near parts of the robot come to each other along a motion."""
+"""How near parts of the robot come to each other along a motion, between its samples too."""
 
 from __future__ import annotations
+
+import heapq
+from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS
+from teo_description.clearance import Clearance
 from teo_description.robot import Robot
 from teo_motion.sentence.plan import NearestApproach, Samples
+
+# Overlaps between two looks are found to within this [m]: parts that are at least so far apart at their
+# nearest overlap nowhere.
+RESOLUTION = 0.002
 
 # How far any point of the robot can be from each joint's axis [m], rounded up from the robot description: tip
 # of the hand to shoulder, elbow and wrist, finger tip to knuckle.
@@ -29,15 +39,8 @@ _REACH = {
 # all in one direction. The real motion is about a third of that, and the approach of two parts less.
 _REAL_SHARE = 0.5
 
-# Two measured samples are at least this far apart, by that bound [m].
-_STEP = 0.12
-
-# The same for the head alone [m]: it is mostly far from the hands, so that looking closely costs little where
-# it is not.
-_HEAD_STEP = 0.02
-
-# Around the nearest of them samples are this many times denser [1].
-_CLOSER = 6
+# Two looks of the first round are at least this far apart, by that bound [m].
+_STEP = 0.2
 
 
 class MotionClearance:
@@ -49,41 +52,37 @@ class MotionClearance:
         self._reach = np.array([_reach(name) for name in COMMANDED_JOINTS])
 
     def nearest(self, samples: Samples, *, head_alone: bool = False) -> NearestApproach:
-        """The nearest approach of parts along a motion.
+        """The nearest approach of parts along a motion that was found, and no overlap unseen.
 
-        The distance is next measured where the parts can have moved by the distance found last, and at least
-        by a step: far from contact it is measured seldom. Between the samples before and after the nearest
-        one, it is measured at every sample, if there are not too many.
+        In a first round the distance is next measured where the parts can have moved by the distance found
+        last, and at least by a step. Then stretches between two looks are halved, each time the one in which
+        parts can have come nearest (S. A. Piyavskii's minimum of a function of bounded slope, 1972), until
+        none can hold an overlap that is deeper by `RESOLUTION` than what was found.
 
         Args:
             samples: The motion of the 28 commanded joints.
             head_alone: Whether only pairs with a part of the head are measured.
         """
+        motion = _Motion(samples, self._reach)
         clearance = self._robot.head_clearance if head_alone else self._robot.clearance
-        step = _HEAD_STEP if head_alone else _STEP
-
-        def measured(index: int) -> NearestApproach:
-            distance, first, second = clearance(self._configuration(samples.positions[index]))
-            time = float(samples.times[index])
-            return NearestApproach(distance=float(distance), time=time, first=first, second=second)
-
-        moved = np.abs(np.diff(samples.positions, axis=0)) @ self._reach
-        path = np.concatenate(([0.0], np.cumsum(moved)))
-        looked: list[int] = []
-        found: list[NearestApproach] = []
-        index, last = 0, len(path) - 1
-        while True:
-            near = measured(index)
-            looked.append(index)
-            found.append(near)
-            if index == last:
-                break
-            ahead = path[index] + max(near.distance / _REAL_SHARE, step)
-            index = min(max(int(np.searchsorted(path, ahead)), index + 1), last)
-        closest = min(range(len(found)), key=lambda item: found[item].distance)
-        around = range(looked[max(closest - 1, 0)] + 1, looked[min(closest + 1, len(looked) - 1)])
-        between = around[:: max(1, len(around) // (2 * _CLOSER))]
-        return min((found[closest], *(measured(item) for item in between)), key=lambda near: near.distance)
+        last = float(motion.path[-1])
+        looks = [self._look(motion, 0.0, clearance)]
+        while looks[-1][0] < last:
+            path, near = looks[-1]
+            ahead = min(path + max(near.distance / _REAL_SHARE, _STEP), last)
+            looks.append(self._look(motion, ahead, clearance))
+        closest = min((near for _, near in looks), key=lambda near: near.distance)
+        stretches = [(_least(*pair), *pair) for pair in pairwise(looks) if pair[0][0] < pair[1][0]]
+        order = [(least, index) for index, (least, _, _) in enumerate(stretches)]
+        heapq.heapify(order)
+        while order and order[0][0] < min(closest.distance - RESOLUTION, 0.0):
+            _, first, second = stretches[heapq.heappop(order)[1]]
+            middle = self._look(motion, (first[0] + second[0]) / 2.0, clearance)
+            closest = min(closest, middle[1], key=lambda near: near.distance)
+            for pair in ((first, middle), (middle, second)):
+                heapq.heappush(order, (_least(*pair), len(stretches)))
+                stretches.append((_least(*pair), *pair))
+        return closest
 
     def is_nearer(self, positions: NDArray[np.float64], distance: float) -> bool:
         """Whether parts are nearer than a distance [m] in a posture; much faster than `nearest`.
@@ -94,8 +93,42 @@ class MotionClearance:
         """
         return bool(self._robot.contacts(self._configuration(positions), distance))
 
+    def _look(self, motion: _Motion, path: float, clearance: Callable[[Array], Clearance]) -> _Look:
+        time, positions = motion.at(path)
+        distance, first, second = clearance(self._configuration(positions))
+        return path, NearestApproach(distance=float(distance), time=time, first=first, second=second)
+
     def _configuration(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
         return self._robot.configuration(dict(zip(COMMANDED_JOINTS, positions.tolist(), strict=True)))
+
+
+# How far along its path a motion was looked at [m], and what was found there.
+_Look = tuple[float, NearestApproach]
+
+
+class _Motion:
+    """A motion by how far its parts can have moved since its beginning."""
+
+    def __init__(self, samples: Samples, reach: Array) -> None:
+        self._samples = samples
+        moved = np.abs(np.diff(samples.positions, axis=0)) @ reach
+        self.path: Array = np.concatenate(([0.0], np.cumsum(moved)))
+
+    def at(self, path: float) -> tuple[float, Array]:
+        """Time [s] and positions [rad] on straight lines between samples, which are a period apart."""
+        samples = self._samples
+        after = min(max(int(np.searchsorted(self.path, path)), 1), len(self.path) - 1)
+        length = self.path[after] - self.path[after - 1]
+        share = (path - self.path[after - 1]) / length if length > 0.0 else 1.0
+        time = samples.times[after - 1] + share * (samples.times[after] - samples.times[after - 1])
+        before = samples.positions[after - 1]
+        return float(time), before + share * (samples.positions[after] - before)
+
+
+def _least(first: _Look, second: _Look) -> float:
+    """What the distance between two looks is not below [m]."""
+    moved = _REAL_SHARE * (second[0] - first[0])
+    return (first[1].distance + second[1].distance - moved) / 2.0
 
 
 def _reach(name: str) -> float:

@@ -13,7 +13,8 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import Composition
-from teo_motion.sentence.plan import Plan, sample_at, sample_times
+from teo_motion.sentence.plan import Plan, Samples, sample_at
+from teo_motion.trajectory.driver_points import driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.relaxed_limits import relaxed_bounds
@@ -50,7 +51,7 @@ def opening(
     Args:
         composition: The sentence, from a robot that stands still.
         limits: Limits of the joints.
-        period: Most time between two samples [s].
+        period: Time between two samples [s].
         lasting: Time before it slows down [s]; less where the first sign is near.
         motion_clearance: Distances between parts of the robot; None looks at none.
         least_clearance: Distance that parts of the robot keep [m].
@@ -59,7 +60,7 @@ def opening(
         The motion, and the time until which it goes on at full pace [s]; None if there is no such motion that
         is safe, or none is needed.
     """
-    bounds = limits.for_points(period)
+    bounds = limits.bounds
     start = composition.start
     first = np.where(np.isnan(composition.targets[1]), start.position, composition.targets[1])
     still = np.zeros_like(first)
@@ -73,12 +74,17 @@ def opening(
     halt = _eased(solver, leaves, end, bounds, time)
     if halt is None:
         return None
-    motions = _motions([(0.0, way), (lasting, halt)], lasting + halt.duration)
-    samples = sample_at(motions, sample_times(np.array([0.0, lasting, lasting + halt.duration]), period))
-    looks = sample_at(motions, sample_times(np.array([0.0, lasting + halt.duration]), _LOOK)).positions
-    if not _keeps_limits(motions, bounds) or _touches(looks, motion_clearance, least_clearance + _MARGIN):
+    # The robot stands still for a period more, as before any motion: see `driver_points`.
+    taken_over = period + lasting
+    times = point_times(taken_over + halt.duration, period)
+    motions = _motions([(period, way), (taken_over, halt)], float(times[-1]))
+    looks = np.arange(0.0, times[-1] + _LOOK, _LOOK)
+    if not _keeps_limits(motions, bounds) or _touches(
+        sample_at(motions, looks).positions, motion_clearance, least_clearance + _MARGIN
+    ):
         return None
-    return Plan(names=limits.names, motions=motions, samples=samples, timings=(), stretch=1.0), lasting
+    samples = Samples(times=times, **driver_points(motions, times)._asdict())
+    return Plan(names=limits.names, motions=motions, samples=samples, timings=(), stretch=1.0), taken_over
 
 
 def _eased(
@@ -97,15 +103,19 @@ def _eased(
 
 
 def _motions(parts: list[tuple[float, RuckigSegment]], duration: float) -> tuple[JointMotion, ...]:
-    """Segments, each from a time on [s], as the motion of every joint."""
+    """Segments, each from a time on [s], as the motion of every joint, still before and after."""
     joints = len(parts[0][1].pieces.lengths)
     builders = [JointMotionBuilder() for _ in range(joints)]
     for index, (begin, segment) in enumerate(parts):
-        until = parts[index + 1][0] if index + 1 < len(parts) else duration
+        until = parts[index + 1][0] if index + 1 < len(parts) else begin + segment.duration
         for joint, builder in enumerate(builders):
             pieces = take(segment.pieces, joint)
             starts = np.cumsum(pieces.lengths) - pieces.lengths
+            if index == 0 and begin > 0.0:
+                builder.hold(0.0, float(pieces.positions[0]))
             builder.add(begin, take(pieces, np.flatnonzero(starts < until - begin)))
+            if index == len(parts) - 1:
+                builder.hold(until, float(pieces.after(pieces.lengths)[0][-1]))
     return tuple(builder.build(duration) for builder in builders)
 
 

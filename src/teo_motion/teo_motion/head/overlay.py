@@ -25,10 +25,10 @@ from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.head.lean import Leaning, Times
 from teo_motion.head.neck_paths import GestureWindow, nod_paths, shake_paths
 from teo_motion.sentence.head_gestures import Gesture, GestureKind
-from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples, sample_at
+from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples
+from teo_motion.trajectory.driver_points import driver_points
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import Bounds
 from teo_motion.trajectory.splice import Splicer
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
@@ -53,7 +53,6 @@ class HeadOverlay:
         motion_clearance: MotionClearance | None,
         *,
         limits: MotionLimits,
-        bounds: Bounds,
         least_clearance: float,
         strength: float,
     ) -> None:
@@ -62,7 +61,6 @@ class HeadOverlay:
         Args:
             motion_clearance: Distances between parts of the robot; None looks at none.
             limits: Limits of the commanded joints.
-            bounds: The same with what the interpolation between points asks for.
             least_clearance: Distance that parts of the robot keep [m].
             strength: Times the usual angles, 0 to 1; 0 leaves the head alone.
         """
@@ -71,7 +69,7 @@ class HeadOverlay:
         self._least_clearance = least_clearance
         self._strength = strength
         self._columns = [limits.names.index(name) for name in HEAD]
-        self._splicers = [Splicer(bounds.of([column])) for column in self._columns]
+        self._splicers = [Splicer(limits.bounds.of([column])) for column in self._columns]
 
     def overlaid(self, plan: Plan, signed: Sequence[SignedToken], gestures: Sequence[Gesture]) -> Plan:
         """A plan with head gestures.
@@ -177,7 +175,7 @@ class HeadOverlay:
         return float(self._limits.least_times(np.array([distance]), [self._columns[axis]])[0])
 
     def _sampled(self, plan: Plan, motions: tuple[JointMotion, ...]) -> Samples:
-        found = sample_at(tuple(motions[column] for column in self._columns), plan.times)
+        found = driver_points([motions[column] for column in self._columns], plan.times)
         arrays = []
         for before, changed in (
             (plan.positions, found.positions),

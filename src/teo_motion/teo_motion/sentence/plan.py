@@ -65,7 +65,7 @@ class HeadGesture:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Samples:
-    """A motion at instants. Arrays are read-only.
+    """A motion at instants; arrays are read-only.
 
     Attributes:
         times: [s], strictly increasing from 0. Shape (n,).
@@ -87,7 +87,7 @@ class Plan:
     Attributes:
         names: Joints, in the order of all columns.
         motions: The motion of each joint, exact at any time.
-        samples: The motion at every knot, and in between at most the planner's period apart.
+        samples: What a driver is sent, the planner's period apart: see `driver_points`.
         timings: When each token is signed, in order; empty for a way back to rest.
         stretch: Duration of all signs over the duration asked for; 1.0 as recorded.
         nearest: The closest that parts of the robot come to each other; None if it was not looked at.
@@ -138,24 +138,6 @@ class Plan:
             if timing.start <= time <= timing.start + timing.duration:
                 return index
         return None
-
-
-def sample_times(waypoints: Array, period: float) -> Array:
-    """Times at which to sample a motion: at every waypoint, and evenly in between.
-
-    With the waypoints among the samples every knot of every sign is one of them, and what a driver
-    interpolates stands still where the plan does.
-
-    Args:
-        waypoints: Times of the waypoints [s], increasing. Shape (n,).
-        period: The most between two samples [s].
-    """
-    steps = np.maximum(np.ceil(np.diff(waypoints) / period - 1e-9), 1.0).astype(int)
-    between = [
-        begin + (end - begin) * np.arange(count) / count
-        for begin, end, count in zip(waypoints[:-1], waypoints[1:], steps.tolist(), strict=True)
-    ]
-    return np.concatenate([*between, waypoints[-1:]])
 
 
 def sample_at(motions: tuple[JointMotion, ...], times: Array) -> Samples:

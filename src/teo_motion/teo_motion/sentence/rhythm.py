@@ -61,13 +61,17 @@ class SigningStyle:
     # than about a second down would look like a sign of its own, and wear the arm for nothing.
     arm_rest: float = 1.0
 
+    # Smallest size of a sign that is too slow as large as its source has it [1]: below 0.6 a circle of 20 cm
+    # is one of 10, and the path is not told from a hold. 1 makes every sign as large as its entry.
+    least_size: float = 0.6
+
     # Size of the head's gestures, which tell question, negation and exclamation [1]: 1 makes them as large as
     # `neck_paths` says and why, 0 leaves them away. On by default: without them a yes/no question in LSE is a
     # statement.
     head_motion: float = 1.0
 
     def __post_init__(self) -> None:
-        """Check that every dial is finite and 0 or more, and `head_motion` at most 1.
+        """Check that every dial is finite and 0 or more, and `head_motion` and `least_size` at most 1.
 
         Raises:
             PlanError: "bad_style".
@@ -78,8 +82,9 @@ class SigningStyle:
                 raise PlanError(
                     "bad_style", f"{field.name}: expected a finite number, 0 or more, got {value}"
                 )
-        if self.head_motion > 1.0:
-            raise PlanError("bad_style", f"head_motion: expected 0 to 1, got {self.head_motion}")
+        for name, value in (("head_motion", self.head_motion), ("least_size", self.least_size)):
+            if value > 1.0:
+                raise PlanError("bad_style", f"{name}: expected 0 to 1, got {value}")
 
     def for_form(self, form: SentenceForm) -> SigningStyle:
         """The rhythm of a sentence of some type."""

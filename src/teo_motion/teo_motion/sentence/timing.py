@@ -10,11 +10,12 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_motion.sentence.composition import REST, Composition
-from teo_motion.sentence.plan import Plan, Samples, TokenTiming, sample_at, sample_times
+from teo_motion.sentence.plan import Plan, Samples, TokenTiming
 from teo_motion.sentence.route import Route
+from teo_motion.trajectory.driver_points import driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.ruckig_segment import ROUNDING
+from teo_motion.trajectory.ruckig_segment import ROUNDING, State
 from teo_motion.trajectory.waypoint_timing import WaypointTiming
 from teo_signs.errors import PlanError
 
@@ -41,15 +42,11 @@ class SentenceTiming:
 
         Args:
             limits: Limits of the commanded joints.
-            period: Most time between two samples of a plan [s].
+            period: Time between two samples of a plan [s].
             max_duration: A longer motion is refused [s].
-
-        Raises:
-            PlanError: The limits leave no room for interpolation between points that far apart
-                ("bad_limits").
         """
         self._limits = limits
-        self._bounds = limits.for_points(period)
+        self._bounds = limits.bounds
         self._period = period
         self._max_duration = max_duration
 
@@ -68,14 +65,16 @@ class SentenceTiming:
         """
         timing = WaypointTiming(route.targets, route.nominal, route.strokes, route.start, self._bounds)
         timing.solve()
-        times = timing.times
+        # A robot that stands still does so for a period more: see `driver_points`.
+        times = timing.times + (self._period if _stands_still(route.start) else 0.0)
         if times[-1] > self._max_duration:
             raise PlanError(
                 "too_long",
                 f"expected a sentence of at most {self._max_duration:.0f} s, got one of {times[-1]:.0f} s: "
                 "send it in parts",
             )
-        motions = timing.motions()
+        sampled = point_times(float(times[-1]), self._period)
+        motions = timing.motions(begin=float(times[0]), end=float(sampled[-1]))
         self._check(motions)
         timings = tuple(
             TokenTiming(
@@ -90,7 +89,7 @@ class SentenceTiming:
         plan = Plan(
             names=self._limits.names,
             motions=motions,
-            samples=self._sample(motions, times),
+            samples=self._sample(motions, sampled),
             timings=timings,
             stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
         )
@@ -119,13 +118,19 @@ class SentenceTiming:
                     )
 
     def _sample(self, motions: tuple[JointMotion, ...], times: Array) -> Samples:
-        found = sample_at(motions, sample_times(times, self._period))
+        found = driver_points(motions, times)
         # No further than the rounding that `_check` allows; controllers want the end at rest to the digit.
         positions = np.clip(found.positions, self._limits.lower, self._limits.upper)
-        velocities, accelerations = found.velocities.copy(), found.accelerations.copy()
-        positions[-1], velocities[-1], accelerations[-1] = REST, 0.0, 0.0
-        for array in (positions, velocities, accelerations):
+        positions[-1], found.velocities[-1], found.accelerations[-1] = REST, 0.0, 0.0
+        for array in (times, positions, found.velocities, found.accelerations):
             array.setflags(write=False)
         return Samples(
-            times=found.times, positions=positions, velocities=velocities, accelerations=accelerations
+            times=times,
+            positions=positions,
+            velocities=found.velocities,
+            accelerations=found.accelerations,
         )
+
+
+def _stands_still(state: State) -> bool:
+    return not (state.velocity.any() or state.acceleration.any())

@@ -26,11 +26,9 @@ DEFAULT_ACCELERATION = 7.0
 # 0.02 s at which TEO's drives are sent set-points, so that it reaches them as a ramp and not as a step.
 DEFAULT_JERK = 105.0
 
-# The driver interpolates between the points of a trajectory with the quintic that meets position, velocity
-# and acceleration at both. Where the plan's jerk changes in between, the two differ, by at most these numbers
-# [1] times jerk, and period squared or period: the integral of the size of the Peano kernel of the error.
-_VELOCITY_SWING = 0.02206
-_ACCELERATION_SWING = 5.0 / 24.0
+# Share of the limits that segments are given [1]: positions are rounded to 2e-16 rad, which a driver's period
+# to the third power divides to 1e-10 rad/s^3.
+_HAIR = 1.0 - 1e-9
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -80,30 +78,15 @@ class MotionLimits:
             jerk=np.full(len(limits.names), jerk),
         )
 
-    def for_points(self, period: float) -> Bounds:
-        """Bounds of a plan such that the interpolation between its points keeps the limits as well.
-
-        Velocity and acceleration are lower by what the interpolation may add. Its jerk is not bounded so: it
-        reaches up to 2.2 times the plan's.
-
-        Args:
-            period: The most between two points [s].
-
-        Raises:
-            PlanError: The limits leave less than half of themselves ("bad_limits").
-        """
-        velocity = self.velocity - _VELOCITY_SWING * self.jerk * period**2
-        acceleration = self.acceleration - _ACCELERATION_SWING * self.jerk * period
-        if (velocity < self.velocity / 2.0).any() or (acceleration < self.acceleration / 2.0).any():
-            raise PlanError(
-                "bad_limits",
-                "expected a jerk that changes the acceleration by less than its limit within "
-                f"{period:g} s, got {self.jerk.max():g} rad/s^3 with an acceleration of "
-                f"{self.acceleration.min():g} rad/s^2: "
-                "lower the jerk or shorten the period",
-            )
+    @property
+    def bounds(self) -> Bounds:
+        """The same for segments, a hair less: the points of a motion are differences, which are rounded."""
         return Bounds(
-            lower=self.lower, upper=self.upper, velocity=velocity, acceleration=acceleration, jerk=self.jerk
+            lower=self.lower,
+            upper=self.upper,
+            velocity=self.velocity * _HAIR,
+            acceleration=self.acceleration * _HAIR,
+            jerk=self.jerk * _HAIR,
         )
 
     def least_times(self, distances: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:

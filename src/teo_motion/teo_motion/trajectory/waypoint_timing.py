@@ -104,22 +104,32 @@ class WaypointTiming:
             exact = not changed
         raise PlanError("no_timing", f"expected times that fit within {_ROUNDS} rounds, got none")
 
-    def motions(self) -> tuple[JointMotion, ...]:
-        """The motion of every joint, in the order of the columns; after `solve`."""
-        times = self.times
+    def motions(self, *, begin: float, end: float) -> tuple[JointMotion, ...]:
+        """The motion of every joint, in the order of the columns; after `solve`.
+
+        Args:
+            begin: When to leave the first waypoint [s]; before, the joints stand there.
+            end: When the motions end [s], at or after the last waypoint, where the joints stay.
+        """
+        times = self.times + begin
         builders = [JointMotionBuilder() for _ in range(self._joints)]
         for chain in self._chains:
+            if begin > 0.0:
+                for column, position in zip(chain.columns, chain.positions[0].tolist(), strict=True):
+                    builders[column].hold(0.0, position)
             moving = set(chain.moving.tolist())
             for index in range(len(chain.waypoints) - 1):
-                begin = float(times[chain.waypoints[index]])
+                leave = float(times[chain.waypoints[index]])
                 if index in moving:
                     pieces = self._final_segment(chain, index).pieces
                     for row, column in enumerate(chain.columns):
-                        builders[column].add(begin, take(pieces, row))
+                        builders[column].add(leave, take(pieces, row))
                 elif index == 0 or index - 1 in moving:  # else the joints stand still already
                     for column, position in zip(chain.columns, chain.positions[index].tolist(), strict=True):
-                        builders[column].hold(begin, position)
-        return tuple(builder.build(float(times[-1])) for builder in builders)
+                        builders[column].hold(leave, position)
+            for column, position in zip(chain.columns, chain.positions[-1].tolist(), strict=True):
+                builders[column].hold(float(times[-1]), position)
+        return tuple(builder.build(end) for builder in builders)
 
     def _want(self, chain: WaypointChain, index: int, needed: float, *, most: float = math.inf) -> bool:
         """Ask for the time that a segment needs, at most by a factor at once; whether it has too little."""

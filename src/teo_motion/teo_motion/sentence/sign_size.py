@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Makes signs smaller for which TEO is too slow, and repeats them less often.
+
+A sign keeps its shape when it is made smaller, as people do who sign fast or to someone near; made slowly it
+falls apart into postures. A sign that would take longer than asked for is therefore drawn together around
+its centre: arms, trunk, and fingers that come back to where they were, as in a wiggle. A handshape that opens
+once is kept: half open it is another one. So are places and palms that differ: no hand moves or turns further
+than what a reader takes for the same. A sign that touches is drawn together around the contact, one that
+touches in several postures is left as large as it is. What is repeated more than twice is repeated twice:
+that it repeats is told by the second time.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_common.arrays import Array
+from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
+from teo_description.robot import Robot
+from teo_motion.trajectory.limits import MotionLimits
+from teo_signs.lexicon import SignedToken
+from teo_signs.sign import Sign
+from teo_signs.tokens import Kind
+
+_COLUMN = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
+_ARMS_AND_TRUNK = frozenset((*TRUNK, *LEFT_ARM, *RIGHT_ARM))
+_HANDS = frozenset((*LEFT_HAND, *RIGHT_HAND))
+
+# Parts nearer than this touch, or are meant to [m]: three in four of the table's words come that near, since
+# those that touch stand off by up to 22 mm: the shapes that must not overlap are larger than the parts.
+_CONTACT = 0.025
+
+# Postures closer than this are the same [rad]: 3 deg, 2 cm at the hand.
+_SAME = 0.05
+
+# A repetition goes at least this far away before it comes back [rad]: twice of what is the same.
+_AWAY = 0.1
+
+# How often a sign does what it repeats [1].
+_REPETITIONS = 2
+
+# Mean speed of a stroke over its joint's greatest [1]: a joint that speeds up and slows down over the whole
+# stroke, as the least-jerk motion does, is at 8/15 of its peak on average; strokes that go on stop less.
+_MEAN_SPEED = 0.7
+
+# How far a hand may be from where the entry has it [m], and how far its palm may be turned [rad]: what
+# letters are allowed in their easy postures. 15 deg are just seen.
+_SHIFT, _TURN = 0.08, np.radians(15.0)
+
+# Steps in which signs are made smaller [1].
+_STEP = 0.1
+
+
+class SignSize:
+    """Fits the size of signs to the time that they have."""
+
+    def __init__(self, robot: Robot, *, limits: MotionLimits, least: float) -> None:
+        """Prepare.
+
+        Args:
+            robot: Not shared with another thread.
+            limits: Limits of the commanded joints.
+            least: The smallest size that a sign is given, 0 to 1; 1 leaves every sign as it is.
+        """
+        self._robot = robot
+        self._limits = limits
+        self._sizes = tuple(np.arange(1.0 - _STEP, least - 1e-9, -_STEP).tolist())
+        self._touching: WeakKeyDictionary[Sign, NDArray[np.bool_]] = WeakKeyDictionary()
+
+    def fitted(self, signed: Sequence[SignedToken]) -> tuple[SignedToken, ...]:
+        """Words in the largest size that TEO makes in their time, or in the smallest allowed."""
+        return tuple(self._fitted(item) for item in signed)
+
+    def _fitted(self, item: SignedToken) -> SignedToken:
+        sign = item.sign
+        if not self._sizes or sign is None or item.token.kind != Kind.LEXICAL or item.token.spelled:
+            return item
+        scale = item.token.duration_scale
+        if self._fits(sign, scale):
+            return item
+        centre = self._centre(sign)
+        sign = _repeated_less(sign)
+        if centre is not None:
+            sign = self._smaller(sign, centre, scale)
+        return dataclasses.replace(item, sign=sign)
+
+    def _smaller(self, sign: Sign, centre: Array, scale: float) -> Sign:
+        """The largest size that fits, or the smallest that is taken for the same sign."""
+        found, palms = sign, self._palms(sign)
+        for size in self._sizes:
+            smaller = _drawn_together(sign, centre, size)
+            if not _look_the_same(palms, self._palms(smaller)) or self._touches(smaller, 0.0).any():
+                break
+            found = smaller
+            if self._fits(found, scale):
+                break
+        return found
+
+    def _palms(self, sign: Sign) -> Array:
+        """Poses of both palms at every knot. Shape (n, 2, 4, 4)."""
+        return np.stack(
+            [
+                self._robot.placements(
+                    self._robot.configuration(sign.pose(knot)), ("left_palm", "right_palm")
+                )
+                for knot in range(len(sign.knots))
+            ]
+        )
+
+    def _fits(self, sign: Sign, scale: float) -> bool:
+        """Whether the joints are fast enough for a sign, about."""
+        speed = _MEAN_SPEED * self._limits.velocity[[_COLUMN[name] for name in sign.joints]]
+        needed = (np.abs(np.diff(sign.knots, axis=0)) / speed).max(axis=1)
+        asked = np.diff(sign.times) * scale
+        return bool(np.maximum(needed, asked).sum() <= asked.sum())
+
+    def _centre(self, sign: Sign) -> Array | None:
+        """The posture around which a sign is drawn together; None where it touches in several."""
+        touching = self._touching.get(sign)
+        if touching is None:
+            touching = self._touching.setdefault(sign, self._touches(sign, _CONTACT))
+        if not touching.any():
+            middle: Array = (sign.knots.min(axis=0) + sign.knots.max(axis=0)) / 2.0
+            return middle
+        contacts = sign.knots[touching]
+        return contacts[0] if np.abs(contacts - contacts[0]).max() < _SAME else None
+
+    def _touches(self, sign: Sign, distance: float) -> NDArray[np.bool_]:
+        """Which knots bring parts of the robot nearer than a distance [m]. Shape (n,)."""
+        touching = np.zeros(len(sign.knots), dtype=bool)
+        for index, knot in enumerate(sign.knots):
+            if index and (knot == sign.knots[index - 1]).all():
+                touching[index] = touching[index - 1]
+            else:
+                q = self._robot.configuration(sign.pose(index))
+                touching[index] = bool(self._robot.contacts(q, distance))
+        return touching
+
+
+def _look_the_same(first: Array, second: Array) -> bool:
+    """Whether palms are where and as others are. Shape (n, 2, 4, 4) each."""
+    shifts = np.linalg.norm(first[..., :3, 3] - second[..., :3, 3], axis=-1)
+    # Trace of the rotation from one to the other: 1 + 2 cos of its angle.
+    traces = (first[..., :3, :3] * second[..., :3, :3]).sum(axis=(-2, -1))
+    return bool((shifts <= _SHIFT).all() and (traces >= 1.0 + 2.0 * np.cos(_TURN)).all())
+
+
+def _drawn_together(sign: Sign, centre: Array, size: float) -> Sign:
+    knots = sign.knots.copy()
+    columns = [
+        index
+        for index, name in enumerate(sign.joints)
+        if name in _ARMS_AND_TRUNK or (name in _HANDS and len(_returns(knots[:, [index]], 0)) > 1)
+    ]
+    knots[:, columns] = centre[columns] + size * (knots[:, columns] - centre[columns])
+    knots.setflags(write=False)
+    return dataclasses.replace(sign, knots=knots, alternatives=())
+
+
+def _repeated_less(sign: Sign) -> Sign:
+    """A sign without what it does a third time and more."""
+    knots, times = sign.knots, sign.times
+    first = 0
+    while first < len(knots):
+        returns = _returns(knots, first)
+        if len(returns) <= _REPETITIONS + 1:
+            first += 1
+            continue
+        begin, end = returns[_REPETITIONS], returns[-1]
+        knots = np.concatenate((knots[: begin + 1], knots[end + 1 :]))
+        times = np.concatenate((times[: begin + 1], times[end + 1 :] - (times[end] - times[begin])))
+        first = begin + 1
+    if len(knots) == len(sign.knots):
+        return sign
+    for array in (knots, times):
+        array.setflags(write=False)
+    return dataclasses.replace(sign, knots=knots, times=times, alternatives=())
+
+
+def _returns(knots: Array, first: int) -> list[int]:
+    """Knots at which a sign is where it was at one of them, each time after it had gone away."""
+    away = np.abs(knots[first:] - knots[first]).max(axis=1)
+    found, gone = [first], False
+    for index, distance in enumerate(away.tolist()):
+        if gone and distance < _SAME:
+            found.append(first + index)
+            gone = False
+        gone = gone or distance > _AWAY
+    return found
