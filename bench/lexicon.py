@@ -123,7 +123,11 @@ def _bad_of_batch(glosses: list[str]) -> list[str]:
     planner, second_look = Planner(lut, robot=Robot.load(), least_standing="sketched"), SecondLook()
     bad: list[str] = []
     for gloss in glosses:
-        plan = planner.plan([Token(gloss=gloss, kind=_KINDS[lut[gloss].kind])])
+        try:
+            plan = planner.plan([Token(gloss=gloss, kind=_KINDS[lut[gloss].kind])])
+        except PlanError as error:
+            bad.append(f"{gloss} is refused: {error}")
+            continue
         times = np.arange(0.0, plan.duration, _STEP)
         violation = second_look.first_violation(times, sample_at(plan.motions, times).positions, look=_LOOK)
         if violation is not None:
