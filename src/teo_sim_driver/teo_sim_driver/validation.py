@@ -63,7 +63,7 @@ def check(message: Fields, *, limits: JointLimits, rules: Rules, held: Collectio
     _check_between(
         trajectory, limits, lambda segment: f"between points {segment} and {segment + 1}", _BETWEEN
     )
-    return points
+    return _in_order(points)
 
 
 def schedule(
