@@ -30,6 +30,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "coal": ("coal", "coal"),
     "cv2": ("python3-opencv", "opencv-python-headless"),
     "distributed": (None, "distributed"),
+    "dtaidistance": (None, "dtaidistance"),
     "embreex": (None, "embreex"),
     "flatbuffers": (None, "flatbuffers"),
     "google": ("python3-protobuf", "protobuf"),

@@ -17,8 +17,12 @@ from teo_lut_executor.cli.lut import app
 from teo_sign_capture.entries.gates import accepted_standing, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
+from teo_synthetic_signer import Take as Performance
+from teo_synthetic_signer import TakeOptions
+from teo_synthetic_signer.take.take_bag import write_take
 
 GOOD = {
     "lost_percent": 20.0,
@@ -160,6 +164,18 @@ def test_a_teacher_is_told_what_to_do_and_may_accept(tmp_path: Path) -> None:
     provenance = Lut.open(tmp_path / "lut")["SIGNO"].provenance
     assert provenance.standing == "measured"
     assert "begins and ends within it" in provenance.notes
+
+
+def test_the_first_example_of_the_guide_passes(robot: Robot, tmp_path: Path) -> None:
+    options = TakeOptions(script="greeting", body="man_average", sensor="d435", rate=15.0)
+    person = Performance(options)
+    frames = (person.truth(index) for index in range(len(person)))
+    assert sum(1 for _ in write_take(frames, tmp_path / "hello", truth_only=True)) == len(person)
+    track = read_skeletons(tmp_path / "hello", topic="/truth/skeletons")
+    sign = make_sign(robot, "SALUDAR", [capture_take(robot, track)], ORIGIN).sign
+    assert sign.provenance.standing == "recorded"
+    assert sign.quality["place_error_p95_mm"] < 120.0
+    assert sign.quality["stretch_times"] < 2.0
 
 
 def test_a_stroke_of_an_eighth_of_a_second_is_too_short(robot: Robot) -> None:
