@@ -19,6 +19,7 @@ import retargeting
 import retriever_accuracy
 import retriever_node
 import retriever_robustness
+import retriever_unseen
 import robot_model
 import spelling
 import text_to_trajectory
@@ -46,6 +47,7 @@ BENCHES = (
     retriever_accuracy,
     retriever_node,
     retriever_robustness,
+    retriever_unseen,
     camera_path,
 )
 

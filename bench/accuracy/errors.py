@@ -17,6 +17,8 @@ from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 
 ARMS = ("RShoulder", "LShoulder", "RElbow", "LElbow", "RWrist", "LWrist")
 ARM_ROWS = np.array([BODY_25.index[name] for name in ARMS])
+HEAD = ("Nose", "REye", "LEye", "REar", "LEar")
+HEAD_ROWS = np.array([BODY_25.index[name] for name in HEAD])
 HAND_NAMES = [f"{side}Hand{name}" for side in ("L", "R") for name in HAND_21.keypoints]
 
 
@@ -77,6 +79,16 @@ def body_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> E
     sigma = np.array([estimate.sigma[ARM_ROWS] for estimate in estimates])
     status = np.array([estimate.status[ARM_ROWS] for estimate in estimates])
     return _errors(list(ARMS), truth, np.array([e.body[ARM_ROWS] for e in estimates]), visible, sigma, status)
+
+
+def head_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> Errors:
+    """Give the errors of nose, eyes and ears."""
+    truth = np.array([frame.truth.body[HEAD_ROWS] for frame in frames])
+    visible = np.array([frame.truth.body_visible[HEAD_ROWS] for frame in frames])
+    sigma = np.array([estimate.sigma[HEAD_ROWS] for estimate in estimates])
+    status = np.array([estimate.status[HEAD_ROWS] for estimate in estimates])
+    found = np.array([estimate.body[HEAD_ROWS] for estimate in estimates])
+    return _errors(list(HEAD), truth, found, visible, sigma, status)
 
 
 def hand_errors(frames: Sequence[TakeFrame], estimates: Sequence[Estimate]) -> Errors:

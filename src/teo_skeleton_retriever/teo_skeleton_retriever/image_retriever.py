@@ -148,7 +148,7 @@ class ImageRetriever:
             DetectionFrame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
         )
         self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
-        share = float(np.count_nonzero(np.isfinite(image.depth)) / image.depth.size)
+        share = float(np.count_nonzero(image.depth > 0.0) / image.depth.size)  # of NaN nothing is true
         median = median_depth(image.depth)
         return Retrieved(people, skeletons, share, median, detected.time, time.perf_counter() - began)
 

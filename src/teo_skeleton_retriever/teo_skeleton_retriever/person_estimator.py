@@ -62,8 +62,11 @@ _SHOULDERS = [ROW["RShoulder"], ROW["LShoulder"]]
 _HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand away tells nothing of its shape
 _SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
+_GUESSED = 0.02  # [m] standard deviation that is added to a keypoint that an arm hides
 # Elbows at which the own forearm lies, wrists at which the own hand does as well: these hide nothing there.
 _OWN_LIMBS = {row: rows[1 : i + 1] for rows in ARMS.values() for i, row in enumerate(rows) if i}
+_HEAD_AND_FACE = [*HEAD, *range(FACE.start, FACE.stop)]
+_OF_HEAD, _OF_FACE = slice(0, len(HEAD)), slice(len(HEAD), None)
 _ON_HANDS = (np.arange(N) >= LEFT_HAND.start) & (np.arange(N) < RIGHT_HAND.stop)
 
 
@@ -128,11 +131,13 @@ class PersonEstimator:
             optimised[HANDS[side]] = ~fit.measured
         hands = {side: fit.points for side, fit in fits.items()}
         arms = occluders(_in_space(body.rays, body.depths), hands)
-        surfaces = surfaces.without(arms.shown(seen.rays, surfaces.depth))
-        head = self._find_head(surfaces, before, body)
-        depth[HEAD], sigma[HEAD] = head.depths, head.sigma
+        free = surfaces.part(_HEAD_AND_FACE)
+        free = free.without(arms.shown(seen.rays[_HEAD_AND_FACE], free.depth))
+        head = self._find_head(free, before, body)
+        depth[HEAD] = np.where(seen.seen[HEAD], head.depths, np.nan)
+        sigma[HEAD] = head.sigma
         if seen.seen[FACE].any():
-            face = face_depths(seen.rays[FACE], surfaces.part(FACE), head.eyes)
+            face = face_depths(seen.rays[FACE], free.part(_OF_FACE), head.eyes)
             depth[FACE], sigma[FACE] = face.depths, face.sigma
             optimised[FACE] = ~face.measured
         near = np.where(np.isfinite(depth), depth, distance)
@@ -151,29 +156,30 @@ class PersonEstimator:
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
         away = np.minimum(output.age, self._parameters.hold_time)
         carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
+        guessed = carried + np.where(hidden, _GUESSED, 0.0)
         found = keypoints_of(
             output,
             seen,
             optimised=optimised,
             hidden=hidden,
-            bias=np.hypot(BIAS, np.column_stack([doubt + carried, carried])),
+            bias=np.hypot(BIAS, np.column_stack([doubt + guessed, guessed])),
             max_sigma=self._parameters.max_sigma * np.where(_ON_HANDS, _HAND_SHARE, 1.0),
             memory=self._confidence,
         )
         found = self._with_held_hands(found)
         return PersonParts(*(found.part(rows) for rows in (BODY, LEFT_HAND, RIGHT_HAND, FACE)))
 
-    def _find_head(self, surfaces: Surfaces, before: FilterOutput, body: BodyDepths) -> HeadDepths:
-        """Find the head in what is not an arm's."""
+    def _find_head(self, free: Surfaces, before: FilterOutput, body: BodyDepths) -> HeadDepths:
+        """Find the head in surfaces of head and face that are not an arm's."""
         behind = np.zeros(len(HEAD))
         if self._parameters.skin_offset:
             behind = BODY_DEPTHS[HEAD] * self._size.scale
         if self._parameters.detector == "mediapipe":
             behind[EARS] += EAR_BEHIND
         return head_depths(
-            surfaces.part(HEAD),
+            free.part(_OF_HEAD),
             behind,
-            surfaces.part(FACE),
+            free.part(_OF_FACE),
             neck=float(body.depths[ROW["Neck"]]),
             expected=before.depth[HEAD],
         )

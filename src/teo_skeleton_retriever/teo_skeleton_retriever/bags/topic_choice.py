@@ -48,15 +48,12 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
     first = {topic: bag.first(topic) for topic in names}
     depths = [topic for topic in names if shows_depth(first[topic])]
     colors = [topic for topic in names if shows_depth(first[topic]) is False]
-    unread = [
-        f"{topic} ({first[topic].encoding})"
-        for topic in names
-        if shows_depth(first[topic]) is None and first[topic].encoding.startswith(BAYER)
-    ]
+    encodings = {topic: str(getattr(first[topic], "encoding", "")) for topic in names}
+    unread = [f"{topic} ({of})" for topic, of in encodings.items() if of.startswith(BAYER)]
     if unread and not colors and not color:
         sentence = f"expected a topic of color, got the raw mosaic of {', '.join(unread)}: {DEBAYER}"
         raise TopicError("no_color", sentence, "color_topic")
-    coloured = [topic for topic in colors if getattr(first[topic], "encoding", "") not in _GREY]
+    coloured = [topic for topic in colors if encodings[topic] not in _GREY]
     infos = [topic for topic, kind in bag.kinds.items() if kind == "sensor_msgs/msg/CameraInfo"]
     chosen_color = _choose(bag, "color", color, COLOR_TOPIC, coloured or colors)
     beside = f"{_base(chosen_color).rpartition('/')[0]}/camera_info"

@@ -30,8 +30,8 @@ class Shift(NamedTuple):
 # in space does. The shares are of 0.36 m between the shoulders, 0.48 m of trunk, 0.27 m of upper arm, 0.25 m
 # of forearm.
 BODY_SHIFTS: tuple[Shift, ...] = (
-    Shift("RShoulder", "LShoulder", "RShoulder", 0.04),
-    Shift("LShoulder", "RShoulder", "LShoulder", 0.04),
+    Shift("RShoulder", "LShoulder", "RShoulder", 0.05),
+    Shift("LShoulder", "RShoulder", "LShoulder", 0.05),
     Shift("RShoulder", "Neck", "MidHip", 0.036),
     Shift("LShoulder", "Neck", "MidHip", 0.036),
     Shift("Neck", "Neck", "MidHip", 0.036),

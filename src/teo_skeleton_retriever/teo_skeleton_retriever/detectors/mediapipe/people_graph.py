@@ -43,7 +43,7 @@ class Sighting(NamedTuple):
             height: Likewise.
         """
         off = (pose[_NOSE, :2] - self.face) * [width, height]
-        return float(np.hypot(*off)) < _SAME_FACE * self.region.height * height
+        return float(np.hypot(*off)) < _SAME_FACE * float(self.region.height) * height
 
 
 class PeopleGraph:
