@@ -41,7 +41,7 @@ def test_a_sentence_is_signed_and_then_all_is_idle(world: World) -> None:
     assert signing.sentence is not None and signing.plan is not None
     assert (signing.sentence.utterance_id, signing.sentence.index, signing.sentence.count) == ("text", 1, 2)
     assert [timing.token.gloss for timing in signing.plan.timings] == ["TÚ", "A", "N"]
-    assert again.stamp == pytest.approx(signing.stamp + signing.plan.duration, abs=0.1)
+    assert again.stamp == pytest.approx(signing.stamp + signing.plan.duration, abs=0.15)
 
 
 def test_sentences_are_signed_in_the_order_in_which_they_came(world: World) -> None:
@@ -249,7 +249,8 @@ def test_a_sentence_canceled_on_its_way_to_rest_just_ends(world: World) -> None:
 def test_a_stop_that_the_driver_does_not_take_is_sent_again(world: World) -> None:
     world.run(0.1)
     ticket = world.sign("A-N-A-N-A-N")
-    world.run(4.0)
+    world.run(3.0)
+    world.run_until(lambda: bool(np.abs(world.velocities).max() > 0.5))
     going_on = world._motions
     world.cancel(ticket)
     world._motions, world._stop = going_on, None  # the driver has refused it

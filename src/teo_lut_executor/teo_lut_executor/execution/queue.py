@@ -46,8 +46,9 @@ from teo_motion.trajectory.stopping import stop
 from teo_signs.errors import PlanError
 
 # A motion from a standstill is sent to start so much later [s]: the message's way to the driver, and its
-# check there. A driver that gets it later still catches up.
-_START_LEAD = 0.05
+# check there; on two cores with a load of ten they took more than 0.05 s. A driver that gets it later drops
+# the points that have passed, or refuses it.
+_START_LEAD = 0.1
 
 # A motion that continues another is sent this long before it is to take over [s]: late enough that plans can
 # still change, early enough for a loaded machine.

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from action_msgs.msg import GoalStatus
 from control_msgs.action import FollowJointTrajectory
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -21,7 +20,7 @@ from teo_lut_executor.node.parameters import ACTION
 
 _RESULT = FollowJointTrajectory.Result
 
-# Results that say that a goal was not taken, or not followed; others tell of a newer goal.
+# Results that say that a goal was not taken, or not followed.
 _REFUSALS = {
     _RESULT.INVALID_GOAL: "INVALID_GOAL",
     _RESULT.INVALID_JOINTS: "INVALID_JOINTS",
@@ -57,7 +56,8 @@ class DriverLink:
         self._action: ActionClient | None = None
         if interface == ACTION:
             self._action = ActionClient(node, FollowJointTrajectory, "follow_joint_trajectory")
-        self._by_topic: int | None = None  # number of the motion that was sent last, if by topic
+        self._latest = 0  # number of the motion that was sent last
+        self._by_topic: int | None = None  # the same, if it was sent by topic
         self._refused: int | None = None  # trajectories that the driver had refused by its last report
         latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self._states = node.create_subscription(DriverState, "driver_state", self._on_state, latched)
@@ -69,6 +69,7 @@ class DriverLink:
 
     def send(self, number: int, trajectory: JointTrajectory) -> None:
         """Send a motion."""
+        self._latest = number
         if not self._serves:
             self._by_topic = number
             self._topic.publish(trajectory)
@@ -98,10 +99,11 @@ class DriverLink:
 
     def _on_result(self, number: int, future: Future) -> None:
         response = future.result()
-        if response is None or response.status == GoalStatus.STATUS_SUCCEEDED:
+        if response is None:
             return
         name = _REFUSALS.get(response.result.error_code)
-        if name is not None:
+        # A goal that a newer one of ours took the place of ends as invalid too: that is no refusal.
+        if name is not None and number == self._latest:
             self._on_refused(number, f"[{name}] {response.result.error_string}")
 
     def _on_state(self, message: DriverState) -> None:

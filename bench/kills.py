@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What becomes of sentences when a process is killed with SIGKILL at a random moment, and started again.
+
+Each time a text of three sentences is typed; at a random moment translator, executor, its planner or the
+driver is killed, and started again a second later, as a supervisor would. Then the robot must come to rest,
+having kept its speed limits, and every sentence that the translator published must have been signed or named.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from report import Figure
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence
+
+from teo_bringup.graph import NODES, executable_of
+from teo_description import ALL_JOINTS, HOME, joint_limits
+
+KILLS = 20
+_TEXT = "Hola. Me llamo Al. ¿Tú comer?"
+_VICTIMS = ("translator", "executor", "planner", "driver")
+_SEED = 13
+_TIMEOUT = 120.0  # [s] until all is at rest again
+_RESTART = 1.0  # [s] after which a supervisor starts a process again
+_AT_REST = 0.02  # [rad]
+
+
+class _Witness(Node):
+    """Sees what was published, what became of it, and how the robot moved."""
+
+    def __init__(self) -> None:
+        super().__init__("witness")
+        self.sentences: set[tuple[str, int]] = set()
+        self.accounted: dict[tuple[str, int], str] = {}
+        self.state: int | None = None
+        self.states: list[tuple[float, np.ndarray]] = []
+        latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.create_subscription(SignSentence, "sign_tokens", self._on_sentence, 100)
+        self.create_subscription(ExecutorStatus, "executor_status", self._on_status, latched)
+        self.create_subscription(JointState, "joint_states", self._on_joints, 100)
+        self.texts = self.create_publisher(String, "text", 10)
+
+    def _on_sentence(self, message: SignSentence) -> None:
+        self.sentences.add((message.utterance_id, message.sentence_index))
+
+    def _on_status(self, message: ExecutorStatus) -> None:
+        self.state = message.state
+        if message.sentence_count and message.state == ExecutorStatus.STATE_SIGNING:
+            self.accounted[message.utterance_id, message.sentence_index] = "signed"
+        elif message.sentence_count and message.state == ExecutorStatus.STATE_REFUSED:
+            self.accounted[message.utterance_id, message.sentence_index] = message.code
+
+    def _on_joints(self, message: JointState) -> None:
+        stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+        self.states.append((stamp, np.array(message.position)))
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether the robot is at home and the executor says that all is done."""
+        home = np.array([HOME[name] for name in ALL_JOINTS])
+        there = bool(self.states) and bool(np.abs(self.states[-1][1] - home).max() < _AT_REST)
+        return there and self.state == ExecutorStatus.STATE_IDLE
+
+    def fastest(self) -> float:
+        """Greatest speed of a joint over its limit since this was asked last [1], restarts aside."""
+        times = np.array([stamp for stamp, _ in self.states])
+        positions = np.array([position for _, position in self.states])
+        self.states = self.states[-1:]
+        steps = np.diff(times)
+        regular = (steps > 0.005) & (steps < 0.1)  # stamps jitter; a restarted driver begins at home
+        speeds = np.abs(np.diff(positions, axis=0))[regular] / steps[regular, None]
+        return float((speeds / joint_limits(ALL_JOINTS).velocity).max()) if speeds.size else 0.0
+
+
+def measure(kills: int = KILLS) -> list[Figure]:
+    """Kill processes at random moments and count what is lost."""
+    os.environ.setdefault("ROS_DOMAIN_ID", "18")
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    rclpy.init()
+    witness, executor, dice = _Witness(), SingleThreadedExecutor(), random.Random(_SEED)
+    executor.add_node(witness)
+    processes: dict[str, subprocess.Popen[bytes]] = {}
+
+    def wait(condition: Callable[[], bool], most: float) -> bool:
+        deadline = time.monotonic() + most
+        while not condition() and time.monotonic() < deadline:
+            executor.spin_once(timeout_sec=0.05)
+        return condition()
+
+    def start(name: str, journal: Path) -> None:
+        command = [str(executable_of(*NODES[name]))]
+        if name == "executor":
+            command += ["--ros-args", "-p", f"journal:={journal}"]
+        processes[name] = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    lost: list[str] = []
+    restless: list[str] = []
+    outcomes: Counter[str] = Counter()
+    fastest = 0.0
+    with tempfile.TemporaryDirectory() as folder:
+        journal = Path(folder)
+        try:
+            for name in NODES:
+                start(name, journal)
+            for _ in range(kills):
+                wait(lambda: witness.at_rest and witness.texts.get_subscription_count() > 0, _TIMEOUT)
+                victim, moment = dice.choice(_VICTIMS), dice.uniform(0.0, 12.0)
+                witness.sentences.clear()
+                witness.accounted.clear()
+                witness.texts.publish(String(data=_TEXT))
+                wait(lambda: False, moment)
+                _kill(victim, processes)
+                wait(lambda: False, _RESTART)
+                if victim != "planner":
+                    start(victim, journal)
+                if not wait(lambda: witness.at_rest, _TIMEOUT):
+                    restless.append(f"{victim} after {moment:.1f} s")
+                lost += [
+                    f"{victim} after {moment:.1f} s" for _ in witness.sentences - witness.accounted.keys()
+                ]
+                outcomes.update(witness.accounted.values())
+                fastest = max(fastest, witness.fastest())
+        finally:
+            for process in processes.values():
+                process.kill()
+                process.wait()
+    witness.destroy_node()
+    rclpy.shutdown()
+    told = ", ".join(f"{count} {outcome}" for outcome, count in outcomes.most_common())
+    return [
+        Figure(f"sentences after {kills} kills", told),
+        Figure("sentences neither signed nor named", f"{len(lost)} {'; '.join(lost)}".strip()),
+        Figure("kills after which the robot did not come to rest", f"{len(restless)} {'; '.join(restless)}"),
+        Figure("greatest speed over the limit", f"{fastest:.3f}"),
+    ]
+
+
+def _kill(victim: str, processes: dict[str, subprocess.Popen[bytes]]) -> None:
+    if victim == "planner":  # the executor's only child
+        parent = processes["executor"].pid
+        for child in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
+            os.kill(int(child), signal.SIGKILL)
+        return
+    processes[victim].kill()
+    processes[victim].wait()
