@@ -15,7 +15,9 @@ from teo_description.urdf.solids import Solid, collision_solids, uniform_inertia
 ROBOT_NAME = "teo"
 ROOT_LINK = "base_link"
 
-# MaxVel of every iPOS axis [rad/s] (teo-configuration-files, nodes/common-ipos.ini); the hands too.
+# Greatest speed of every joint [rad/s]. Body, arms, head: maxVel of nodes/common-ipos.ini. Fingers: what the
+# newer drive of the hand does under load, which happens to be the same; see "How fast the hands are" in the
+# README. Thumb and its abductor could be several times as fast; sentences would be 2 % shorter.
 VELOCITY_LIMIT = math.radians(50.0)
 
 # A placeholder [N m]: URDF demands a figure and none is published for the real joints.

@@ -39,8 +39,12 @@ _REACH = {
 # all in one direction. The real motion is about a third of that, and the approach of two parts less.
 _REAL_SHARE = 0.5
 
+# Looks of the first round are this far apart, over what parts at one distance need to meet [1]: at 2 they
+# could just meet half way and come back; a little less, so that parts a little nearer need no third look.
+_AHEAD = 1.8
+
 # Two looks of the first round are at least this far apart, by that bound [m].
-_STEP = 0.2
+_STEP = 0.1
 
 
 class MotionClearance:
@@ -54,8 +58,8 @@ class MotionClearance:
     def nearest(self, samples: Samples, *, head_alone: bool = False) -> NearestApproach:
         """The nearest approach of parts along a motion that was found, and no overlap unseen.
 
-        In a first round the distance is next measured where the parts can have moved by the distance found
-        last, and at least by a step. Then stretches between two looks are halved, each time the one in which
+        In a first round the distance is measured as seldom as parts need that stay as far apart as they are.
+        Then stretches between two looks are halved, each time the one in which
         parts can have come nearest (S. A. Piyavskii's minimum of a function of bounded slope, 1972), until
         none can hold an overlap that is deeper by `RESOLUTION` than what was found.
 
@@ -69,7 +73,7 @@ class MotionClearance:
         looks = [self._look(motion, 0.0, clearance)]
         while looks[-1][0] < last:
             path, near = looks[-1]
-            ahead = min(path + max(near.distance / _REAL_SHARE, _STEP), last)
+            ahead = min(path + max(_AHEAD * near.distance / _REAL_SHARE, _STEP), last)
             looks.append(self._look(motion, ahead, clearance))
         closest = min((near for _, near in looks), key=lambda near: near.distance)
         stretches = [(_least(*pair), *pair) for pair in pairwise(looks) if pair[0][0] < pair[1][0]]

@@ -62,4 +62,5 @@ def driver_points(motions: Sequence[JointMotion], times: Array) -> DriverPoints:
 
 def point_times(duration: float, period: float) -> Array:
     """Evenly spaced times over a motion and at least a period after it [s]. Shape (n,)."""
-    return np.arange(int(np.ceil(duration / period - 1e-9)) + 2) * period
+    count = int(np.ceil(duration / period - 1e-9)) + 2
+    return np.arange(count, dtype=np.float64) * period
