@@ -15,14 +15,16 @@ from teo_description import joint_limits
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import Plan, sample_at
+from teo_motion.sentence.rhythm import SigningStyle
 from teo_sign_capture.retarget.motion_smoothing import tube_radii
 from teo_signs.errors import LutError, PlanError
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
 _KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
-# [rad] The planner passes knots exactly; entries keep six decimals.
-_ON_KNOT = 1e-6
+# The planner passes knots exactly: every so often [s] it is looked at, and within so much it is at one [rad].
+# A joint is no faster than 1 rad/s.
+_KNOT_LOOK, _ON_KNOT = 0.002, 0.001
 # Instants between two knots at which the played path is looked at: less than half a degree apart.
 _BETWEEN = 24
 # [s] Five looks at the limits between two points that the drives are sent.
@@ -61,9 +63,12 @@ def play(robot: Robot, sign: Sign, times: Array, positions: Array) -> Playback:
             ("outside_limits") or touches ("self_collision").
     """
     try:
-        plan = Planner(MappingProxyType({sign.gloss: sign}), robot=robot, least_standing="sketched").plan(
-            [Token(gloss=sign.gloss, kind=_KINDS[sign.kind])]
-        )
+        plan = Planner(
+            MappingProxyType({sign.gloss: sign}),
+            style=SigningStyle(least_size=1.0),  # as large as the entry, to be compared with it
+            robot=robot,
+            least_standing="sketched",
+        ).plan([Token(gloss=sign.gloss, kind=_KINDS[sign.kind])])
     except PlanError as error:
         raise LutError(error.code, f"{sign.gloss}: TEO cannot sign it: {error}") from error
     _check_limits(sign.gloss, plan)
@@ -123,12 +128,14 @@ def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array
 
 
 def _waypoint_times(sign: Sign, plan: Plan, columns: list[int]) -> list[float]:
-    """When the plan passes each knot [s]: knots are among its samples, in order."""
+    """When the plan passes each knot [s], in order."""
     timing = plan.timings[0]
-    index = int(np.searchsorted(plan.times, timing.start - 1e-9))
-    found = []
+    looks = 2 + int(timing.duration / _KNOT_LOOK)
+    times = timing.start + np.linspace(0.0, timing.duration, looks)
+    passed = sample_at(tuple(plan.motions[column] for column in columns), times).positions
+    index, found = 0, []
     for knot in sign.knots:
-        on = np.abs(plan.positions[index:, columns] - knot).max(axis=1) < _ON_KNOT
+        on = np.abs(passed[index:] - knot).max(axis=1) <= _ON_KNOT
         index += int(np.argmax(on)) if on.any() else 0
-        found.append(float(plan.times[index]))
+        found.append(float(times[index]))
     return found
