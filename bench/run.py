@@ -7,6 +7,7 @@ from __future__ import annotations
 import platform
 
 import camera_path
+import clips
 import driver_rate
 import letters
 import lexicon
@@ -33,6 +34,7 @@ BENCHES = (
     letters,
     spelling,
     lifting,
+    clips,
     driver_rate,
     translation,
     words,
