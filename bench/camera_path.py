@@ -170,6 +170,8 @@ def _sampled(sign: Sign) -> RobotMotion:
         positions=positions,
         place_error=unknown,
         contact=unknown,
+        same_zone=unknown,
+        wrong_place=unknown,
         palm_error=unknown,
         finger_error=unknown,
         flexion_error=unknown,

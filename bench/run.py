@@ -7,6 +7,7 @@ from __future__ import annotations
 import platform
 
 import camera_path
+import clips
 import driver_rate
 import driver_robustness
 import letters
@@ -36,6 +37,7 @@ BENCHES = (
     letters,
     spelling,
     lifting,
+    clips,
     driver_rate,
     driver_robustness,
     translation,

@@ -14,7 +14,6 @@ from .entries.bag_capture import (
 from .entries.bag_capture import (
     capture_bags as capture_bags,
 )
-from .entries.pose_capture import capture_pose_file as capture_pose_file
 from .entries.take import Cut as Cut
 from .entries.take import Take as Take
 from .entries.take import capture_take as capture_take

@@ -26,8 +26,9 @@ _errors = Console(stderr=True, highlight=False)
 Bags = Annotated[
     list[Path] | None,
     typer.Argument(
-        help="Bag of colour and depth images or of skeletons; several are takes of one sign. Or one folder "
-        "of bags (or folders of takes) that are named after their glosses: GLOSS, or GLOSS_1, GLOSS_2."
+        help="Video (mp4, mov, webm), bag of colour and depth images or of skeletons, or .pose file; several "
+        "are takes of one sign. Or one folder of them (or of folders of takes), named after their glosses: "
+        "GLOSS, or GLOSS_1, GLOSS_2."
     ),
 ]
 Gloss = Annotated[str | None, typer.Option(help="Name of the sign; not with a folder.")]
@@ -56,6 +57,12 @@ Notes = Annotated[str, typer.Option(help="What a reader must know, for the entry
 Accept = Annotated[
     bool,
     typer.Option("--accept", help="Take a sign beyond a gate as it is, one level less well founded."),
+]
+Camera = Annotated[
+    int | None, typer.Option(min=0, help="Film the sign with this webcam first: 0 is the usual one.")
+]
+Seconds = Annotated[
+    float, typer.Option(min=1.0, max=30.0, help="With --camera: how long it films after the countdown [s].")
 ]
 Topic = Annotated[str | None, typer.Option(help="Topic of the skeletons; found by itself.")]
 Slop = Annotated[
@@ -97,6 +104,8 @@ def capture(
     licence: Licence = "not stated: ask the person who signs before passing it on",
     notes: Notes = "",
     accept: Accept = False,
+    camera: Camera = None,
+    seconds: Seconds = 5.0,
     topic: Topic = None,
     slop: Slop = DEFAULT_SLOP,
     cache: Cache = None,
@@ -111,7 +120,7 @@ def capture(
 
     Exit status: 0 captured, 1 not (code and reason on standard error), 2 wrong options.
     """
-    from teo_sign_capture.entries.bag_capture import Job, Settings
+    from teo_sign_capture.entries.bag_capture import Job, Settings, check_free
     from teo_sign_capture.entries.batch import find_jobs, read_manifest
     from teo_sign_capture.entries.take import Cut
     from teo_sign_capture.recordings.recording import default_cache, is_bag
@@ -133,6 +142,11 @@ def capture(
             film=film,
         )
         cut = Cut(start=start, end=end)
+        if camera is not None:
+            if gloss is None or bags or manifest is not None:
+                raise LutError("bad_arguments", "expected --camera NUMBER --gloss GLOSS, and no recording")
+            check_free(gloss, settings)
+            bags = [_filmed(camera, gloss, seconds)]
         if gloss is not None and bags and manifest is None:
             job = Job(gloss=gloss, bags=tuple(bags), cut=cut, handedness=hands, person=person)
             _capture_one(job, settings)
@@ -140,7 +154,8 @@ def capture(
         one_folder = bags is not None and len(bags) == 1 and bags[0].is_dir() and not is_bag(bags[0])
         if gloss is not None or one_folder == (manifest is not None) or (bags and not one_folder):
             raise LutError(
-                "bad_arguments", "expected BAG ... --gloss GLOSS, or one folder of bags, or --manifest FILE"
+                "bad_arguments",
+                "expected RECORDING ... --gloss GLOSS, one folder of recordings, or --manifest FILE",
             )
         if cut != Cut() or hands is not None or person is not None:
             raise LutError(
@@ -183,6 +198,15 @@ def tell(saved: Saved) -> None:
         )
     for path in filter(None, (saved.path, saved.picture)):
         _output.print(f"wrote {path}", markup=False, soft_wrap=True)
+
+
+def _filmed(camera: int, gloss: str, seconds: float) -> Path:
+    """Film a sign with a webcam, counting down, and return the film, which is kept."""
+    from teo_sign_capture.recordings.recording import default_cache
+    from teo_sign_capture.recordings.webcam import film_name, film_webcam
+
+    out = film_name(default_cache().parent / "recordings", gloss)
+    return film_webcam(camera, out, seconds=seconds, on_state=lambda state: _errors.print(state))
 
 
 def _capture_one(job: Job, settings: Settings) -> None:

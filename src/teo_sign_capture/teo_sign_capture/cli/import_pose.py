@@ -110,8 +110,7 @@ def import_pose(
         fail(LutError("bad_arguments", "expected FILE.pose --gloss GLOSS, or --signwriting FILE"))
 
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import Job, Settings
-    from teo_sign_capture.entries.pose_capture import capture_pose_file
+    from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
 
@@ -124,13 +123,13 @@ def import_pose(
         licence=licence or _NO_LICENCE,
         notes=notes,
         accept=accept,
+        recorded=None if recorded is None else recorded.strftime(_DAY),
         pictures=(picture or table) if draw else None,
     )
-    job = Job(gloss=gloss, bags=(), cut=Cut(start=start, end=end), handedness=hands, person=person)
-    day = None if recorded is None else recorded.strftime(_DAY)
+    job = Job(gloss=gloss, bags=(file,), cut=Cut(start=start, end=end), handedness=hands, person=person)
     try:
         with _errors.status(f"capturing {file.name}"):
-            saved = capture_pose_file(Robot.load(), file, job, settings, recorded=day)
+            saved = capture_bags(Robot.load(), job, settings)
     except LutError as error:
         fail(error)
     tell(saved)

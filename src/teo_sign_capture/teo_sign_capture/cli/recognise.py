@@ -42,10 +42,11 @@ def recognise(
     Exit status: 0, 1 if the recording shows no sign (code and reason on standard error), 2 wrong options.
     """
     from teo_description.robot import Robot
+    from teo_sign_capture.entries.bag_capture import Settings, recorded_track
     from teo_sign_capture.recognition.appearance import recording_appearance
     from teo_sign_capture.recognition.sign_index import SignIndex
-    from teo_sign_capture.recordings.recording import default_cache, open_recording, track_of
-    from teo_signs.look_up_table import Lut
+    from teo_sign_capture.recordings.recording import default_cache, open_recording
+    from teo_signs.look_up_table import Lut, user_lut_directory
 
     robot = Robot.load()
     try:
@@ -53,14 +54,8 @@ def recognise(
         if not signs:
             raise LutError("empty_table", f"expected a table with signs, got none in {signs.place}")
         with _errors.status(f"looking at {recording.name}"):
-            if recording.suffix == ".pose":
-                from teo_sign_capture.lifting.clip import lift_clip
-                from teo_sign_capture.recordings.pose_file import read_pose_file
-
-                track = lift_clip(read_pose_file(recording, person=person), recorded=None)
-            else:
-                found = open_recording(recording)
-                track, _ = track_of(found, cache=cache or default_cache(), topic=topic, person=person)
+            settings = Settings(table=user_lut_directory(), topic=topic, cache=cache or default_cache())
+            track, _ = recorded_track(open_recording(recording), settings, person=person)
             shown = recording_appearance(robot, track, start=start, end=end, handedness=hands)
             matches = SignIndex.of_signs(robot, signs.values()).nearest(shown, count)
     except LutError as error:

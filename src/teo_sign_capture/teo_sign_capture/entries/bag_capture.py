@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From bags to an entry of the table: what the command, the batch, the live capture and the node all do."""
+"""From recordings to an entry of the table: what commands, batch, live capture and node do."""
 
 from __future__ import annotations
 
@@ -10,13 +10,22 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pydantic import TypeAdapter, ValidationError
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from teo_description.robot import Robot
 from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
 from teo_sign_capture.entries.similar_signs import similar_sign_warnings
 from teo_sign_capture.entries.take import Cut, Take, capture_take
-from teo_sign_capture.recordings.recording import Recording, default_cache, open_recording, track_of
+from teo_sign_capture.lifting.clip import lift_clip
+from teo_sign_capture.recordings.recording import (
+    Recording,
+    default_cache,
+    open_recording,
+    points_of,
+    track_of,
+)
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry
 from teo_signs.sign import gloss_key
@@ -27,6 +36,12 @@ from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 # Hexadecimal digits of SHA-256 that tell one recording from another.
 DIGEST = 16
 _SOURCE = re.compile(r"sha256 ([0-9a-f]{16})(, cut \S+ to \S+ s)?")
+
+# Said in the notes of every entry that one camera without depth took.
+LIFTED = (
+    "Lifted from a clip that one camera took: what is forward follows from the lengths of limbs and bones, "
+    "and the errors given are against that."
+)
 
 # Told what is done, how much of it, of how much.
 Progress = Callable[[str, int, int], None]
@@ -63,6 +78,7 @@ class Settings:
         licence: Terms of the recordings.
         notes: For every entry.
         accept: Whether signs beyond a gate are taken all the same, one level less well founded.
+        recorded: Day of the recording of videos and clips, YYYY-MM-DD; None if not known. Bags know it.
         topic: Topic of the skeletons; None finds it.
         slop: Greatest difference between the stamps of colour and depth, where skeletons are made of images
             [s].
@@ -78,6 +94,7 @@ class Settings:
     licence: str = "not stated: ask the person who signs before passing it on"
     notes: str = ""
     accept: bool = False
+    recorded: str | None = None
     topic: str | None = None
     slop: float = DEFAULT_SLOP
     cache: Path = field(default_factory=default_cache)
@@ -116,6 +133,13 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
             good are left out, with the reason in the entry's notes.
     """
     check_free(job.gloss, settings)
+    # The matrices are small: threads of linear algebra, one for each core in each process, only wait for each
+    # other, on a busy machine for minutes.
+    with threadpool_limits(1):
+        return _captured(robot, job, settings, on_progress)
+
+
+def _captured(robot: Robot, job: Job, settings: Settings, on_progress: Progress | None) -> Saved:
     recordings = [open_recording(bag, slop=settings.slop) for bag in job.bags]
     takes: list[Take] = []
     warnings: list[str] = []
@@ -127,9 +151,7 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
                 on_progress(f"looking for keypoints in {name}", done, total)
 
         try:
-            track, found = track_of(
-                recording, cache=settings.cache, topic=settings.topic, person=job.person, on_progress=told
-            )
+            track, found = recorded_track(recording, settings, person=job.person, on_progress=told)
             warnings += found
             takes.append(capture_take(robot, track, cut=job.cut, handedness=job.handedness))
         except LutError as error:
@@ -143,6 +165,35 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
     path = save_captured(captured, settings)
     saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out, *similar))
     return saved if settings.pictures is None else _with_picture(saved, recordings, settings)
+
+
+def recorded_track(
+    recording: Recording,
+    settings: Settings,
+    *,
+    person: int | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
+) -> tuple[SkeletonTrack, tuple[str, ...]]:
+    """The person of any recording, lifted into space where no depth was recorded.
+
+    Args:
+        recording: The recording.
+        settings: Its cache, topic and day of the recording count.
+        person: Id of the person; None for the signer.
+        on_progress: Told how many images of how many are looked at.
+
+    Returns:
+        The person, and what could not be used of the images, a sentence each.
+
+    Raises:
+        LutError: Of `track_of`, or of `points_of` and `lift_clip`.
+    """
+    if not recording.is_flat:
+        return track_of(
+            recording, cache=settings.cache, topic=settings.topic, person=person, on_progress=on_progress
+        )
+    clip = points_of(recording, cache=settings.cache, person=person, on_progress=on_progress)
+    return lift_clip(clip, recorded=settings.recorded), ()
 
 
 def is_captured(job: Job, table: Path) -> bool:
@@ -183,11 +234,12 @@ def check_free(gloss: str, settings: Settings) -> None:
 
 def _origin(job: Job, settings: Settings, recordings: Sequence[Recording], left_out: Sequence[str]) -> Origin:
     rendered = any(recording.rendered for recording in recordings)
+    flat = any(recording.is_flat for recording in recordings)
     return Origin(
         source="; ".join(_named(recording, job.cut) for recording in recordings),
         standing=settings.standing or ("sketched" if rendered else "recorded"),
         licence=settings.licence,
-        notes=" ".join(filter(None, (settings.notes, *left_out))),
+        notes=" ".join(filter(None, (settings.notes, *left_out, LIFTED if flat else ""))),
     )
 
 

@@ -20,12 +20,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, get_args
 
-from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
-
 from teo_description.robot import Robot
 from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags, is_captured
 from teo_sign_capture.entries.take import Cut
-from teo_sign_capture.recordings.recording import is_bag
+from teo_sign_capture.recordings.recording import is_recording
 from teo_signs.errors import LutError
 from teo_signs.sign import gloss_key
 from teo_signs.sign_schema import Handedness
@@ -58,7 +56,7 @@ class Outcome:
 
 
 def find_jobs(folder: Path) -> list[Job]:
-    """The signs of a folder: each bag, or sub-folder of bags, is named after its gloss, by gloss.
+    """The signs of a folder: each recording, or sub-folder of recordings, is named after its gloss, by gloss.
 
     Raises:
         LutError: "no_bag" if there are none.
@@ -67,15 +65,17 @@ def find_jobs(folder: Path) -> list[Job]:
     for path in sorted(folder.iterdir() if folder.is_dir() else ()):
         if path.name.startswith("."):
             continue
-        if is_bag(path):
+        if is_recording(path):
             takes.setdefault(_gloss_of(path), []).append(path)
         elif path.is_dir():
-            bags = [inside for inside in sorted(path.iterdir()) if is_bag(inside)]
+            bags = [inside for inside in sorted(path.iterdir()) if is_recording(inside)]
             if bags:
                 takes.setdefault(gloss_key(path.name), []).extend(bags)
     if not takes:
         raise LutError(
-            "no_bag", f"expected a folder of bags that are named after their glosses, got none in {folder}"
+            "no_bag",
+            "expected a folder of bags, videos or .pose files that are named after their glosses, got none "
+            f"in {folder}",
         )
     return [Job(gloss=gloss, bags=tuple(bags)) for gloss, bags in sorted(takes.items())]
 
@@ -184,10 +184,7 @@ def workers(count: int, dask: str | None) -> Iterator[Executor]:
     if dask is None:
         # Fresh processes: a fork would take over locks and threads of whatever runs here.
         context = multiprocessing.get_context("spawn")
-        # The processes are as many as there are cores: one thread of linear algebra each.
-        with ProcessPoolExecutor(
-            count, mp_context=context, initializer=threadpool_limits, initargs=(1,)
-        ) as pool:
+        with ProcessPoolExecutor(count, mp_context=context) as pool:
             yield pool
         return
     from distributed import Client

@@ -14,7 +14,7 @@ from teo_common.arrays import Array
 from teo_description.pictures.rendering import Image, film_strip, render_pose, save_png, write_video
 from teo_sign_capture.entries.sign_entry import Captured
 from teo_sign_capture.entries.take import Take
-from teo_sign_capture.recordings.colour_images import colour_images
+from teo_sign_capture.recordings.colour_images import colour_images, video_pictures
 from teo_sign_capture.recordings.recording import Recording, skeletons_of
 from teo_signs.pictures import FRAME_RATE, FRONT, pose_at
 
@@ -76,15 +76,15 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording | Non
 
 
 def _drawer(take: Take, recording: Recording | None, cache: Path) -> Drawer:
-    if recording is None:
+    start = take.span.start
+    end = start + float(take.track.times[-1])
+    if recording is None or (recording.is_flat and recording.has_skeletons):
         return lambda time: draw_person(take, time)
-    images = colour_images(
-        recording.path,
-        skeletons_of(recording, cache),
-        start=take.span.start,
-        end=take.span.start + float(take.track.times[-1]),
-        size=_SIZE,
-    )
+    if recording.is_flat:
+        images = video_pictures(recording.path, start=start, end=end, size=_SIZE)
+    else:
+        skeletons = skeletons_of(recording, cache)
+        images = colour_images(recording.path, skeletons, start=start, end=end, size=_SIZE)
     if not images:
         return lambda time: draw_person(take, time)
     times = np.array([when for when, _ in images])

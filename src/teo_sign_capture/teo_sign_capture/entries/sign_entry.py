@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import datetime
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,6 +29,8 @@ from teo_signs.sign_schema import Kind, Provenance, Standing
 _SAID_OUT_OF_REACH = 0.12
 # [%] Percentile over the frames that errors are given at, so that a single one decides nothing.
 _SHARE = 95.0
+# Decimals of figures, where they are not one.
+_DECIMALS = {"stretch_times": 2, "major_place_wrong": 2, "stroke_s": 2, "movement_s": 2}
 # How much a hand is on the body, 0 to 1, from which on its place counts as a contact's: a keypoint is within
 # 5 cm of the skin, as those of finger tips and palms that touch are.
 _TOUCHING = 0.9
@@ -174,10 +176,18 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
         hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
         return float(np.mean([np.nanpercentile(array, _SHARE, axis=0).max() for array in hands]))
 
+    def on_average(field: str, worse: Callable[[Array], float]) -> float:
+        """Share of the stroke's frames, mean of the takes, of the worse hand."""
+        found = [getattr(take.motion, field) for take in takes]
+        hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
+        return float(np.mean([worse(np.nanmean(array, axis=0)) for array in hands]))
+
     fingers = np.array([is_finger(joint) for joint in sign.joints])
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
         **_contact_figure(takes),
+        "major_place_wrong": on_average("wrong_place", np.nanmax),
+        "same_zone_percent": 100.0 * on_average("same_zone", np.nanmin),
         "palm_error_p95_deg": np.degrees(usual("palm_error")),
         "finger_error_p95_deg": np.degrees(usual("finger_error")),
         "flexion_error_p95_deg": np.degrees(usual("flexion_error")),
@@ -188,14 +198,13 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
         "played_error_deg": np.degrees(playback.path_error[~fingers].max(initial=0.0)),
         "finger_played_error_deg": np.degrees(playback.path_error[fingers].max(initial=0.0)),
         "stretch_times": playback.stretch,
+        "stroke_s": float(np.mean([take.span.duration for take in takes])),
+        "movement_s": float(np.mean([take.span.returns - take.span.leaves for take in takes])),
         "clearance_mm": 1000.0 * playback.clearance,
         "limit_margin_deg": limit_margin_deg(sign.joints, sign.knots),
     }
     # Adding zero takes the sign from -0.0.
-    return {
-        name: round(float(value), 2 if name == "stretch_times" else 1) + 0.0
-        for name, value in figures.items()
-    }
+    return {name: round(float(value), _DECIMALS.get(name, 1)) + 0.0 for name, value in figures.items()}
 
 
 def _contact_figure(takes: Sequence[Take]) -> dict[str, float]:

@@ -13,7 +13,7 @@ from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
-from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
+from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
 from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_track
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
@@ -25,6 +25,12 @@ MOST_OUT_OF_REACH = 0.30
 _CONTEXT = 1.0
 # [%] Percentile over the frames that is checked, so that a single one decides nothing.
 _SHARE = 95.0
+# A hand that is lost for more than this share of the stroke, while the other is not, and that moves by less
+# than `_STILL` [m], is passive and left out.
+_MOSTLY, _STILL = 0.5, 0.08
+# Share of a stroke that may be cut off where a hand is lost at its beginning and end: of half a second three
+# images at 25 Hz.
+_TRIMMED = 0.25
 # Share of a hand's keypoints that must be seen for its shape to be known.
 _SEEN = 0.5
 # [s] Rounding of sums of times and of stamps; frames are a hundred times as far apart.
@@ -88,8 +94,8 @@ def capture_take(
     span = the_sign(
         smoothed.track, offset=offset, cut_start=cut.start is not None, cut_end=cut.end is not None
     )
-    handedness = handedness or span.handedness
-    span = replace(span, handedness=handedness)
+    handedness = handedness or _without_unseen(smoothed.track, span)
+    span = _while_seen(smoothed.track, replace(span, handedness=handedness))
     gaps = tuple(
         gap
         for gap in smoothed.gaps
@@ -140,6 +146,41 @@ def _cut(track: SkeletonTrack, cut: Cut) -> tuple[float, SkeletonTrack, Smoothed
     return offset, raw, Smoothed(track=inside, gaps=gaps)
 
 
+def _without_unseen(track: SkeletonTrack, span: SignSpan) -> Handedness:
+    """The hands that sign, less one that stands still and is mostly lost: a passive hand is not guessed."""
+    if span.handedness != "both":
+        return span.handedness
+    stroke = track.between(span.start - _ROUNDING, span.end + _ROUNDING)
+    for side, other in (("right", "left"), ("left", "right")):
+        lost, other_lost = _lost_frames(stroke, side).mean(), _lost_frames(stroke, other).mean()
+        wrist = stroke.body.positions[:, WRIST[side]]
+        moves = np.linalg.norm(np.ptp(wrist[seen(wrist)], axis=0)) if seen(wrist).any() else 0.0
+        if lost > _MOSTLY > other_lost and moves < _STILL:
+            return "right" if other == "right" else "left"
+    return "both"
+
+
+def _while_seen(track: SkeletonTrack, span: SignSpan) -> SignSpan:
+    """The span without moments at its beginning and end in which a hand is lost, where they are few."""
+    stroke = track.between(span.start - _ROUNDING, span.end + _ROUNDING)
+    lost = np.any(
+        [_lost_frames(stroke, part.removesuffix("_hand")) for part in _HANDS[span.handedness]], axis=0
+    )
+    known = np.flatnonzero(~lost)
+    if not known.size:
+        return span
+    start, end = span.start + stroke.times[known[0]], span.start + stroke.times[known[-1]]
+    if span.duration - (end - start) > _TRIMMED * span.duration:
+        return span
+    return replace(span, start=float(start), end=float(end))
+
+
+def _lost_frames(track: SkeletonTrack, side: str) -> NDArray[np.bool_]:
+    """In which frames a hand's shape is not known. Shape (T,)."""
+    lost: NDArray[np.bool_] = seen(track.hand(side).positions).mean(axis=1) < _SEEN
+    return lost
+
+
 def _moved(span: SignSpan, offset: float) -> SignSpan:
     """A span in the time of the recording."""
     return replace(
@@ -156,8 +197,7 @@ def _check_seen(stroke: SkeletonTrack, handedness: Handedness, start: float) -> 
     """Refuse a stroke in which a hand is lost and cannot be filled in."""
     end = start + float(stroke.times[-1])
     for part in _HANDS[handedness]:
-        lost = seen(getattr(stroke, part).positions).mean(axis=1) < _SEEN
-        for first, last in runs(lost):
+        for first, last in runs(_lost_frames(stroke, part.removesuffix("_hand"))):
             raise LutError(
                 "hand_lost",
                 f"{stroke.source}: expected the {part.replace('_', ' ')} in view from {start:.2f} to "

@@ -15,6 +15,7 @@ from rosbags.highlevel import AnyReader
 from teo_common.arrays import Array
 from teo_description.pictures.rendering import Image
 from teo_sign_capture.recordings.skeleton_bag import TYPE
+from teo_sign_capture.recordings.video import video_images
 
 # [s] An image this far outside the stroke still shows its beginning or end: three images at 30 Hz.
 _NEAREST = 0.1
@@ -70,6 +71,29 @@ def colour_images(
         if -_NEAREST <= time <= end - start + _NEAREST:
             image = color_of(found.message)
             images.append((time, fitted(_around(image, seen, size), size)))
+    return images
+
+
+def video_pictures(
+    video: Path, *, start: float, end: float, size: tuple[int, int]
+) -> list[tuple[float, Image]]:
+    """Whole images of a stroke in a video.
+
+    Args:
+        video: The video.
+        start: Of the stroke [s].
+        end: Of the stroke [s].
+        size: Width and height of the images wanted [px].
+
+    Returns:
+        Time from the beginning of the stroke [s] and image, in order.
+    """
+    images: list[tuple[float, Image]] = []
+    for when, image in video_images(video):
+        if when > end + _NEAREST:
+            break
+        if when >= start - _NEAREST:
+            images.append((when - start, fitted(image, size)))
     return images
 
 

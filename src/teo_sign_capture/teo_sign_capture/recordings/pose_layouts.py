@@ -87,22 +87,21 @@ class Layout:
     hand_points: Sequence[str]
 
 
-# The layouts that are read.
-LAYOUTS = (
-    Layout(
-        name="MediaPipe Holistic",
-        body="POSE_LANDMARKS",
-        left_hand="LEFT_HAND_LANDMARKS",
-        right_hand="RIGHT_HAND_LANDMARKS",
-        body_points=_MEDIAPIPE_BODY,
-        hand_points=_MEDIAPIPE_HAND,
-    ),
-    Layout(
-        name="OpenPose",
-        body="pose_keypoints_2d",
-        left_hand="hand_left_keypoints_2d",
-        right_hand="hand_right_keypoints_2d",
-        body_points=_OPENPOSE_BODY,
-        hand_points=_OPENPOSE_HAND,
-    ),
+MEDIAPIPE = Layout(
+    name="MediaPipe Holistic",
+    body="POSE_LANDMARKS",
+    left_hand="LEFT_HAND_LANDMARKS",
+    right_hand="RIGHT_HAND_LANDMARKS",
+    body_points=_MEDIAPIPE_BODY,
+    hand_points=_MEDIAPIPE_HAND,
 )
+OPENPOSE = Layout(
+    name="OpenPose",
+    body="pose_keypoints_2d",
+    left_hand="hand_left_keypoints_2d",
+    right_hand="hand_right_keypoints_2d",
+    body_points=_OPENPOSE_BODY,
+    hand_points=_OPENPOSE_HAND,
+)
+# The layouts that are read.
+LAYOUTS = (MEDIAPIPE, OPENPOSE)

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a sign is captured from: a bag of skeletons, or a bag of images of which skeletons are made first."""
+"""What a sign is captured from: a bag of skeletons or images, a video, or a clip of a person's points."""
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import os
 import tempfile
@@ -13,25 +14,31 @@ from pathlib import Path
 
 from rosbags.highlevel import AnyReader
 
+from teo_sign_capture.recordings.own_process import Progress
+from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
 from teo_sign_capture.recordings.retrieval import retrieve_apart
 from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
+from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, is_video
+from teo_sign_capture.recordings.video_points import find_points_apart
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 BAG_SUFFIXES = (".mcap", ".db3", ".bag")
+POSE_SUFFIX = ".pose"
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _CHUNK = 1 << 20
 
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """A bag that exists and holds something to capture.
+    """A recording that exists and holds something to capture.
 
     Attributes:
-        path: The bag.
+        path: The bag, the video or the `.pose` file.
         digest: SHA-256 of its content, hexadecimal.
-        has_skeletons: Whether it holds skeletons that were found in images, or only the images.
+        has_skeletons: Whether it holds what was found in images, or only the images.
+        is_flat: Whether one camera took it without depth: a video, or points of one.
         rendered: Whether a program drew it.
         slop: Greatest difference between the stamps of colour and depth, where skeletons are made of images
             [s].
@@ -40,6 +47,7 @@ class Recording:
     path: Path
     digest: str
     has_skeletons: bool
+    is_flat: bool
     rendered: bool
     slop: float = DEFAULT_SLOP
 
@@ -56,7 +64,7 @@ def default_cache() -> Path:
 
 
 def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
-    """Look into a bag.
+    """Look into a bag; a video or a `.pose` file is only told by its name.
 
     Args:
         path: The bag.
@@ -66,9 +74,19 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
         LutError: "no_bag" if there is none, "unreadable_bag", or "no_skeletons" if it holds neither
             skeletons nor images.
     """
+    if is_video(path) or is_pose_file(path):
+        return Recording(
+            path=path,
+            digest=digest_of(path),
+            has_skeletons=is_pose_file(path),
+            is_flat=True,
+            rendered=False,
+        )
     if not is_bag(path):
         raise LutError(
-            "no_bag", f"expected the folder of a bag or a file {', '.join(BAG_SUFFIXES)}, got {path}"
+            "no_bag",
+            "expected the folder of a bag or a file "
+            f"{', '.join((*BAG_SUFFIXES, *VIDEO_SUFFIXES, POSE_SUFFIX))}, got {path}",
         )
     kinds, begins = _topics(path)
     skeletons = any(kind == TYPE and not topic.startswith(TRUTH) for topic, kind in kinds.items())
@@ -82,6 +100,7 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
         path=path,
         digest=digest_of(path),
         has_skeletons=skeletons,
+        is_flat=False,
         rendered=is_rendered(kinds, begins),
         slop=slop,
     )
@@ -92,6 +111,16 @@ def is_bag(path: Path) -> bool:
     if path.is_dir():
         return (path / "metadata.yaml").is_file()
     return path.is_file() and path.suffix in BAG_SUFFIXES
+
+
+def is_recording(path: Path) -> bool:
+    """Whether a path is anything that a sign can be captured from."""
+    return is_bag(path) or is_video(path) or is_pose_file(path)
+
+
+def is_pose_file(path: Path) -> bool:
+    """Whether a path is a file of a person's points."""
+    return path.is_file() and path.suffix == POSE_SUFFIX
 
 
 def digest_of(path: Path) -> str:
@@ -118,7 +147,7 @@ def track_of(
     person: int | None = None,
     on_progress: Callable[[int, int], None] | None = None,
 ) -> tuple[SkeletonTrack, tuple[str, ...]]:
-    """The person of a recording; skeletons are made of the images if they are not in the cache yet.
+    """The person of a bag; skeletons are made of the images if they are not in the cache yet.
 
     Args:
         recording: The bag.
@@ -136,13 +165,38 @@ def track_of(
     bag, warnings = recording.path, ""
     if not recording.has_skeletons and topic is None:
         bag = _cached(recording, cache)
-        if not bag.is_file():
-            _fill_cache(recording, bag, on_progress)
+        find = functools.partial(retrieve_apart, slop=recording.slop)
+        _fill_cache(recording.path, bag, find, on_progress)
         warnings = _warnings_of(bag).read_text("utf-8") if _warnings_of(bag).is_file() else ""
     track = read_skeletons(bag, topic=topic, signer=person)
     # A rendered recording has stamps, but no day on which anybody stood before a camera.
     recorded = None if recording.rendered else track.recorded
     return replace(track, source=recording.name, recorded=recorded), tuple(warnings.splitlines())
+
+
+def points_of(
+    recording: Recording,
+    *,
+    cache: Path,
+    person: int | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
+) -> PoseClip:
+    """The person's points in a video or a `.pose` file; a video is looked at unless the cache has them.
+
+    Args:
+        recording: The video or file.
+        cache: Directory in which points found in videos are kept, by the digest of the video.
+        person: Which of several people of a `.pose` file, from 0.
+        on_progress: Told how many images of how many are looked at.
+
+    Raises:
+        LutError: Of `find_points_apart` or `read_pose_file`.
+    """
+    file = recording.path
+    if not recording.has_skeletons:
+        file = _cached(recording, cache)
+        _fill_cache(recording.path, file, find_points_apart, on_progress)
+    return replace(read_pose_file(file, person=person), source=recording.name)
 
 
 def skeletons_of(recording: Recording, cache: Path) -> Path:
@@ -154,7 +208,8 @@ def skeletons_of(recording: Recording, cache: Path) -> Path:
 def _cached(recording: Recording, cache: Path) -> Path:
     # Other pairs of colour and depth make other skeletons.
     paired = "" if recording.slop == DEFAULT_SLOP else f"-slop{recording.slop:g}"
-    return cache / f"{recording.path.stem}-{recording.digest[:12]}{paired}.mcap"
+    suffix = POSE_SUFFIX if recording.is_flat else ".mcap"
+    return cache / f"{recording.path.stem}-{recording.digest[:12]}{paired}{suffix}"
 
 
 def _warnings_of(skeletons: Path) -> Path:
@@ -172,14 +227,21 @@ def _topics(path: Path) -> tuple[dict[str, str], float]:
         ) from error
 
 
-def _fill_cache(recording: Recording, out: Path, on_progress: Callable[[int, int], None] | None) -> None:
-    """Make skeletons of a bag's images, and beside them a text of what could not be used."""
+def _fill_cache(
+    recording: Path,
+    out: Path,
+    find: Callable[[Path, Path, Progress | None], tuple[str, ...]],
+    on_progress: Progress | None,
+) -> None:
+    """Find the people in images unless that was done, and write beside them what could not be used."""
+    if out.is_file():
+        return
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
-        # Two captures of one bag at a time must not write one file.
+        # Two captures of one recording at a time must not write one file.
         with tempfile.TemporaryDirectory(dir=out.parent, prefix=".") as folder:
-            made = Path(folder) / "skeletons.mcap"
-            complaints = retrieve_apart(recording.path, made, on_progress, slop=recording.slop)
+            made = Path(folder) / f"found{out.suffix}"
+            complaints = find(recording, made, on_progress)
             if complaints:  # what is left of a recording that was cut off is worth a look
                 _warnings_of(made).write_text("\n".join(complaints), "utf-8")
                 _warnings_of(made).replace(_warnings_of(out))

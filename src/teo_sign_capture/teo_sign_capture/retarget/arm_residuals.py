@@ -26,7 +26,7 @@ Goals = TypeVar("Goals", HandGoals, PairGoals)
 JOINTS = len(RIGHT_ARM)
 
 # [rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two.
-_TOGETHER = 12.0
+_TOGETHER = 20.0
 # [rad] An arm that signs at ease. Shape (6,).
 EASY_ARM = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
 
@@ -42,6 +42,8 @@ class ArmWeights:
         fingers: Weight of the direction from wrist to knuckles.
         upper_arm: Weight of the direction from shoulder to elbow.
         fore_arm: Weight of the direction from elbow to wrist.
+        strayed: [m] A hand in the air that is so far from its place counts twice as much as by `in_air`
+            alone, nearer hardly more; infinite if every centimetre counts the same.
         easy: Pull of each joint towards `easy_arm`. Shape (6,).
         easy_arm: An arm at ease [rad]. Shape (6,).
     """
@@ -52,27 +54,31 @@ class ArmWeights:
     fingers: float
     upper_arm: float = 0.0
     fore_arm: float = 0.0
+    strayed: float = np.inf
     easy: Array
     easy_arm: Array
 
 
 # Weights for a motion captured from a person.
 CAPTURED = ArmWeights(
-    # 10 cm beside its place in the air count as much as a palm turned by 29 deg; forwards, along the line of
-    # sight of whom is signed to, less than half of it. TEO's elbow keeps its hand 46 cm off its shoulder,
-    # where a person signs at 30: what is too near goes forwards rather than aside or turned.
+    # What a signer reads first is where a sign is made. 10 cm beside its place in the air count as much as a
+    # palm turned by 20 deg, but 12 cm, which may be another place, as much as one turned by 30 deg; forwards,
+    # along the line of sight of whom is signed to, half of it. TEO's elbow keeps its hand 46 cm off its
+    # shoulder, where a person signs at 30: what is too near goes forwards rather than aside or turned.
     in_air=np.array([1.5, 3.0, 3.0]),
+    strayed=0.12,
     # A contact is kept to a centimetre or two before the palm is.
-    on_body=12.0,
-    palm=1.0,
-    fingers=0.7,
+    on_body=30.0,
+    palm=1.4,
+    # 28 deg of the fingers count as much as 20 deg of the palm.
+    fingers=1.0,
     # An arm that goes where a person's does: a forearm that lies across where a person's stands up costs as
-    # much as a palm turned by 33 deg.
+    # much as a palm turned by 20 deg.
     upper_arm=0.15,
-    fore_arm=0.4,
+    fore_arm=0.35,
     # The pull moves a reachable hand by less than 1 deg. The wrist bends to the side, which a person's hardly
-    # does: 60 deg of it cost as much as a palm turned by 15 deg.
-    easy=np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.25]),
+    # does.
+    easy=np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.1]),
     easy_arm=EASY_ARM,
 )
 
@@ -190,9 +196,11 @@ class ArmProblem:
         upper_arm = _unit(poses.origins[:, ELBOW] - self._chain.shoulder)
         fore_arm = _unit(poses.origins[:, WRIST] - poses.origins[:, ELBOW])
         at_place = weights.in_air + (weights.on_body - weights.in_air) * goals.contact[frames, None]
+        off = points - goals.place[frames]
+        away, astray = self._astray(off, at_place, goals.contact[frames])
         residuals = np.concatenate(
             [
-                at_place * (points - goals.place[frames]),
+                away,
                 weights.palm * (palm - goals.palm[frames]),
                 weights.fingers * (fingers - goals.fingers[frames]),
                 weights.upper_arm * (upper_arm - goals.upper_arm[frames]),
@@ -203,7 +211,7 @@ class ArmProblem:
         )
         slopes = np.concatenate(
             [
-                at_place[..., None] * poses.point_jacobian(points),
+                astray @ poses.point_jacobian(points),
                 weights.palm * poses.direction_jacobian(palm),
                 weights.fingers * poses.direction_jacobian(fingers),
                 weights.upper_arm * poses.direction_jacobian(upper_arm) * (np.arange(JOINTS) < ELBOW),
@@ -216,6 +224,16 @@ class ArmProblem:
         return Quadratic(
             0.5 * (residuals**2).sum(axis=1), (turned @ residuals[..., None])[..., 0], turned @ slopes
         )
+
+    def _astray(self, off: Array, at_place: Array, contact: Array) -> tuple[Array, Array]:
+        """What a hand off its place costs, and how that changes with the place. Shapes (n, 3), (n, 3, 3)."""
+        slope = at_place[..., None] * np.eye(3)
+        if np.isinf(self._weights.strayed):
+            return at_place * off, slope
+        share = (1.0 - contact[:, None]) / self._weights.strayed**2
+        more = 1.0 + share * (off**2).sum(axis=1, keepdims=True)
+        outer = 2.0 * share[..., None] * at_place[..., None] * off[:, :, None] * off[:, None]
+        return at_place * more * off, more[..., None] * slope + outer
 
 
 def _cut(goals: Goals, part: slice) -> Goals:

@@ -90,6 +90,8 @@ _TRUNK = 0.48
 # How far, as a share, places that are next to each other may give way to each other: without it two places
 # that TEO has nearer together than a person fold the space before them.
 _GIVE = 0.02
+# [m] The middle of a finger that touches is so far off the skin.
+_SKIN = 0.015
 # [m] Nearer to the middle of the head a hand goes with it, farther it does not, for the same person.
 _HEAD_HELD, _HEAD_LEFT = 0.17, 0.32
 
@@ -107,12 +109,14 @@ class BodyMap:
 
     Attributes:
         scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
+        shoulder_height: Of TEO's shoulders above its hips [m].
     """
 
     def __init__(self, robot: Robot, arm: ArmKinematics, person: Person) -> None:
         reach, shoulder = arm.reach, -float(arm.shoulder[1])
         self._origin = arm.shoulder * (1.0, 0.0, 1.0)
-        self._scaling = WorkspaceScaling(person, reach, shoulder, float(arm.shoulder[2]))
+        self.shoulder_height = float(arm.shoulder[2])
+        self._scaling = WorkspaceScaling(person, reach, shoulder, self.shoulder_height)
         self.scale: Array = self._scaling.scale
         self._size = person.trunk / _TRUNK
         self._boxes = body_boxes(robot)
@@ -144,6 +148,22 @@ class BodyMap:
         ]
         nearest: Array = np.min(away, axis=0)
         return nearest
+
+    def outside(self, points: Array) -> Array:
+        """Points that would be within TEO's trunk or head, moved out by the shortest way but the back [m].
+
+        What a camera finds a few centimetres too deep, or is lifted so, is on the skin. Shape (T, 3).
+        """
+        moved = points.copy()
+        for middle, half in self._boxes:
+            away = moved - middle
+            room = half + _SKIN
+            inside = (np.abs(away) < room).all(axis=1)
+            out = room - np.stack([away[:, 0], np.abs(away[:, 1]), np.abs(away[:, 2])], axis=1)
+            axis = out.argmin(axis=1)
+            sign = np.where(axis == 0, 1.0, np.where(away[np.arange(len(away)), axis] < 0.0, -1.0, 1.0))
+            moved[inside, axis[inside]] += (sign * out[np.arange(len(away)), axis])[inside]
+        return moved
 
     def _placed_straight(self, points: Array, head: HeadMotion) -> tuple[Array, Array]:
         """Places before TEO's head turns [m], and how much they go with it. Shapes (T, k, 3), (T, k, 1)."""

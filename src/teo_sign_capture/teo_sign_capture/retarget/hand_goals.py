@@ -111,14 +111,9 @@ def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Arr
         teo: `teo_hand_points` of the hand. Shape (T, COUNT, 3).
     """
     points = person_hand_points(hand)
-    away = body.distance(points, head)
-    nearest = away.min(axis=1)
-    contact = smooth_step((_OFF_BODY - nearest) / (_OFF_BODY - _ON_BODY))
-    touching = np.exp((nearest[:, None] - away) / _BLEND)
-    touching /= touching.sum(axis=1, keepdims=True)
-    part = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
+    part, contact = _part_that_counts(body.distance(points, head))
     meant = (part[:, :, None] * points).sum(axis=1)
-    place = body.place_with_head(meant[:, None], head)[:, 0]
+    place = body.outside(body.place_with_head(meant[:, None], head)[:, 0])
     flip = MIRROR if side == "left" else np.ones(3)
     axes = palm_axes(hand * flip)
     limbs = np.diff(arm, axis=1) * flip
@@ -132,6 +127,31 @@ def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Arr
         upper_arm=limbs[:, 0],
         fore_arm=limbs[:, 1],
     )
+
+
+def point_that_counts(body: BodyMap, head: HeadMotion, hand: Array) -> Array:
+    """The point of a person's hand whose place `hand_goals` asks for [m]. Shape (T, 3)."""
+    points = person_hand_points(hand)
+    part, _ = _part_that_counts(body.distance(points, head))
+    meant: Array = (part[:, :, None] * points).sum(axis=1)
+    return meant
+
+
+def _part_that_counts(away: Array) -> tuple[Array, Array]:
+    """Share of each point of a hand in the point that counts, and how much it is on the body.
+
+    Args:
+        away: Distances of the points from the body [m]. Shape (T, COUNT).
+
+    Returns:
+        Shapes (T, COUNT) and (T,).
+    """
+    nearest = away.min(axis=1)
+    contact = smooth_step((_OFF_BODY - nearest) / (_OFF_BODY - _ON_BODY))
+    touching = np.exp((nearest[:, None] - away) / _BLEND)
+    touching /= touching.sum(axis=1, keepdims=True)
+    part = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
+    return part, contact
 
 
 def pair_goals(

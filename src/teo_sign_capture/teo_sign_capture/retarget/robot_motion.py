@@ -19,9 +19,10 @@ from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import CollisionModel
-from teo_sign_capture.retarget.hand_goals import HandGoals, hand_goals, pair_goals
+from teo_sign_capture.retarget.hand_goals import HandGoals, hand_goals, pair_goals, point_that_counts
 from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
+from teo_sign_capture.retarget.place_figures import place_figures
 from teo_sign_capture.signing_space.hand_points import MIRROR, teo_hand_points
 from teo_sign_capture.tracks.body_axes import filled
 from teo_sign_capture.tracks.head_pose import head_pose
@@ -54,6 +55,8 @@ class RobotMotion:
         palm_error: Angle between the ways the palms face [rad].
         finger_error: Angle between the ways from wrist to knuckles [rad].
         flexion_error: Mean over the four fingers of the difference of bends, of one joint's share [rad].
+        same_zone: 1 where the hand is in the zone of the person's (`signing_space.major_place`), or 0.
+        wrong_place: 1 where who watches reads another place than the person's, or 0.
         head_error: Angle by which the head falls short of the person's. Shape (T,) [rad].
         trunk_error: The same of the trunk. Shape (T,) [rad].
         clearance: Smallest distance between parts of the robot. Shape (T,) [m].
@@ -67,6 +70,8 @@ class RobotMotion:
     palm_error: Array
     finger_error: Array
     flexion_error: Array
+    same_zone: Array
+    wrong_place: Array
     head_error: Array
     trunk_error: Array
     clearance: Array
@@ -118,18 +123,18 @@ def retarget_motion(
     arms, clearance = clear_arms(problem, collisions, track, bounds, arms)
     joints = tuple(joint for side in sides for joint in _JOINTS[side]) + tuple(others)
     parts = [_limb(side, arms[:, at : at + JOINTS], shapes[side]) for at, side in _starts(sides)]
-    place, palm, fingers, flexion = _errors(chain, sides, goals, shapes, arms)
-    contact = np.full((len(arms), 2), np.nan)
-    contact[:, [_COLUMN[side] for side in sides]] = np.stack([wanted.contact for wanted in goals], axis=1)
+    figures = _hand_figures(chain, sides, goals, shapes, arms)
+    for (at, side), wanted in zip(_starts(sides), goals, strict=True):
+        hand = chain.poses(arms[:, at : at + JOINTS]).points(wanted.local)
+        meant = point_that_counts(body, head, hands[side])
+        found = place_figures(body, person, meant, head.places - person.head, hand, side)
+        figures["same_zone"][:, _COLUMN[side]] = found.same
+        figures["wrong_place"][:, _COLUMN[side]] = found.wrong
     return RobotMotion(
         times=track.times,
         joints=joints,
         positions=np.concatenate([*parts, *(values[:, None] for values in others.values())], axis=1),
-        place_error=place,
-        contact=contact,
-        palm_error=palm,
-        finger_error=fingers,
-        flexion_error=flexion,
+        **figures,
         head_error=head.error,
         trunk_error=trunk.error,
         clearance=clearance,
@@ -172,19 +177,24 @@ def _limb(side: str, arm: Array, hand: HandMotion) -> Array:
     return np.concatenate([arm, hand.axes], axis=1)
 
 
-def _errors(
+def _hand_figures(
     chain: ArmKinematics,
     sides: tuple[Side, ...],
     goals: tuple[HandGoals, ...],
     shapes: dict[Side, HandMotion],
     arms: Array,
-) -> tuple[Array, Array, Array, Array]:
-    place, palm, fingers, flexion = (np.full((len(arms), 2), np.nan) for _ in range(4))
+) -> dict[str, Array]:
+    """Errors of the hands and their contacts, by the fields of `RobotMotion`; zones are not known yet."""
+    errors = ("place_error", "palm_error", "finger_error", "flexion_error")
+    places = ("contact", "same_zone", "wrong_place")
+    found = {name: np.full((len(arms), 2), np.nan) for name in (*errors, *places)}
     for (at, side), wanted in zip(_starts(sides), goals, strict=True):
         column = _COLUMN[side]
         poses = chain.poses(arms[:, at : at + JOINTS])
-        place[:, column] = np.linalg.norm(poses.points(wanted.local) - wanted.place, axis=1)
-        palm[:, column] = angles_between(poses.rotation[:, :, 2], wanted.palm)
-        fingers[:, column] = angles_between(poses.rotation[:, :, 0], wanted.fingers)
-        flexion[:, column] = shapes[side].error
-    return place, palm, fingers, flexion
+        away = np.linalg.norm(poses.points(wanted.local) - wanted.place, axis=1)
+        found["place_error"][:, column] = away
+        found["palm_error"][:, column] = angles_between(poses.rotation[:, :, 2], wanted.palm)
+        found["finger_error"][:, column] = angles_between(poses.rotation[:, :, 0], wanted.fingers)
+        found["flexion_error"][:, column] = shapes[side].error
+        found["contact"][:, column] = wanted.contact
+    return found

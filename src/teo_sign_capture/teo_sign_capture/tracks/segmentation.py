@@ -4,7 +4,8 @@
 
 A sign is prepared by a way up and followed by a way down (Kita, van Gijn and van der Hulst 1998); an entry
 holds the stroke between both, as the planner makes its own ways. The way up ends where the hands first slow
-down clearly, the way down begins where they last do.
+down clearly, or no longer go away from where they rest: a hand swung into its sign slows down nowhere.
+The way down begins where they last do, so that holds, shakes and repetitions stay whole.
 """
 
 from __future__ import annotations
@@ -39,13 +40,15 @@ _REST_BAND = 0.25
 _LEAVES, _RETURNS = 0.20, 0.16
 # A hand that gets no farther than this from rest was no sign: 18 cm, a scratch or a shift of weight.
 _LEAST_WAY = 0.35
+# Wrists nearer than this are of hands that may touch: 21 cm, two hands' lengths less what they are bent.
+_MEETS = 0.4
 # Share of the greatest distance from rest: a recording that begins with hands farther out begins within a
 # sign.
 _WITHIN = 0.6
 # Where somebody chose to cut, hands farther from rest sign: 20 cm, beyond what is left of a way down.
 _CUT = 0.4
-# Share of the greatest distance from rest: where nothing slows down, the sign is what lies beyond it.
-_FAR = 0.85
+# Share of the greatest distance from rest: nearer the way up has not ended, whichever way it bends.
+_FAR = 0.5
 
 # [m/s] Hands at rest are slower.
 _SLOW = 0.25
@@ -55,12 +58,17 @@ _DIP = 0.35
 _STILL, _STILL_SHARE = 0.08, 0.10
 # [s] Width of the Gaussian by which the speed is smoothed: keypoints tremble by 0.1 m/s.
 _SPEED_WIDTH = 0.033
-# [s] A shorter stay at rest is part of a sign that begins at rest and beats.
-_LEAST_REST = 0.35
+# [s] A shorter stay at rest is part of a sign that beats at rest; between two signs people rest for longer.
+_LEAST_REST = 0.5
+# Share of the largest sign's way from rest: hands that went less far beside it moved, but did not sign.
+_FIDGET = 0.6
 # [s] Up and down in less is no sign.
 _LEAST_SIGN = 0.25
-# [s] A sign that is but a touch lasts so long: four images at 30 Hz.
-_LEAST_STROKE = 0.12
+# Share of its speed with which a hand on its way goes straight away from rest, or back to it: 60 deg aside.
+# An arm that swings up from hanging until its elbow is bent by 120 deg ends so.
+_STRAIGHT = 0.5
+# [s] A sign that is but a touch lasts so long: what is shorter nobody reads.
+_LEAST_STROKE = 0.3
 # [s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several.
 LONGEST_SIGN = 4.0
 
@@ -113,12 +121,17 @@ def find_signs(
     for first, last in runs(~out):
         if first > 0 and last < len(out) - 1 and times[last] - times[first] < _LEAST_REST:
             out[first : last + 1] = True
-    spans = []
-    for first, last in runs(out):
-        way = max(float(np.nanmax(distance[first : last + 1], initial=0.0)) for distance in away.values())
-        if times[last] - times[first] >= _LEAST_SIGN and way >= _LEAST_WAY:
-            spans.append(_span(track, away, first, last, cut=(cut_start, cut_end)))
-    return tuple(spans)
+    ways = {
+        (first, last): max(float(np.nanmax(one[first : last + 1], initial=0.0)) for one in away.values())
+        for first, last in runs(out)
+        if times[last] - times[first] >= _LEAST_SIGN
+    }
+    least = max(_LEAST_WAY, _FIDGET * max(ways.values(), default=0.0))
+    return tuple(
+        _span(track, away, reach, first, last, cut=(cut_start, cut_end))
+        for (first, last), way in ways.items()
+        if way >= least
+    )
 
 
 def the_sign(
@@ -205,27 +218,35 @@ def _has_left(distance: Array) -> Flags:
 
 
 def _span(
-    track: SkeletonTrack, away: Mapping[str, Array], first: int, last: int, *, cut: tuple[bool, bool]
+    track: SkeletonTrack,
+    away: Mapping[str, Array],
+    reach: float,
+    first: int,
+    last: int,
+    *,
+    cut: tuple[bool, bool],
 ) -> SignSpan:
     inside = slice(first, last + 1)
     far = {side: float(np.nanmax(distance[inside], initial=0.0)) for side, distance in away.items()}
-    # The hand that gets farther leads; the other takes part if it is away for half of the time.
+    # The hand that gets farther leads; the other takes part if it is away for half of the time and does
+    # something there.
+    lead = max(far, key=lambda side: far[side])
     sides = [
         side
         for side, distance in away.items()
-        if far[side] == max(far.values()) or _has_left(distance)[inside].mean() > 0.5
+        if side == lead or (_has_left(distance)[inside].mean() > 0.5 and _is_used(track, side, inside, reach))
     ]
     times, speed = track.times, _speed(track, sides)[inside]
-    start, end = _arrival(speed), len(speed) - 1 - _arrival(speed[::-1])
+    distance = np.nan_to_num(away[lead][inside])
+    aside = _aside(times[inside], reach * away[lead][inside], _speed(track, [lead])[inside])
+    start, end = _arrival(speed, aside), len(speed) - 1 - _arrival(speed[::-1], aside[::-1])
     # A recording that was cut there, while the hands were away, begins or ends with the stroke.
-    lead = np.nan_to_num(away[max(far, key=lambda side: far[side])][inside])
-    if first == 0 and lead[0] > (_CUT if cut[0] else _WITHIN * lead.max()):
+    if first == 0 and distance[0] > (_CUT if cut[0] else _WITHIN * distance.max()):
         start = 0
-    if last == len(times) - 1 and lead[-1] > (_CUT if cut[1] else _WITHIN * lead.max()):
-        end = len(lead) - 1
-    if start > end:
-        beyond = np.flatnonzero(lead >= _FAR * lead.max())
-        start, end = int(beyond[0]), int(beyond[-1])
+    if last == len(times) - 1 and distance[-1] > (_CUT if cut[1] else _WITHIN * distance.max()):
+        end = len(distance) - 1
+    if start > end:  # straight there and back without a stop
+        start = end = int(distance.argmax())
     start, end = _at_least(times[inside], start, end)
     return SignSpan(
         leaves=float(times[max(first - 1, 0)]),
@@ -237,6 +258,17 @@ def _span(
         cut_start=first == 0,
         cut_end=last == len(times) - 1,
     )
+
+
+def _is_used(track: SkeletonTrack, side: str, inside: slice, reach: float) -> bool:
+    """Whether a hand moves, or is where the other one comes to; else it rests, wherever it is held."""
+    wrists = {name: track.body.positions[:, arm[2]] / reach for name, arm in _ARMS.items()}
+    own = wrists[side]
+    other = wrists["left" if side == "right" else "right"][inside]
+    with np.errstate(invalid="ignore"):
+        near = np.linalg.norm(own[inside] - other, axis=-1) < _MEETS
+    known = own[seen(own)]
+    return bool(near.any() or (len(known) > 0 and np.linalg.norm(np.ptp(known, axis=0)) >= _LEAST_WAY))
 
 
 def _speed(track: SkeletonTrack, sides: list[str]) -> Array:
@@ -251,14 +283,31 @@ def _speed(track: SkeletonTrack, sides: list[str]) -> Array:
     return smooth
 
 
-def _arrival(speed: Array) -> int:
-    """Index at which a hand that leaves rest first slows down clearly; past the end where it never does."""
+def _aside(times: Array, distance: Array, speed: Array) -> Flags:
+    """Whether a hand that is far from rest goes neither straight away from it nor straight back. Shape (n,).
+
+    Args:
+        times: [s]. Shape (n,).
+        distance: From where the hand rests [m]; NaN where it is not known. Shape (n,).
+        speed: Of the hand [m/s]. Shape (n,).
+    """
+    if len(times) < 2:
+        return np.zeros(len(times), dtype=bool)
+    width = _SPEED_WIDTH / float(np.median(np.diff(times)))
+    straight = np.abs(np.gradient(gaussian_filter1d(distance, width, mode="nearest"), times))
+    with np.errstate(invalid="ignore"):
+        aside: Flags = (straight < _STRAIGHT * speed) & (distance > _FAR * np.nanmax(distance))
+    return aside
+
+
+def _arrival(speed: Array, aside: Flags) -> int:
+    """Index at which a hand that leaves rest first slows down clearly or goes aside; past the end if none."""
     fastest = 0.0
     for index in range(len(speed) - 1):
         fastest = max(fastest, float(speed[index]))
         if fastest < _SLOW:
             continue
-        if speed[index] < max(_STILL, _STILL_SHARE * fastest):
+        if aside[index] or speed[index] < max(_STILL, _STILL_SHARE * fastest):
             return index
         if speed[index] < _DIP * fastest and speed[index] <= speed[index + 1]:
             return index

@@ -34,8 +34,9 @@ LONGEST_FILLED = 0.4
 # are the same before and after: hands that hide each other hold still.
 LONGEST_KEPT = 1.2
 # [s] For so long before it is first seen, and after it is last seen, a hand is given the shape that it has
-# then, at its wrist: hands that come up from below the image are found some frames after they are there.
-LONGEST_EDGE = 0.2
+# then, at its wrist: hands that come up from rest, blurred or from below the image, are found some frames
+# after they are there, and take no new shape meanwhile.
+LONGEST_EDGE = LONGEST_FILLED
 # [m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found.
 _SAME_SHAPE = 0.03
 

@@ -91,8 +91,8 @@ def test_a_hand_that_is_found_late_has_the_shape_in_which_it_is_found(robot: Rob
     found = capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.25))
     truth = capture_take(robot, signing(noise=0.0))
     assert np.abs(found.track.right_hand.positions - truth.track.right_hand.positions).max() < 0.03
-    with pytest.raises(LutError, match=r"lost from 1\.0.* to 1\.3"):
-        capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.5))
+    with pytest.raises(LutError, match=r"lost from 1\.0"):
+        capture_take(robot, lose(signing(noise=0.0), "right_hand", 0.0, 1.8))
 
 
 def test_the_other_hand_may_be_lost(robot: Robot) -> None:

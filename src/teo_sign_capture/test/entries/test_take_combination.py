@@ -49,6 +49,8 @@ def motion(
         positions=positions,
         place_error=errors,
         contact=errors,
+        same_zone=errors,
+        wrong_place=errors,
         palm_error=errors,
         finger_error=errors,
         flexion_error=errors,

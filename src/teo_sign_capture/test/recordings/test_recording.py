@@ -15,7 +15,7 @@ from mcap.writer import Writer
 from rosbags.rosbag2 import Reader
 
 from teo_sign_capture.entries.live_capture import write_skeletons
-from teo_sign_capture.recordings import retrieval
+from teo_sign_capture.recordings import own_process, retrieval
 from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, track_of
 from teo_signs.errors import LutError
 from teo_synthetic_signer.take.take_bag import START
@@ -132,8 +132,8 @@ def test_a_bag_without_depth_is_refused_in_the_retrievers_words(colour_only: Pat
 def test_a_worker_that_may_start_no_process_retrieves_by_itself(
     colour_only: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(retrieval, "current_process", lambda: SimpleNamespace(daemon=True))
-    monkeypatch.setattr(retrieval, "get_context", lambda method: pytest.fail(f"a process by {method}"))
+    monkeypatch.setattr(own_process, "current_process", lambda: SimpleNamespace(daemon=True))
+    monkeypatch.setattr(own_process, "get_context", lambda method: pytest.fail(f"a process by {method}"))
     with pytest.raises(LutError, match="depth") as error:
         retrieval.retrieve_apart(colour_only, tmp_path / "out.mcap")
     assert error.value.code == "no_depth"

@@ -113,7 +113,7 @@ def test_slopes_of_what_is_wanted_are_true(chain):
     for joint in range(12):
         ahead, behind = (problem.whole(rows + sign * step * np.eye(12)[joint]).cost for sign in (1.0, -1.0))
         assert problem.whole(rows).gradient[:, joint] == pytest.approx(
-            (ahead - behind) / (2 * step), abs=1e-5
+            (ahead - behind) / (2 * step), rel=1e-9, abs=1e-4
         )
 
 

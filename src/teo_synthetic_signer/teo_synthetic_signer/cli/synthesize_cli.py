@@ -21,6 +21,7 @@ from teo_synthetic_signer.script.scripts import SCRIPTS, about
 from teo_synthetic_signer.take.furniture import SCENES
 from teo_synthetic_signer.take.take import Companion, Take, TakeOptions
 from teo_synthetic_signer.take.take_bag import write_take
+from teo_synthetic_signer.take.take_film import FILM_SUFFIX, write_film
 from teo_synthetic_signer.take.take_messages import JPEG_QUALITY
 
 _DEFAULTS = TakeOptions()
@@ -34,7 +35,11 @@ _app = typer.Typer(add_completion=False, rich_markup_mode=None)
 @_app.command()
 def _synthesize(
     out: Annotated[
-        Path | None, typer.Option(help="Folder of the bag, to be made.", show_default=False)
+        Path | None,
+        typer.Option(
+            help="Folder of the bag, to be made; or a film (.mp4) of the colour images alone.",
+            show_default=False,
+        ),
     ] = None,
     script: Annotated[
         str, typer.Option(help="What the person does: a name, see --list, or a script's file (.yaml).")
@@ -110,9 +115,13 @@ def _synthesize(
     try:
         with Progress(*columns, console=_err) as progress:
             task = progress.add_task("", total=count)
-            for number in write_take(
-                rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=about_it
-            ):
+            if out.suffix == FILM_SUFFIX:
+                written = write_film((take.frame(i) for i in range(count)), out)
+            else:
+                written = write_take(
+                    rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=about_it
+                )
+            for number in written:
                 progress.update(task, completed=number)
     except SyntheticError as error:
         _err.print(f"synthesize: {error}", style="red", markup=False, highlight=False)
@@ -123,7 +132,8 @@ def _synthesize(
             markup=False,
             highlight=False,
         )
-    megabytes = sum(file.stat().st_size for file in out.iterdir()) / 1e6
+    files = out.iterdir() if out.is_dir() else (out,)
+    megabytes = sum(file.stat().st_size for file in files) / 1e6
     _out.print(
         f"{out}: {count} frames, {count / rate:.1f} s, {megabytes:.1f} MB",
         highlight=False,

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Images of a video file with their times, upright, as a phone or a webcam writes it.
+
+PyAV reads it, as it gives each image the time that the file says: phones change their rate with the light,
+and a sign must not change its pace with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_signs.errors import LutError
+
+Image = NDArray[np.uint8]
+
+VIDEO_SUFFIXES = (".mp4", ".mov", ".webm", ".m4v", ".mkv", ".avi")
+# [s] As much as a `.pose` file may hold at 25 images a second: a film of many signs is cut first.
+LONGEST = 240.0
+# [Hz] What is faster is thinned to this: the fastest shakes of hands have 5 to 7 Hz.
+FASTEST = 30.0
+# [px] Longer sides are scaled down to this: a hand then still has 100 pixels where a person fills the height.
+_LONGEST_SIDE = 1280
+# Share of an image's period by which it may come early and still count.
+_EARLY = 0.25
+
+
+class VideoImage(NamedTuple):
+    """One image of a video.
+
+    Attributes:
+        time: From the first image [s].
+        image: RGB, upright. Shape (height, width, 3).
+    """
+
+    time: float
+    image: Image
+
+
+def is_video(path: Path) -> bool:
+    """Whether a path is a file as videos are."""
+    return path.is_file() and path.suffix.lower() in VIDEO_SUFFIXES
+
+
+def count_images(path: Path) -> int:
+    """About how many images `video_images` gives; 0 where the file does not say."""
+    import av
+
+    try:
+        with av.open(str(path)) as container:
+            stream = container.streams.video[0]
+            length = float(container.duration or 0) / av.time_base
+            rate = min(float(stream.average_rate or FASTEST), FASTEST)
+    except (av.FFmpegError, IndexError, OSError):
+        return 0
+    return int(length * rate)
+
+
+def video_images(path: Path) -> Iterator[VideoImage]:
+    """Read a video, at most `FASTEST` images a second.
+
+    Raises:
+        LutError: "unreadable_video" if it is none or damaged, "too_long" beyond `LONGEST`.
+    """
+    import av  # loads for half a second what only videos need
+
+    try:
+        with av.open(str(path)) as container:
+            if not container.streams.video:
+                raise LutError(
+                    "unreadable_video", f"{path.name}: expected a video, got a file without images"
+                )
+            stream = container.streams.video[0]
+            stream.thread_type = "AUTO"
+            begins, last = None, -np.inf
+            for frame in container.decode(stream):
+                if frame.time is None:
+                    continue
+                begins = frame.time if begins is None else begins
+                time = frame.time - begins
+                if time > LONGEST:
+                    raise LutError(
+                        "too_long",
+                        f"{path.name}: expected a film of at most {LONGEST:g} s, got a longer one: "
+                        "cut it into signs first",
+                    )
+                if time - last < (1.0 - _EARLY) / FASTEST:
+                    continue
+                last = time
+                yield VideoImage(time, _upright(frame))
+    except (av.FFmpegError, OSError) as error:
+        raise LutError(
+            "unreadable_video",
+            f"{path.name}: expected a whole video ({', '.join(VIDEO_SUFFIXES)}), got one that cannot be "
+            f"read: {error}",
+        ) from error
+
+
+def _upright(frame: object) -> Image:
+    """An image as players show it: phones are held upright and note so beside the images."""
+    import cv2
+
+    image: Image = frame.to_ndarray(format="rgb24")  # type: ignore[attr-defined]  # PyAV's VideoFrame
+    image = np.rot90(image, round(frame.rotation / 90.0) % 4)  # type: ignore[attr-defined]  # counter-clockwise
+    share = _LONGEST_SIDE / max(image.shape[:2])
+    if share < 1.0:
+        size = (round(image.shape[1] * share), round(image.shape[0] * share))
+        return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    return np.ascontiguousarray(image)

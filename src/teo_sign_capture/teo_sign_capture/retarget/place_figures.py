@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The major places of TEO's hand beside those of the person's, frame by frame.
+
+Person and robot are each read by their own body: the person's chin, crown, waist and shoulders, and TEO's.
+Nothing of the map that says where the robot's hand is to go is used, so that its faults are seen as well.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from teo_common.arrays import Array
+from teo_sign_capture.retarget.body_map import BodyMap
+from teo_sign_capture.signing_space.hand_points import MIRROR
+from teo_sign_capture.signing_space.major_place import Flags, Zones, same_zone, wrong_place
+from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.tracks.person import Person
+
+# Places of the face, as in `Person.places` and `signing_space.places`.
+_FACE = ("forehead", "eye", "nose", "mouth", "chin")
+# Shares of the way from the shoulders to the hips at which the chest ends and the waist is.
+_CHEST, _WAIST = 1.0 / 3.0, 0.7
+# Shares of the distance from the middle of the body to a shoulder within which the middle is, and the outside
+# begins.
+_MIDDLE, _OUTSIDE = 0.4, 1.2
+# [m] A hand nearer than this to a place of the face is on it: of a person whose trunk is `_TRUNK` long, and
+# of TEO, whose fingers are 2 cm thick and stop 3 cm before the face.
+_NEAR, _NEAR_TEO, _TRUNK = 0.10, 0.13, 0.48
+
+
+class PlaceFigures(NamedTuple):
+    """How the places of one hand compare.
+
+    Attributes:
+        same: Whether both hands are in one zone. Shape (T,).
+        wrong: Whether who watches reads another place. Shape (T,).
+    """
+
+    same: Flags
+    wrong: Flags
+
+
+def place_figures(
+    body: BodyMap, person: Person, points: Array, moved: Array, teo: Array, side: str
+) -> PlaceFigures:
+    """Compare the places of one hand.
+
+    Args:
+        body: The map, for TEO's size.
+        person: The person.
+        points: The point of the person's hand that counts, in the axes of the track [m]. Shape (T, 3).
+        moved: How far the person's head has moved from where it mostly is [m]. Shape (T, 3).
+        teo: The same point of TEO's hand, a left one in a mirror [m]. Shape (T, 3).
+        side: "right" or "left".
+    """
+    zones, own = _zones_of_person(person), _zones_of_teo(body, person)
+    flip = MIRROR if side == "left" else np.ones(3)
+    shown = zones.find(points * flip)
+    # On the face is judged where the face is: a head that bows takes it along.
+    shown = shown._replace(from_face=zones.find((points - moved) * flip).from_face)
+    found = own.find(teo)
+    return PlaceFigures(same=same_zone(shown, found), wrong=wrong_place(shown, found))
+
+
+def _zones_of_person(person: Person) -> Zones:
+    trunk = person.trunk
+    face = [person.places[name] for name in _FACE]
+    return Zones(
+        heights=np.array(
+            [-_WAIST * trunk, -_CHEST * trunk, person.places["chin"][2], person.places["head_top"][2]]
+        ),
+        sides=person.shoulder * np.array([-_OUTSIDE, -_MIDDLE, _MIDDLE]),
+        face=np.array([*face, person.places["eye"] * MIRROR]),
+        near=_NEAR * trunk / _TRUNK,
+    )
+
+
+def _zones_of_teo(body: BodyMap, person: Person) -> Zones:
+    """TEO's own heights; sides as wide as its space is, for its shoulders are too far apart for its face."""
+    face = [find_place(name).point for name in _FACE]
+    chin, crown, chest, belly = (find_place(name).point[2] for name in ("chin", "head_top", "chest", "belly"))
+    return Zones(
+        heights=np.array([(1.0 - _WAIST) * body.shoulder_height, (chest + belly) / 2.0, chin, crown]),
+        sides=body.scale[1] * person.shoulder * np.array([-_OUTSIDE, -_MIDDLE, _MIDDLE]),
+        face=np.array([*face, find_place("eye").point * MIRROR]),
+        near=_NEAR_TEO,
+    )
