@@ -9,6 +9,7 @@ import platform
 import camera_path
 import driver_rate
 import driver_robustness
+import kills
 import letters
 import lexicon
 import lifting
@@ -39,6 +40,7 @@ BENCHES = (
     translation,
     words,
     text_to_trajectory,
+    kills,
     limbs,
     retargeting,
     retriever_accuracy,
