@@ -10,6 +10,7 @@ import camera_path
 import clips
 import driver_rate
 import driver_robustness
+import kills
 import letters
 import lexicon
 import lifting
@@ -43,6 +44,7 @@ BENCHES = (
     translation,
     words,
     text_to_trajectory,
+    kills,
     limbs,
     retargeting,
     recognition,

@@ -53,6 +53,10 @@ DEFAULT_CLEARANCE = RESOLUTION
 # error are no reason to refuse, and MoveIt allows the same (allowed_start_tolerance).
 START_TOLERANCE = 0.01
 
+# Shares of the time asked for that are tried for the opening of a sentence [1]: where the way to the first
+# sign leads past the body, its first part is free.
+_OPENING_SHARES = (1.0, 0.5)
+
 
 class Planner:
     """Plans sentences of one look-up table for one robot."""
@@ -181,14 +185,19 @@ class Planner:
         """
         begin = self._checked(start)
         signed = choose_postures(self._lexicon.resolve(tokens), start=begin.position, limits=self.limits)
-        return opening(
-            compose(signed[:1], start=begin, limits=self.limits, style=self.style),
-            limits=self.limits,
-            period=self._period,
-            lasting=lasting,
-            motion_clearance=self._motion_clearance,
-            least_clearance=self._least_clearance,
-        )
+        composition = compose(signed[:1], start=begin, limits=self.limits, style=self.style)
+        for share in _OPENING_SHARES:
+            found = opening(
+                composition,
+                limits=self.limits,
+                period=self._period,
+                lasting=share * lasting,
+                motion_clearance=self._motion_clearance,
+                least_clearance=self._least_clearance,
+            )
+            if found is not None:
+                return found
+        return None
 
     def plan_to_rest(self, start: State) -> Plan:
         """Plan the way to rest from any state, moving ones included.

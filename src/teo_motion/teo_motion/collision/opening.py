@@ -63,10 +63,12 @@ def opening(
     bounds = limits.bounds
     start = composition.start
     first = np.where(np.isnan(composition.targets[1]), start.position, composition.targets[1])
+    if (first == start.position).all():
+        return None
     still = np.zeros_like(first)
     solver = RuckigSolver(len(first))
     way = _eased(solver, start, State(position=first, velocity=still, acceleration=still), bounds, 0.0)
-    if way is None or way.duration == 0.0:
+    if way is None:
         return None
     lasting = min(lasting, _MOST_OF_THE_WAY * way.duration)
     leaves = _state(_motions([(0.0, way)], way.duration), lasting)
