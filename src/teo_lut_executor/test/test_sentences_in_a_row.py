@@ -128,6 +128,18 @@ def test_a_plan_that_is_not_there_in_time_begins_where_the_opening_stops(world: 
     assert_smooth(world)
 
 
+def test_a_plan_that_the_driver_does_not_take_in_motion_begins_where_the_opening_stops(world: World) -> None:
+    world.opening_time, world.planning_time = 0.5, 0.1
+    world.follows = lambda _: len(world.sent) != 2
+    ticket = world.sign("A-N")
+    world.run_until(lambda: len(world.sent) == 2)
+    world.take(world.queue.driver_refused(world.sent[1].number, "[start_too_fast] late", world.now))
+    world.run_until(lambda: bool(world.finished()))
+    assert world.finished() == [(ticket, Outcome.SUCCESS)]
+    assert len(world.sent) == 3 and not any(status.code for status in world.statuses())
+    assert_smooth(world)
+
+
 def test_a_sentence_that_is_refused_after_its_opening_brings_the_robot_back_to_rest(world: World) -> None:
     world.opening_time, world.planning_time = 0.5, 0.3
     world.planner._avoidance._timing._max_duration = 1.0  # known only when the whole is timed

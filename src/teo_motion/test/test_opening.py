@@ -59,6 +59,18 @@ def test_no_opening_is_made_for_a_pause_that_moves_nothing(planner: Planner) -> 
     assert planner.plan_opening(parse_printed("_"), STILL, lasting=0.4) is None
 
 
+@pytest.mark.parametrize("away", [0.0, 1e-12, 0.01])
+def test_no_opening_is_made_for_a_robot_that_is_at_the_first_sign_already(
+    planner: Planner, away: float
+) -> None:
+    tokens = parse_printed("A")
+    plan = planner.plan(tokens)
+    there = plan.at(plan.timings[0].start + plan.timings[0].duration)[0] - away
+    still = np.zeros(REST.size)
+    state = State(position=there, velocity=still, acceleration=still)
+    assert planner.plan_opening(tokens, state, lasting=0.4) is None
+
+
 def test_a_sentence_that_cannot_be_looked_up_is_refused_at_once(planner: Planner) -> None:
     with pytest.raises(PlanError) as refused:
         planner.plan_opening(parse_printed("A Ω"), STILL, lasting=0.4)

@@ -221,6 +221,10 @@ class ExecutionQueue:
             if self._waiting and self._waiting[0].plan is continuation.motion:
                 self._waiting[0].plan, self._waiting[0].joins = None, False
                 return []  # the present sentence goes to its end
+            current = self._current
+            if current is not None and motion is not None and current.joins:
+                current.plan = None
+                return self._ask_from_end(current, motion)
             return self._give_up(error)
         if motion is not None and motion.number == number:
             return self._give_up(error)

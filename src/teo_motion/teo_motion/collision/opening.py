@@ -36,6 +36,9 @@ _FITS = 1e-9
 # robot still speeds up, and a detour has room.
 _MOST_OF_THE_WAY = 0.4
 
+# A first sign nearer than this needs no opening [rad]: it is reached in a quarter of a second.
+_LEAST_WAY = 0.05
+
 
 def opening(
     composition: Composition,
@@ -63,7 +66,7 @@ def opening(
     bounds = limits.bounds
     start = composition.start
     first = np.where(np.isnan(composition.targets[1]), start.position, composition.targets[1])
-    if (first == start.position).all():
+    if np.abs(first - start.position).max() < _LEAST_WAY:
         return None
     still = np.zeros_like(first)
     solver = RuckigSolver(len(first))
