@@ -155,6 +155,11 @@ def _in_order(points: Points) -> Points:
     )
 
 
+# A point of a late trajectory that is due sooner is passed like those before it [s]: half of the usual step,
+# in which joints that are a little beside the path, as the sender could not know, cannot be back on it.
+_SOONEST = 0.005
+
+
 def _with_all_joints(points: Points, start: MotionState, limits: JointLimits) -> Points:
     """All joints in the driver's order; those that the message leaves out hold their position."""
     count = len(limits.names)
@@ -252,6 +257,8 @@ def _from_state(points: Points, due: FloatArray, start: MotionState) -> tuple[Tr
     first = int(np.searchsorted(due, 0.0, side="right"))
     if first == len(due):
         return Trajectory.hold(start.positions), first
+    if due[0] < 0.0 and due[first] < _SOONEST and first < len(due) - 1:
+        first += 1
     degrees = points.degrees[first:]
     return (
         Trajectory(

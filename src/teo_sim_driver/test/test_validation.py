@@ -275,6 +275,15 @@ def test_a_late_message_for_a_robot_that_is_elsewhere_is_refused(limits, home, s
     assert refusal.code == "start_mismatch"
 
 
+def test_a_point_of_a_late_message_that_is_due_at_once_is_passed(limits, swing, check):
+    message = swing(stamp=NOW - 299_600_000)
+    due = message.points[2]  # in 0.4 ms, in which 2 mrad cannot be made good
+    beside = np.array(due.positions)
+    beside[limits.names.index(ELBOW)] += 0.002
+    state = MotionState(beside, np.array(due.velocities), np.array(due.accelerations))
+    np.testing.assert_allclose(check(message, state=state).trajectory.times[:2], [0.0, 0.1004])
+
+
 def test_a_start_in_the_future_is_scheduled(swing, check):
     scheduled = check(swing(stamp=NOW + 1_500_000_000))
     assert scheduled.delay == 1.5
