@@ -17,6 +17,7 @@ setup(
         (f"share/{PACKAGE}/scores/lse", sorted(map(str, Path("scores/lse").glob("*.yaml")))),
     ],
     install_requires=[
+        "av",
         "distributed",
         "dtaidistance",
         "lazy-loader",

@@ -104,4 +104,4 @@ def test_spoilt_bytes_get_a_reason(as_ros, swing, limits):
             codes.add(refusal.code)
 
     spoil()
-    assert len(codes) > 3
+    assert {"bad_encoding", "unknown_joint"} <= codes  # random bytes reach what is behind the head too

@@ -37,7 +37,7 @@ def person(status: KeypointStatus, place: float = 0.0, is_signer: bool = True) -
 
 
 def drawn(*skeletons: Skeleton, scale: int = 1) -> np.ndarray:
-    result = Retrieved((), skeletons, 1.0, 0.02, 0.003)
+    result = Retrieved((), skeletons, 1.0, 1.5, 0.02, 0.003)
     return Overlay().draw(image(scale), result)
 
 
@@ -80,7 +80,7 @@ def test_a_keypoint_without_a_place_is_crossed_where_the_detector_saw_it():
 
 def test_the_image_itself_stays_as_it_is_and_nobody_is_no_trouble():
     before = image()
-    Overlay().draw(before, Retrieved((), (), 0.0, 0.0, 0.0))
+    Overlay().draw(before, Retrieved((), (), 0.0, float("nan"), 0.0, 0.0))
     assert (before.color == 90).all()
 
 
@@ -94,7 +94,7 @@ def test_depth_is_shown_in_the_corner_with_holes_dark():
     holes[:, :] = np.nan
     blind = RgbdImage(stamp=1.0, color=image().color, depth=holes, camera=take.camera())
     corner = (slice(175, 200), slice(235, 300))
-    assert Overlay().draw(blind, Retrieved((), (), 0.0, 0.0, 0.0))[corner].max() < 60
+    assert Overlay().draw(blind, Retrieved((), (), 0.0, float("nan"), 0.0, 0.0))[corner].max() < 60
     seen = drawn()[corner]
     assert seen.max() > 100
 
