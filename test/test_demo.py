@@ -77,7 +77,7 @@ def test_two_independent_readers_open_its_bag(run: tuple[subprocess.CompletedPro
     assert by_rosbags == by_mcap
     assert by_mcap["/text"] == 1
     assert by_mcap["/sign_tokens"] == 2
-    assert by_mcap["/joint_trajectory"] == 2
+    assert by_mcap["/joint_trajectory"] >= 2  # a sentence may begin with a motion of its own
     assert by_mcap["/robot_description"] == 1
     assert by_mcap["/executor_status"] >= 2
     assert by_mcap["/joint_states"] > 1000  # 100 a second

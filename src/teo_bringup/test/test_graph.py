@@ -7,6 +7,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -112,6 +113,8 @@ def test_start_runs_every_node_until_it_is_told_to_end() -> None:
     process = start("--ros-args", "-r", "__ns:=/lab")
     assert process.stdout is not None
     said: list[str] = []
+    watchdog = threading.Timer(4 * PATIENCE, process.kill)
+    watchdog.start()
     try:
         # The driver says nothing; both others do once they listen.
         while not all(
@@ -123,6 +126,7 @@ def test_start_runs_every_node_until_it_is_told_to_end() -> None:
         process.terminate()
         rest, _ = process.communicate(timeout=PATIENCE)
     finally:
+        watchdog.cancel()
         process.kill()
     assert process.returncode == 0, rest
     assert "Traceback" not in "".join(said) + rest

@@ -108,7 +108,7 @@ class ExecutorNode(LifecycleNode):
         self._entities.append(answered)
         self._configured = True
         self._take_over_journal()
-        self.get_logger().info(f"{len(self._lut)} signs of {self._lut.place}")
+        self.get_logger().info(f"ready with {len(self._lut)} signs of {self._lut.place}")
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
