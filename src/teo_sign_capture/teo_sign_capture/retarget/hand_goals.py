@@ -18,7 +18,7 @@ from scipy.ndimage import gaussian_filter1d
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space.hand_points import COUNT, MIRROR, PALM, person_hand_points
+from teo_sign_capture.signing_space.hand_points import COUNT, HEEL, MIRROR, PALM, person_hand_points
 from teo_sign_capture.tracks.hand_model import palm_axes
 
 # [m] Points of a hand whose distances to the body differ by less than this share the contact: about a
@@ -140,12 +140,16 @@ def point_that_counts(body: BodyMap, head: HeadMotion, hand: Array) -> Array:
 def _part_that_counts(away: Array) -> tuple[Array, Array]:
     """Share of each point of a hand in the point that counts, and how much it is on the body.
 
+    The end of the hand at the wrist touches nothing: on an arm that is folded it is near the chest while the
+    hand is held up in the air, as letters are.
+
     Args:
         away: Distances of the points from the body [m]. Shape (T, COUNT).
 
     Returns:
         Shapes (T, COUNT) and (T,).
     """
+    away = np.where(np.arange(COUNT) == HEEL, np.inf, away)
     nearest = away.min(axis=1)
     contact = smooth_step((_OFF_BODY - nearest) / (_OFF_BODY - _ON_BODY))
     touching = np.exp((nearest[:, None] - away) / _BLEND)

@@ -19,6 +19,7 @@ from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import CollisionModel
+from teo_sign_capture.retarget.folded_arm import before_folded_arm
 from teo_sign_capture.retarget.hand_goals import HandGoals, hand_goals, pair_goals, point_that_counts
 from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
@@ -111,7 +112,7 @@ def retarget_motion(
     if handedness == "both":
         both = ((of["right"], of["left"]) for of in (hands, limbs, points))
         pair = pair_goals(body, track.times, *both)
-    problem = ArmProblem(chain, goals, pair)
+    problem = ArmProblem(chain, tuple(before_folded_arm(chain, wanted) for wanted in goals), pair)
     bounds = [arm_bounds(side) for side in sides]
     others: dict[str, Array] = {}
     if head.moves:

@@ -77,10 +77,12 @@ def test_far_from_the_body_lengths_grow_with_the_arms_and_stretched_arms_stay_st
 def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
     body_points, left, right, face = keypoints(robot, JOINTS, np.zeros((3, len(JOINTS))))
     neck = np.array([0.0, 0.0, 0.63])
-    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # 90 deg to the left
+    # 80 deg to the left, farther than TEO's head turns, in half a second.
+    cosine, sine = np.cos(np.radians(80.0)), np.sin(np.radians(80.0))
+    turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     for points, rows in ((body_points, (0, 15, 16, 17, 18)), (face, range(70))):
         points[2, rows] = (points[2, rows] - neck) @ turn.T + neck
-    track = track_of(np.arange(3) / 30.0, (body_points, left, right, face))
+    track = track_of(0.5 * np.arange(3), (body_points, left, right, face))
     person, body = map_of(robot, track)
     head = follow_head(robot, head_pose(track, person.head_shape), person)
     shoulders = np.array([0.0, 0.0, 0.4982])

@@ -123,3 +123,13 @@ def test_hands_far_from_each_other_have_no_order(scene):
     arms = (ARM * (1.0, 2.0, 1.0), ARM * MIRROR * (1.0, 2.0, 1.0))
     pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
     assert pair.order[0] == pytest.approx(np.zeros(3))
+
+
+def test_a_wrist_near_the_chest_is_no_touch(scene):
+    # Held straight forwards, the end of the hand at the skin: palm and knuckles are in the air.
+    forwards = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
+    hand = scene.hand @ forwards.T + np.array([0.11, -0.25, -0.05])
+    heel, knuckle = scene.body.distance(hand[None], scene.head)[0, [0, 9]]
+    assert heel < 0.035 < 0.12 < knuckle
+    assert scene.goals(hand).contact[0] < 0.7
+    assert scene.goals(hand - np.array([0.1, 0.0, 0.0])).contact[0] == pytest.approx(1.0)
