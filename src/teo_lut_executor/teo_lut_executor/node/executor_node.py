@@ -378,8 +378,7 @@ class ExecutorNode(LifecycleNode):
         settings = planner_settings_from(self._values())
         self._checker = settings.planner(self._lut, None)
         self._planning.configure(settings)
-        self._queue.limits = self._checker.limits
-        self._queue.settings = queue_settings_from(self._values())
+        self._queue.configure(self._checker.limits, queue_settings_from(self._values()))
 
     def _values(self) -> dict[str, Any]:
         return {row.name: self._value(row.name) for row in PARAMETERS}

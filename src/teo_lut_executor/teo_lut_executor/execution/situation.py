@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What is known at the moment: the time, the robot, the driver; and whether a motion may begin."""
+
+from __future__ import annotations
+
+import math
+
+from teo_lut_executor.execution.events import DriverMode, DriverReport, QueueSettings
+from teo_lut_executor.execution.robot_state import RobotState
+from teo_motion.sentence.composition import REST
+from teo_motion.trajectory.limits import MotionLimits
+
+# A step of the clock larger than this between two calls is a clock that was set, or a process that was not
+# running [s]: joint states that came meanwhile have not been read yet, and do not count as stale.
+_CLOCK_STEP = 0.2
+
+# What the driver's modes mean for the sentence at hand, by code.
+_BLOCKED = {
+    DriverMode.STOPPED: ("stopped", "the robot was told to stop: re-arm it to go on"),
+    DriverMode.INACTIVE: ("driver_inactive", "the driver is not active: activate it to go on"),
+    DriverMode.FAULT: ("driver_fault", "the driver reports a fault: mend it and re-arm it to go on"),
+}
+
+
+class Situation:
+    """What is known at the moment.
+
+    Attributes:
+        limits: Of every joint.
+        settings: How patient the executor is.
+        now: [s].
+        robot: Where it is.
+        driver: What it said last; None if nothing yet.
+        obstacle: Why no motion may begin, as far as the caller knows; empty if it may.
+    """
+
+    def __init__(self, limits: MotionLimits, settings: QueueSettings) -> None:
+        """Begin with nothing heard."""
+        self.limits = limits
+        self.settings = settings
+        self.now = -math.inf
+        self.robot = RobotState(limits.names)
+        self.driver: DriverReport | None = None
+        self.obstacle = ""
+
+    def tick(self, now: float) -> tuple[float, float]:
+        """Let time pass; carry on where we are if the clock was set.
+
+        Returns:
+            Path time that has passed, and by how much the clock was set; both [s].
+        """
+        passed = now - self.now if math.isfinite(self.now) else 0.0
+        self.now = now
+        is_set = passed < 0.0 or passed > _CLOCK_STEP
+        if is_set:
+            self.robot.shift_clock(passed)
+        return max(passed, 0.0) * self.pace, passed if is_set else 0.0
+
+    @property
+    def pace(self) -> float:
+        """Path time per time [1]."""
+        return 1.0 if self.driver is None else self.driver.speed_scaling
+
+    @property
+    def mode(self) -> DriverMode | None:
+        """What the driver is doing; None if it did not say."""
+        return None if self.driver is None else self.driver.mode
+
+    @property
+    def block(self) -> tuple[str, str] | None:
+        """Code and meaning of the driver's mode if it takes no motion in it."""
+        return None if self.mode is None else _BLOCKED.get(self.mode)
+
+    @property
+    def age(self) -> float:
+        """Of the joint state that is oldest [s]."""
+        return self.now - self.robot.oldest
+
+    @property
+    def is_stale(self) -> bool:
+        """Whether nothing is heard any more of a robot that was heard of."""
+        return self.robot.complete and self.age > self.settings.joint_state_timeout
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether every joint is at rest, or nearly."""
+        return self.robot.farthest(REST)[0] <= self.settings.goal_tolerance
+
+    @property
+    def hindrance(self) -> str:
+        """What must be there before a motion can begin; empty if all is."""
+        if not self.robot.complete:
+            names = self.robot.missing
+            more = f" and {len(names) - 3} more" if len(names) > 3 else ""
+            return f"waiting for joint_states of {', '.join(names[:3])}{more}"
+        if self.is_stale:
+            return f"the last joint_states came {self.age:.1f} s ago: see that the driver runs"
+        if self.mode is DriverMode.PAUSED:
+            return "paused"
+        if self.block is not None:
+            return self.block[1]
+        if self.obstacle:
+            return self.obstacle
+        return "" if self.robot.is_still else "waiting for the robot to stand still"
+
+    @property
+    def may_join(self) -> bool:
+        """Whether a motion may continue another."""
+        return self.pace == 1.0 and not self.obstacle and self.block is None
