@@ -8,13 +8,9 @@ import platform
 
 import camera_path
 import clips
-import driver_rate
-import driver_robustness
-import kills
 import letters
 import lexicon
 import lifting
-import limbs
 import planning
 import recognition
 import retargeting
@@ -24,9 +20,10 @@ import retriever_robustness
 import retriever_unseen
 import robot_model
 import spelling
-import text_to_trajectory
 import translation
 import words
+from accuracy import limbs
+from nodes import driver_rate, driver_robustness, kills, text_to_trajectory
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -62,7 +59,7 @@ def main() -> None:
     console.print(f"{platform.machine()}, Python {platform.python_version()}")
     failed: list[str] = []
     for bench in track(BENCHES, "benches", console=console):
-        name = bench.__name__
+        name = bench.__name__.replace(".", "/")
         try:
             figures = bench.measure()
         except Exception:  # an hour of other figures must not be lost

@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How near a retriever comes to the truth: takes, methods beside ours, errors, and what was tuned on."""
+"""How near a retriever comes to the truth, and how fast limbs are fitted: takes, other methods, errors."""

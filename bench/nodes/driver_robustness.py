@@ -11,11 +11,11 @@ from collections import Counter
 from collections.abc import Callable
 
 import numpy as np
-from driver_rate import PERIOD, as_message, wave
 from numpy.typing import NDArray
 from rclpy.serialization import serialize_message
 from report import Figure
 
+from nodes.driver_rate import PERIOD, as_message, wave
 from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode
