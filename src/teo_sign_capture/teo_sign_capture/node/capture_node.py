@@ -89,7 +89,7 @@ class CaptureNode(Node):
             return response
         sign = saved.captured.sign
         response.success, response.path = True, str(saved.path)
-        response.picture = "" if saved.picture is None else str(saved.picture)
+        response.picture = str(saved.pictures[0]) if saved.pictures else ""
         response.quality = "\n".join(f"{name} {figure:g}" for name, figure in sign.quality.items())
         response.message = " ".join((f"{sign.gloss} is captured.", *saved.warnings))
         self.get_logger().info(f"captured {sign.gloss}: {saved.path}")
