@@ -148,7 +148,8 @@ class ExecutionQueue:
         self._tick(now)
         self._situation.driver = report
         if report.remaining is not None:
-            self._signing.synchronise(report.remaining)
+            since = max(now - report.stamp, 0.0)  # the message's way here
+            self._signing.synchronise(report.remaining - since * report.speed_scaling)
         return self._signing.end_if_blocked() + self._signing.tell()
 
     def driver_refused(self, number: int, reason: str, now: float) -> list[Event]:

@@ -25,6 +25,7 @@ from teo_lut_executor.execution.job import Job, Phase
 from teo_lut_executor.execution.joining import LEAST_AHEAD, Joining
 from teo_lut_executor.execution.motions import Motions
 from teo_lut_executor.execution.path_monitor import PathMonitor
+from teo_lut_executor.execution.seam import continued
 from teo_lut_executor.execution.situation import Situation
 from teo_motion.sentence.plan import Plan
 from teo_signs.errors import PlanError
@@ -135,7 +136,9 @@ class Signing:
             return self._ask_from_end(current, opening)
         self._asked = 0
         current.plan = plan
-        return self._send(plan, now + max(ahead, _START_LEAD)) + self.tell()
+        if after == 0.0:  # it begins where the opening has come to a standstill
+            return self._send(plan, now + max(ahead, _START_LEAD)) + self.tell()
+        return self._send(plan, now + ahead, seam=after) + self.tell()
 
     def not_planned(self, number: int, error: PlanError) -> list[Event]:
         """Take why there is no plan."""
@@ -260,13 +263,22 @@ class Signing:
         end = opening.state_at(opening.motion.duration)
         return [PlanWanted(number=self._asked, sentence=current.sentence, start=end)]
 
-    def _send(self, plan: Plan, start: float) -> list[Event]:
-        """Send a motion; it is in force at once, or takes over from the one that is."""
-        number, opens = next(self._numbers), self._motions.present is None
-        elapsed = self._situation.now - start
+    def _send(self, plan: Plan, start: float, *, seam: float | None = None) -> list[Event]:
+        """Send a motion; it is in force at once, or takes over from the one that is.
+
+        Args:
+            plan: The motion.
+            start: When it begins [s].
+            seam: When it continues the present motion, in that one's time [s]; None from a standstill.
+        """
+        number, present = next(self._numbers), self._motions.present
+        opens, elapsed, samples = present is None, self._situation.now - start, plan.samples
+        if present is not None and seam is not None:
+            samples = continued(present.motion, seam, plan)
+            start -= float(samples.times[1])
         settings = self._situation.settings
         self._motions.add(PathMonitor(number=number, motion=plan, elapsed=elapsed, settings=settings))
-        events: list[Event] = [TrajectoryReady(number=number, plan=plan, start=start)]
+        events: list[Event] = [TrajectoryReady(number=number, plan=plan, samples=samples, start=start)]
         if not opens or self.current is None or self.current.canceled:
             return events
         self._phase = Phase.SIGNING
@@ -289,7 +301,10 @@ class Signing:
             return []
         wanted = self._joining.want(current, motion)
         due = self._joining.due(motion)
-        return wanted if due is None else self._send(*due)
+        if due is None:
+            return wanted
+        plan, seam = due
+        return self._send(plan, self._situation.now + seam - motion.elapsed, seam=seam)
 
     def _take_over(self) -> list[Event]:
         """Let the motion that continues the present one be in force when its time has come."""

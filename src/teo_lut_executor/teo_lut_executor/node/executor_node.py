@@ -277,7 +277,9 @@ class ExecutorNode(LifecycleNode):
                 case PlanWanted() | ReturnWanted():
                     self._planning.ask(event)
                 case TrajectoryReady():
-                    self._driver.send(event.number, to_trajectory(event.plan, start=event.start))
+                    names = self._queue.limits.names
+                    trajectory = to_trajectory(names, event.samples, start=event.start)
+                    self._driver.send(event.number, trajectory)
                 case StopReady():
                     stop = to_stop(self._queue.limits.names, event.end, event.lead)
                     self._driver.send(event.number, stop)
