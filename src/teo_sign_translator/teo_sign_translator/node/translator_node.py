@@ -31,6 +31,7 @@ from teo_sign_translator.node.sign_inventory import SignInventory
 from teo_sign_translator.node.text_worker import TextWorker
 from teo_sign_translator.output.known_signs import listed_signs
 from teo_sign_translator.output.substitutes import Substitutes
+from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.translator import Translator
 
 #: Outcomes that DDS keeps for a reader that is slow; a text in a flood of them is refused in a tenth of a
@@ -175,7 +176,7 @@ class TranslatorNode(LifecycleNode):
     def _answer_text(self, item: _Text) -> None:
         """Translate and publish a text of the topic; in the worker's thread."""
         try:
-            sentences = self._translate(item)
+            translation = self._translate(item)
         except TranslationError as error:
             self._refuse(item, error)
             return
@@ -183,16 +184,20 @@ class TranslatorNode(LifecycleNode):
             self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
             self._refuse(item, TranslationError("internal_error", f"{error!r}; the log says more"))
             return
-        for sentence in sentences:
+        for sentence in self._messages(item, translation):
             self._tokens.publish(sentence)
-        self._tell(item, sentences=len(sentences))
+        self._tell(item, sentences=len(translation.sentences))
+        self._note(item, translation)
         if self._tokens.get_subscription_count() == 0:
             self.get_logger().warning("nobody listens to sign_tokens: this text will not be signed")
 
     def _on_translate(self, request: Translate.Request, response: Translate.Response) -> Translate.Response:
+        item = self._received(request.text)
         try:
-            response.sentences = self._translate(self._received(request.text))
+            translation = self._translate(item)
+            response.sentences = self._messages(item, translation)
             response.success = True
+            self._note(item, translation)
         except TranslationError as error:
             self._statistics.add_refused(f"[{error.code}] {error}")
             response.code = error.code
@@ -204,8 +209,8 @@ class TranslatorNode(LifecycleNode):
             response.message = f"the translator failed on this text: {error!r}; its log says more"
         return response
 
-    def _translate(self, item: _Text) -> list[SignSentence]:
-        """A text as messages.
+    def _translate(self, item: _Text) -> Translation:
+        """Translate a text.
 
         Raises:
             TranslationError: If it cannot be translated, or has more than `max_sentences`.
@@ -222,6 +227,13 @@ class TranslatorNode(LifecycleNode):
                 f"expected at most {most} sentences in one text (parameter max_sentences), got "
                 f"{len(translation.sentences)}: send it in parts",
             )
+        return translation
+
+    def _messages(self, item: _Text, translation: Translation) -> list[SignSentence]:
+        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=item.utterance_id)
+
+    def _note(self, item: _Text, translation: Translation) -> None:
+        """Count a text that was answered, and log it: after the answer, which somebody waits for."""
         elapsed = (self.get_clock().now() - item.received).nanoseconds * 1e-9
         self._statistics.add_done(elapsed)
         self.get_logger().info(f"{quoted(item.text)}: {short(str(translation))} ({elapsed * 1000:.1f} ms)")
@@ -229,7 +241,6 @@ class TranslatorNode(LifecycleNode):
             self.get_logger().warning(
                 f"nothing stands for {short(' '.join(map(ascii, translation.ignored)))}"
             )
-        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=item.utterance_id)
 
     def _refuse(self, item: _Text, error: TranslationError) -> None:
         self._statistics.add_refused(f"[{error.code}] {error}")
