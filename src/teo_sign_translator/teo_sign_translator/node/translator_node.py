@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
@@ -21,8 +21,7 @@ from teo_sign_msgs.msg import SignSentence, TranslationStatus
 from teo_sign_msgs.srv import Translate
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
-from teo_common.node_process import run_node
-from teo_common.parameters import declare_parameters
+from teo_common.self_starting_node import SelfStartingNode, run_self_starting
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.node.diagnostics import Statistics, diagnose, quoted, short
 from teo_sign_translator.node.messages import to_messages
@@ -57,7 +56,7 @@ class _Text(NamedTuple):
     utterance_id: str
 
 
-class TranslatorNode(LifecycleNode):
+class TranslatorNode(SelfStartingNode):
     """Answers texts in the order in which they come. Owns no language logic: see `translator.Translator`.
 
     Unconfigured: no model. Inactive: the model is loaded and the `translate` service answers. Active: texts
@@ -73,8 +72,7 @@ class TranslatorNode(LifecycleNode):
             context: The ROS context; the default one if None.
             parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
         """
-        super().__init__("translator", context=context, parameter_overrides=list(parameter_overrides))
-        declare_parameters(self, PARAMETERS)
+        super().__init__("translator", PARAMETERS, context=context, parameter_overrides=parameter_overrides)
         self._translator: Translator | None = None
         self._next_translator: Translator | None = None
         self._inventory: SignInventory | None = None
@@ -84,11 +82,6 @@ class TranslatorNode(LifecycleNode):
         self._diagnostics = DiagnosticsPublisher(self, "texts")
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
-
-    def start(self) -> bool:
-        """Configure and activate without a manager; tell whether both succeeded."""
-        success = TransitionCallbackReturn.SUCCESS
-        return bool(self.trigger_configure() == success and self.trigger_activate() == success)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
         """Load the model; serve `translate` and publish diagnostics."""
@@ -317,21 +310,10 @@ class TranslatorNode(LifecycleNode):
             substitutes=Substitutes.named(values["substitutes"]),
         )
 
-    def _value(self, name: str) -> Any:
-        return self.get_parameter(name).value
-
-
-def _started_node() -> TranslatorNode:
-    node = TranslatorNode()
-    if node.get_parameter("autostart").value and not node.start():
-        node.destroy_node()
-        raise SystemExit(1)  # the log has said why
-    return node
-
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_node(_started_node, arguments)
+    run_self_starting(TranslatorNode, arguments)
 
 
 if __name__ == "__main__":
