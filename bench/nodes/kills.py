@@ -25,6 +25,7 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from diagnostic_msgs.msg import DiagnosticArray
 from report import Figure
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -52,10 +53,12 @@ class _Witness(Node):
         self.sentences: set[tuple[str, int]] = set()
         self.accounted: dict[tuple[str, int], str] = {}
         self.answered = 0
+        self.heard: set[str] = set()  # nodes that have told how they are
         self.state: int | None = None
         self.states: list[tuple[float, np.ndarray]] = []
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(SignSentence, "sign_tokens", self._on_sentence, 100)
+        self.create_subscription(DiagnosticArray, "diagnostics", self._on_diagnostics, 100)
         self.create_subscription(TranslationStatus, "translation_status", self._on_answer, 100)
         self.create_subscription(ExecutorStatus, "executor_status", self._on_status, latched)
         self.create_subscription(JointState, "joint_states", self._on_joints, 100)
@@ -63,6 +66,9 @@ class _Witness(Node):
 
     def _on_sentence(self, message: SignSentence) -> None:
         self.sentences.add((message.utterance_id, message.sentence_index))
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        self.heard |= {status.name.split(":")[0] for status in message.status}
 
     def _on_answer(self, _: TranslationStatus) -> None:
         self.answered += 1
@@ -78,9 +84,17 @@ class _Witness(Node):
         stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
         self.states.append((stamp, np.array(message.position)))
 
+    def forget(self) -> None:
+        """Know nothing of sentences any more."""
+        self.answered = 0
+        self.sentences.clear()
+        self.accounted.clear()
+
     @property
     def at_rest(self) -> bool:
-        """Whether the robot is at home and the executor says that all is done."""
+        """Whether all nodes are there, the robot is at home and the executor says that all is done."""
+        if len(self.heard) < len(NODES):
+            return False
         home = np.array([HOME[name] for name in ALL_JOINTS])
         there = bool(self.states) and bool(np.abs(self.states[-1][1] - home).max() < _AT_REST)
         return there and self.state == ExecutorStatus.STATE_IDLE
@@ -128,15 +142,13 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
             for name in NODES:
                 start(name, journal)
             for index in range(kills):
-                wait(lambda: witness.at_rest and witness.texts.get_subscription_count() > 0, _TIMEOUT)
+                wait(lambda: witness.at_rest, _TIMEOUT)
                 victim, moment = _VICTIMS[index % len(_VICTIMS)], dice.uniform(0.0, _LONGEST)
-                witness.answered = 0
-                witness.sentences.clear()
-                witness.accounted.clear()
                 witness.texts.publish(String(data=_TEXT))
                 wait(lambda: False, moment)
                 _kill(victim, processes)
                 wait(lambda: False, _RESTART)
+                witness.heard.clear()  # what was restarted is there when it is heard again
                 if victim != "planner":
                     start(victim, journal)
                 if not wait(lambda: witness.at_rest, _TIMEOUT):
@@ -147,6 +159,7 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
                 ]
                 outcomes.update(witness.accounted.values())
                 fastest = max(fastest, witness.fastest())
+                witness.forget()
         finally:
             for process in processes.values():
                 process.kill()

@@ -27,17 +27,35 @@ class _ToldToEndError(Exception):
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the nodes that sign; exit with 0 when told to end, else with the status of the first that ended."""
+    for_nodes = node_arguments(arguments)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _raise_told_to_end)
+    try:
+        status = _run(for_nodes)
+    except GraphError as error:
+        sys.exit(f"start: {error}")
+    sys.exit(status)
+
+
+def node_arguments(arguments: Sequence[str] | None) -> list[str]:
+    """What every node gets.
+
+    Args:
+        arguments: Of the command line; None for the process's own.
+
+    Raises:
+        SystemExit: They are wrong; the parser has said how.
+    """
     parser = _parser()
     given, ros_arguments = parser.parse_known_args(arguments)
     if ros_arguments and ros_arguments[0] != "--ros-args":
         parser.error(f"expected --ros-args before what the nodes get, got {' '.join(ros_arguments)}")
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _raise_told_to_end)
-    try:
-        status = _run(["--ros-args", "--params-file", str(given.params_file), *ros_arguments])
-    except GraphError as error:
-        sys.exit(f"start: {error}")
-    sys.exit(status)
+    for_nodes = ["--ros-args", "--params-file", str(given.params_file)]
+    if given.namespace:
+        for_nodes += ["-r", f"__ns:=/{given.namespace.strip('/')}"]
+    if given.use_sim_time:
+        for_nodes += ["-p", "use_sim_time:=true"]
+    return [*for_nodes, *ros_arguments]
 
 
 def _run(arguments: Sequence[str]) -> int:
@@ -60,7 +78,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="start",
         description="Start translator, executor and driver, until Ctrl-C or until one ends.",
-        epilog="Every node gets what follows --ros-args, as in --ros-args -r __ns:=/teo.",
+        epilog="Every node gets what follows --ros-args, as in --ros-args -p model:=lstm256.",
     )
     parser.add_argument(
         "--params-file",
@@ -68,6 +86,10 @@ def _parser() -> argparse.ArgumentParser:
         default=Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml",
         help="parameters of the nodes; those of teo_bringup if not given",
     )
+    parser.add_argument(
+        "--namespace", default="", help="before every topic, service and node: one for each robot"
+    )
+    parser.add_argument("--use-sim-time", action="store_true", help="take the time from the topic clock")
     return parser
 
 
