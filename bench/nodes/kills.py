@@ -22,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from diagnostic_msgs.msg import DiagnosticArray
 from report import Figure
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
