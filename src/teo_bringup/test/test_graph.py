@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from teo_bringup.graph import NODES, Graph, GraphError, executable_of
-from teo_bringup.start import node_arguments
+from teo_bringup.start import parse
 
 PATIENCE = 30.0  # [s] for a Python process to start on a loaded machine
 # Says that it is there, and at the end which signals came.
@@ -46,6 +46,15 @@ def wait_for(text: str, path: Path) -> None:
 def test_every_node_that_signs_is_installed() -> None:
     for package, executable in NODES.values():
         assert executable_of(package, executable).is_file()
+
+
+@pytest.mark.parametrize("view", [False, True])
+def test_the_console_is_started_where_it_is_asked_for(view: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[str] = []
+    monkeypatch.setattr(Graph, "start", lambda *given: started.append(given[1]))
+    with Graph() as graph:
+        graph.start_nodes(view=view)
+    assert started == [*NODES, *(["console"] if view else [])]
 
 
 def test_a_package_or_executable_that_is_not_there_is_named() -> None:
@@ -149,7 +158,7 @@ def test_start_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path)
 
 
 def test_start_hands_namespace_clock_and_what_follows_on_to_every_node() -> None:
-    given = node_arguments(["--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256"])
+    given, _ = parse(["--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256"])
     assert given[:2] == ["--ros-args", "--params-file"]
     assert given[3:] == [
         "-r",
@@ -160,7 +169,7 @@ def test_start_hands_namespace_clock_and_what_follows_on_to_every_node() -> None
         "-p",
         "model:=lstm256",
     ]
-    assert node_arguments([])[3:] == []
+    assert parse([]).for_nodes[3:] == []
 
 
 def test_start_wants_a_file_of_parameters_that_is_there() -> None:
