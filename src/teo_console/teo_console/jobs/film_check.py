@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Looks at a film in a process of its own: `python film_check.py FORMAT FILE` prints its figures as JSON.
 
-FFmpeg reads what a stranger may have made. It is told the container, so that no playlist or script is taken for a
-film, and may open this one file alone; what breaks here breaks a process with limits.
+FFmpeg reads what a stranger may have made. It is told the container, so that no playlist is taken for a film,
+and may open this one file alone; what breaks here breaks a process with limits.
 """
 
 from __future__ import annotations

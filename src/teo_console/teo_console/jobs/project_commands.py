@@ -64,12 +64,25 @@ def coverage(text: str) -> Command:
 
 def film(gloss: str, out: Path) -> Command:
     """A film of a sign."""
-    return _reading("film", _TABLE_SECONDS, "render", gloss, "--out", str(out))
+    return _reading("film", _TABLE_SECONDS, "render", "--out", str(out), "--", gloss)
+
+
+def translate(text: str) -> Command:
+    """The glosses of a text, as `plan` takes them."""
+    arguments = ("ros2", "run", "teo_sign_translator", "translate", "--", text)
+    return Command(
+        name="translate", arguments=arguments, limits=Limits(seconds=_TEXT_SECONDS, memory=_MEMORY)
+    )
+
+
+def enter_reviews(export: Path) -> Command:
+    """Enter an export of reviews into the user's own table."""
+    return _reading("enter", _TABLE_SECONDS, "review", str(export))
 
 
 def plan(glosses: str, out: Path) -> Command:
     """The motion of a sentence from rest to rest, as CSV: what the robot would do."""
-    arguments = ("ros2", "run", "teo_lut_executor", "plan", glosses, "--csv", str(out))
+    arguments = ("ros2", "run", "teo_lut_executor", "plan", "--csv", str(out), "--", glosses)
     return Command(name="plan", arguments=arguments, limits=Limits(seconds=_TABLE_SECONDS, memory=_MEMORY))
 
 

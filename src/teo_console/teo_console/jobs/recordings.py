@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings that pages send: checked by content, bounded, under random names, and deleted unless kept on purpose."""
+"""Recordings that pages send: checked by content, bounded, deleted unless kept on purpose."""
 
 from __future__ import annotations
 

@@ -18,6 +18,9 @@ from teo_console.jobs import recordings as module
 from teo_console.jobs.queue import JobQueue
 from teo_console.jobs.recordings import Recording, Recordings
 
+# A bag by its first bytes; what is in it is for the command that reads it.
+BAG = b"\x89MCAP0\r\n" + bytes(1000)
+
 
 def film(
     container: str = "webm", codec: str = "libvpx", size: tuple[int, int] = (320, 240), n: int = 20
@@ -127,7 +130,7 @@ def test_a_recording_goes_when_it_is_discarded_grows_old_or_the_console_ends(tmp
     taken: list[Recording] = []
 
     async def act(recordings: Recordings) -> None:
-        first, second, third = [await recordings.receive(pieces(film()), now) for now in (0.0, 10.0, 3000.0)]
+        first, second, third = [await recordings.receive(pieces(BAG), now) for now in (0.0, 10.0, 3000.0)]
         recordings.discard(first.id)
         assert not first.folder.exists()
         with pytest.raises(ConsoleError, match="still here"):
@@ -151,12 +154,11 @@ def test_what_an_earlier_run_left_behind_is_deleted(tmp_path: Path) -> None:
 
 def test_what_is_kept_on_purpose_stays(tmp_path: Path) -> None:
     kept: list[Path] = []
-    content = film()
 
     async def act(recordings: Recordings) -> None:
-        taken = await recordings.receive(pieces(content), 0.0)
+        taken = await recordings.receive(pieces(BAG), 0.0)
         kept.append(recordings.keep(taken.id, tmp_path / "kept", "SALUDAR"))
 
     with_recordings(tmp_path / "recordings", act)
-    assert kept[0].read_bytes() == content
+    assert kept[0].read_bytes() == BAG
     assert kept[0].name.startswith("SALUDAR-")
