@@ -11,8 +11,8 @@ import os
 import resource
 import sys
 
-# Less urgent than what signs: half of the way to the least.
-_NICENESS = 10
+# Less urgent than what signs, which has deadlines; more would starve them beside other work.
+_NICENESS = 5
 
 
 def main(arguments: list[str]) -> None:
