@@ -30,8 +30,8 @@ _BEHIND_SIGMA = 0.12  # [m] and how far behind what hides it: a hand or an arm l
 _FREE = 9.0  # beyond it an expectation does not speak against a depth any more: arms move fast
 _ACCEPTED = 6.0  # a cost below it is no reason to suppose anything: 95 % of unhidden arms (chi-squared, 2)
 _STEPS = 3  # of Gauss-Newton from a good start
-_GUESSED = 1.5  # errors over sigma of hidden joints, on rendered people: the lengths are estimates, too
-_HIDDEN_ACROSS = 5.0  # a detector guesses hidden joints so many times worse: 5 cm for elbows behind hands
+_GUESSED = 2.0  # errors over sigma of hidden joints, on rendered people: the lengths are estimates, too
+_HIDDEN_ACROSS = 2.5  # a detector guesses hidden joints so many times worse
 
 
 class Arm(NamedTuple):
@@ -41,6 +41,8 @@ class Arm(NamedTuple):
     """x/z, y/z. Shape (3, 2)"""
     across: FloatArray
     """standard deviations of the joints across the ray [m]. Shape (3,)"""
+    elbow_along: float
+    """standard deviation of the elbow along the upper arm, in the image [m]; as far as `across` or more"""
     measured: FloatArray
     """depths if nothing hides the joints [m]; NaN where nothing was measured. Shape (3,)"""
     sigma: FloatArray
@@ -159,11 +161,11 @@ def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
     points = rays * np.stack([candidate.depths for candidate in candidates])[..., None]
     target = np.where(hidden, points[..., 2], arm.measured)
     depth_weight = np.where(hidden, 1.0 / _BEHIND_SIGMA, 1.0 / arm.sigma)
-    across = 1.0 / (arm.across * np.where(hidden, _HIDDEN_ACROSS, 1.0))
+    across = _across_weights(arm, hidden)
     slope = np.zeros((k, 11, 9))
     for i in range(3):
-        slope[:, 3 * i, 3 * i] = slope[:, 3 * i + 1, 3 * i + 1] = across[:, i]
-        slope[:, 3 * i : 3 * i + 2, 3 * i + 2] = -across[:, i, None] * arm.rays[i]
+        slope[:, 3 * i : 3 * i + 2, 3 * i : 3 * i + 2] = across[:, i]
+        slope[:, 3 * i : 3 * i + 2, 3 * i + 2] = -across[:, i] @ arm.rays[i]
         slope[:, 3 * i + 2, 3 * i + 2] = depth_weight[:, i]
     missed = np.zeros((k, 11))
     for step in range(_STEPS + 1):
@@ -173,7 +175,7 @@ def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
         slope[:, 9, 0:3], slope[:, 9, 3:6] = -unit[:, 0], unit[:, 0]
         slope[:, 10, 3:6], slope[:, 10, 6:9] = -unit[:, 1], unit[:, 1]
         off = points[..., :2] - arm.rays * points[..., 2:]
-        missed[:, :9].reshape(k, 3, 3)[..., :2] = off * across[..., None]
+        missed[:, :9].reshape(k, 3, 3)[..., :2] = (across @ off[..., None])[..., 0]
         missed[:, 2:9:3] = (points[..., 2] - target) * depth_weight
         missed[:, 9:] = (lengths - arm.lengths) / arm.length_sigma
         turned = slope.transpose(0, 2, 1)
@@ -186,6 +188,20 @@ def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
     sigma = np.column_stack([spread[:, :2].mean(axis=1), spread[:, 2]])
     sigma[hidden[best]] *= _GUESSED
     return ArmSolution(points[best], sigma, hidden[best], float(cost[best]))
+
+
+def _across_weights(arm: Arm, hidden: BoolArray) -> FloatArray:
+    """Inverse standard deviations across the ray, by which x and y are weighed [1/m]. Shape (k, 3, 2, 2).
+
+    The elbow's differ along the upper arm, as the image shows it, and beside it.
+    """
+    weights = np.eye(2) / (arm.across * np.where(hidden, _HIDDEN_ACROSS, 1.0))[..., None, None]
+    upper_arm = arm.rays[1] - arm.rays[0]
+    length = math.hypot(*upper_arm)
+    if length > 0.0:
+        lessened = 1.0 - min(1.0, arm.across[1] / arm.elbow_along)
+        weights[:, 1] -= lessened * weights[:, 1, :1, :1] * np.outer(upper_arm, upper_arm) / length**2
+    return weights
 
 
 def _penalties(

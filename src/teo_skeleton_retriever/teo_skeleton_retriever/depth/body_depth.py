@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.depth.filtered_keypoints import points_of
 from teo_skeleton_retriever.depth.skin import BODY_CAPS, BODY_DEPTHS, along_ray
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
-from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma
+from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_sigma
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_layout import ARMS, ROW
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
@@ -50,6 +51,7 @@ _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
 _ACROSS[[ROW[f"{side}Ear"] for side in "LR"]] = 0.035  # seen at the cheek, 2 cm beside and below
 _SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
+_ELBOWS = [rows[1] for rows in ARMS.values()]
 _HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
 
 
@@ -110,10 +112,16 @@ class BodyDepth:
         """
         depth, sigma = self._measure(surfaces, before, size)
         rays, across = seen.rays.copy(), _ACROSS.copy()
+        elbows = {side: float(across[ARMS[side][1]]) for side in ARMS}
         if self._parameters.detector == "mediapipe":
             across = body_sigma(across, seen.confidence)
+            for side, (_, elbow, wrist) in ARMS.items():
+                forearm = _part_across(seen.rays[[elbow, wrist]], before.depth[wrist], size)
+                elbows[side] = elbow_sigma(float(seen.confidence[elbow]), forearm)
             # Beside the joint is another depth than at it.
-            sigma = np.hypot(sigma, _SLOPE * np.maximum(across - _ACROSS, 0.0))
+            beside = across - _ACROSS
+            beside[_ELBOWS] = [elbows[side] - _ACROSS[ARMS[side][1]] for side in ARMS]
+            sigma = np.hypot(sigma, _SLOPE * np.maximum(beside, 0.0))
         for side, wrist in wrists.items():
             row = ARMS[side][2]
             rays[row], across[row] = wrist.ray, _HAND_ACROSS
@@ -127,7 +135,7 @@ class BodyDepth:
         if self._parameters.optimise_limbs:
             for side, rows in ARMS.items():
                 certain = np.array([False, False, side in wrists and wrists[side].certain])
-                self._solve_arm(rows, certain, found, before, size)
+                self._solve_arm(rows, certain, elbows[side], found, before, size)
         return found
 
     def _measure(
@@ -156,6 +164,7 @@ class BodyDepth:
         self,
         rows: list[int],
         certain: BoolArray,
+        elbow_along: float,
         found: BodyDepths,
         before: FilterOutput,
         size: BodySize,
@@ -165,6 +174,7 @@ class BodyDepth:
         arm = Arm(
             rays=found.rays[rows],
             across=found.across[rows],
+            elbow_along=elbow_along,
             measured=found.depths[rows],
             sigma=found.sigma[rows],
             certain=certain,
@@ -182,6 +192,18 @@ class BodyDepth:
         hidden = np.array(rows)[solution.hidden]
         found.optimised[hidden] = True
         found.measured[hidden] = np.nan
+
+
+def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:
+    """Part of a forearm's length that is seen across the view; 1 if its depth is not known.
+
+    Args:
+        forearm: x/z, y/z of elbow and wrist. Shape (2, 2).
+        depth: About where it is [m].
+        size: Of the person.
+    """
+    seen = math.dist(*forearm) * depth / size.length("forearm")[0]
+    return seen if math.isfinite(seen) else 1.0
 
 
 def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:

@@ -37,6 +37,7 @@ def arm(points: np.ndarray, **changes: Any) -> Arm:
     seen = Arm(
         rays=points[:, :2] / points[:, 2:],
         across=np.array([0.005, 0.005, 0.005]),
+        elbow_along=0.005,
         measured=points[:, 2].copy(),
         sigma=np.full(3, 0.008),
         certain=np.zeros(3, dtype=bool),
