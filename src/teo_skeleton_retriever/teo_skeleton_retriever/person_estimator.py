@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.arrays import FloatArray, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.depth.face_depth import face_depths
@@ -280,4 +280,4 @@ def _in_space(rays: FloatArray, depths: FloatArray) -> FloatArray:
 
 def _middle(values: FloatArray) -> float:
     known = values[np.isfinite(values)]
-    return float(np.median(known)) if len(known) else float("nan")
+    return median(known) if len(known) else float("nan")

@@ -16,8 +16,8 @@ from teo_skeleton_retriever.layouts.person_layout import ARMS, N
 _FOREARM, _HAND = 0.045, 0.055  # [m] half a forearm's breadth, half a palm's with the thumb
 _STEPS = np.linspace(0.0, 1.0, 6)  # a forearm is covered by discs 5 cm apart, a hand by those 2 cm apart
 _CLEAR = 0.02  # [m] where arms cross, both seem as near: the one that is nearer by this hides the other
-# [m] The same of a joint's own limb: nearer, it is the joint's own skin that is seen. A forearm that points at
-# the camera is so far before its elbow where the camera sees the forearm's skin and no more the elbow's.
+# [m] The same of a joint's own limb: nearer, it is the joint's own skin that is seen. A forearm that points
+# at the camera is so far before its elbow where the camera sees the forearm's skin and no more the elbow's.
 _OWN_FOREARM_CLEAR, _OWN_HAND_CLEAR = 0.07, 0.09
 _SKIN = 0.03  # [m] from the axis of a forearm or hand to the skin before it
 _THICKNESS = 0.05  # [m] depths so near to that skin are of the same arm

@@ -114,8 +114,8 @@ _LIMBS: dict[str, tuple[tuple[str, str], ...]] = {
 _AVERAGE = {"shoulders": 0.36, "upper arm": 0.274, "forearm": 0.236}
 # Power of the shoulders' width that a limb grows with: broad shoulders are not long arms.
 _GROWTH = {"upper arm": 0.4, "forearm": 0.8}
-# [m] How far a limb's length is from that of average people with such shoulders: of these people 10 and 15 mm,
-# of which others may differ more.
+# [m] How far a limb's length is from that of average people with such shoulders: of these people 10 and 15
+# mm, and real ones differ more.
 _SPREAD = {"upper arm": 0.016, "forearm": 0.02}
 # [m] How far the length that is measured is off however often it is, as a detector errs for a person in the
 # same way. MediaPipe guesses the elbows of forearms that point at the camera: 16 and 10 mm for these people.
@@ -176,7 +176,8 @@ class BodySize:
     @property
     def scale(self) -> float:
         """Size against an average adult, by the shoulders; 1 while nothing is known."""
-        return float(np.clip(self._seen_scale**self._power, *_SCALE_RANGE))
+        smallest, largest = _SCALE_RANGE
+        return min(max(math.pow(self._seen_scale, self._power), smallest), largest)
 
     @property
     def hand_scale(self) -> float:

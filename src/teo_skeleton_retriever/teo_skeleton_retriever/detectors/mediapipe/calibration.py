@@ -123,11 +123,11 @@ def corrected_hand(hand: FloatArray, *, left: bool) -> FloatArray:
 
 
 _WRISTS = [BODY_25.index[f"{side}Wrist"] for side in "RL"]
-# Standard deviations [m] by 1 - confidence: of wrists across the ray, and of elbows along the upper arm. Where a
-# forearm points at the camera an elbow is guessed from the sleeve, and the less sure the detector is of it, the
-# shorter it makes the upper arm: it was off by 20 mm at a confidence of 0.999, by 45 mm at 0.99, by 83 mm at
-# 0.96 and by 105 mm below; of other forearms by 13, 16 and 42 mm. Beside the upper arm it was off by 20 mm
-# whatever the confidence (root mean squares, 1,972 rendered elbows).
+# Standard deviations [m] by 1 - confidence: of wrists across the ray, of elbows along the upper arm. Where
+# a forearm points at the camera an elbow is guessed from the sleeve, and the less sure the detector is of it,
+# the shorter it makes the upper arm: it was off by 20 mm at a confidence of 0.999, by 45 mm at 0.99, by 83 mm
+# at 0.96 and by 105 mm below; of other forearms by 13, 16 and 42 mm. Beside the upper arm it was off by 20 mm
+# whatever the confidence (root mean squares, 1,855 rendered elbows).
 _DOUBTS = (0.001, 0.005, 0.01, 0.02, 0.04, 0.1)
 _WRIST_SIGMA = (0.015, 0.015, 0.015, 0.016, 0.018, 0.035)
 _ELBOW_SIGMA = (0.02, 0.02, 0.02, 0.025, 0.035, 0.05)
