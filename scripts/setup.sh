@@ -93,7 +93,7 @@ install_requirements() {
     options+=(-r requirements/run.txt)
     if [ "$level" = all ]; then
         options+=(-r requirements/train.txt -r requirements/retriever.txt -r requirements/capture.txt -r requirements/test.txt
-            -r requirements/docs.txt)
+            -r requirements/docs.txt -r requirements/physics.txt)
         "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
     fi
     "${pip[@]}" "${options[@]}"

@@ -39,6 +39,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "mcap": (None, "mcap"),
     "mediapipe": (None, "mediapipe"),
+    "mujoco": (None, "mujoco"),
     "num2words": (None, "num2words"),
     "numpy": ("python3-numpy", "numpy"),
     "pinocchio": ("pinocchio", "pin"),
