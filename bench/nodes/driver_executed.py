@@ -112,7 +112,7 @@ class Judge:
         judged.acceleration = max(judged.acceleration, float(acceleration.max() / _ACCELERATION))
         judged.jerk = max(judged.jerk, float(jerk.max() / _JERK))
         for distance, pair in self._near(positions[0]):
-            if distance < judged.nearest and pair not in self._built and not _one_hand(*pair):
+            if distance < judged.nearest and pair not in self._built and not one_hand(*pair):
                 judged.nearest, judged.parts = distance, " and ".join(pair)
 
     def _near(self, positions: NDArray[np.float64]) -> Iterator[tuple[float, tuple[str, str]]]:
@@ -130,7 +130,7 @@ class Judge:
             yield float(contact.dist), (first, second)
 
 
-def _one_hand(first: str, second: str) -> bool:
+def one_hand(first: str, second: str) -> bool:
     """Whether both are parts of the same hand, which may touch each other."""
     return any(
         all(part.startswith(side) or part == f"Frontal{side}Wrist_link" for part in (first, second))
@@ -168,7 +168,7 @@ def _executed(number: int, judge: Judge, planner: Planner, table: Lut) -> Judged
     judged = Judged(number)
     form = SentenceForm(type=rng.choice(list(SentenceType)), negated=bool(rng.random() < 0.2))
     try:
-        plan = planner.plan(_tokens(rng, table), form=form)
+        plan = planner.plan(random_tokens(rng, table), form=form)
     except PlanError as error:
         judged.refused = error.code
         return judged
@@ -194,7 +194,7 @@ def _executed(number: int, judge: Judge, planner: Planner, table: Lut) -> Judged
     return judged
 
 
-def _tokens(rng: np.random.Generator, table: Lut) -> list[Token]:
+def random_tokens(rng: np.random.Generator, table: Lut) -> list[Token]:
     """One to six signs of the table, letters and numbers among them, now and then faster or slower."""
     tokens = []
     glosses = sorted(table)

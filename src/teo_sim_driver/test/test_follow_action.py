@@ -145,7 +145,7 @@ def test_the_newest_command_wins_and_the_goal_before_it_is_told(bench, client, o
 
 def test_limbs_are_commanded_side_by_side_until_the_whole_body_takes_over(bench, one_way):
     def limb(joints, joint):
-        message = one_way(duration=6.0, angle=-0.3, joint=joint)
+        message = one_way(duration=20.0, angle=-0.6, joint=joint)
         columns = [COMMANDED_JOINTS.index(name) for name in joints]
         for point in message.points:
             for field in ("positions", "velocities", "accelerations"):
@@ -165,7 +165,7 @@ def test_limbs_are_commanded_side_by_side_until_the_whole_body_takes_over(bench,
     second.cancel_goal_async()
     status, _ = right.end(second)
     assert status == GoalStatus.STATUS_CANCELED
-    bench.commands.publish(one_way(duration=8.0, angle=-0.3))
+    bench.commands.publish(one_way(duration=20.0, angle=-0.3))
     status, result = left.end(first)
     assert (status, result.error_code) == (GoalStatus.STATUS_ABORTED, Result.INVALID_GOAL)
     assert "topic" in result.error_string

@@ -98,7 +98,11 @@ class PhysicsPlant:
 
 
 def _model() -> mujoco.MjModel:
-    """The URDF with servos, without contact between parts that are built into each other."""
+    """The URDF with servos, without contact between parts that are built into each other.
+
+    Those are the ones that two joints at most connect, whose boxes reach into each other when they turn, and
+    those that overlap at HOME.
+    """
     spec = mujoco.MjSpec.from_string(urdf_text())
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # damping of servos is stiff
@@ -110,7 +114,10 @@ def _model() -> mujoco.MjModel:
     bare = spec.compile()
     data = mujoco.MjData(bare)
     _stand(bare, data)
-    for first, second in {_bodies(bare, contact) for contact in data.contact[: data.ncon]}:
+    parent = bare.body_parentid
+    built = {_bodies(bare, contact) for contact in data.contact[: data.ncon]}
+    built |= {(bare.body(parent[parent[i]]).name, bare.body(i).name) for i in range(1, bare.nbody)}
+    for first, second in built:
         spec.add_exclude(bodyname1=first, bodyname2=second)
     mass = np.zeros((bare.nv, bare.nv))
     mujoco.mj_fullM(bare, data, mass)
