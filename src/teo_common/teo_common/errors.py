@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class CodedError(Exception):
     """A sentence for people beside a stable reason for programs.
@@ -22,6 +24,6 @@ class CodedError(Exception):
         super().__init__(message)
         self.code = code
 
-    def __reduce__(self) -> tuple[type[CodedError], tuple[str, ...]]:
-        """Both arguments, so that the error can pass from one process to another."""
+    def __reduce__(self) -> tuple[type[CodedError], tuple[Any, ...]]:
+        """Its arguments, so that the error can pass from one process to another."""
         return type(self), (self.code, *self.args)

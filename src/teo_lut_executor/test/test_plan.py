@@ -99,6 +99,7 @@ def test_slower_limits_give_a_slower_plan(table_directory: Path) -> None:
         ("", [], 1, "empty_sentence: "),
         ("A--N", [], 1, "bad_gloss: "),
         ("TÚ", ["--jerk", "0"], 1, "bad_limits: "),
+        ("TÚ", ["--hand-drive", "hydraulic"], 1, "bad_limits: hand_drive: expected one of spool_380"),
         ("TÚ", ["--jerk", "many"], 2, "valid number"),
         ("TÚ", ["--type", "order"], 2, "statement"),
         ("TÚ", ["--csv", "no/such/folder/plan.csv"], 1, "cannot write "),

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
+from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
 from teo_sim_driver.plants.faults import Faults
 from teo_sim_driver.rules import Rules
@@ -128,6 +129,13 @@ PARAMETERS = (
             "gravity and contact."
         ),
         choices=(IDEAL, MUJOCO),
+        read_only=True,
+    ),
+    ParameterRow(
+        name="hand_drive",
+        default=DEFAULT_HAND_DRIVE,
+        choices=tuple(HAND_DRIVES),
+        description="Gearmotors of the hands, which limit the speed of their axes.",
         read_only=True,
     ),
     *RULE_PARAMETERS,

@@ -9,6 +9,7 @@ from dataclasses import fields
 from pathlib import Path
 
 from teo_common.parameters import ParameterRow
+from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_lut_executor.planning.settings import PlannerSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
@@ -78,6 +79,13 @@ PARAMETERS = (
         read_only=True,
     ),
     # Motion.
+    ParameterRow(
+        name="hand_drive",
+        default=DEFAULT_HAND_DRIVE,
+        choices=tuple(HAND_DRIVES),
+        description="Gearmotors of the hands, which limit the speed of their axes; the driver's parameter "
+        "of that name must not name slower ones.",
+    ),
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
     _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of every joint [rad/s^3]."),
     _row("period", DEFAULT_PERIOD, 0.005, 0.1, "Time between two points of a trajectory [s]."),
@@ -210,6 +218,7 @@ def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
         style=SigningStyle(**{field.name: float(values[field.name]) for field in fields(SigningStyle)}),
         acceleration=float(values["acceleration"]),
         jerk=float(values["jerk"]),
+        hand_drive=str(values["hand_drive"]),
         least_clearance=float(values["least_clearance"]),
         period=float(values["period"]),
         max_duration=float(values["max_duration"]),

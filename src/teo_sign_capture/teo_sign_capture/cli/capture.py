@@ -6,22 +6,18 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, NoReturn, cast
+from typing import TYPE_CHECKING, Annotated, Literal, cast
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-from rich.table import Table
 
+from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
-    from teo_sign_capture.entries.bag_capture import Job, Saved, Settings
-
-_output = Console(highlight=False)
-_errors = Console(stderr=True, highlight=False)
+    from teo_sign_capture.entries.bag_capture import Job, Settings
+    from teo_sign_capture.entries.outcome import Outcome
 
 Bags = Annotated[
     list[Path] | None,
@@ -79,6 +75,10 @@ Picture = Annotated[
 ]
 Draw = Annotated[bool, typer.Option("--draw/--no-draw", help="Draw demonstration and robot side by side.")]
 Film = Annotated[bool, typer.Option("--film", help="Film them as well (MP4).")]
+Trial = Annotated[
+    Path | None,
+    typer.Option(help="Write entry and picture into this directory, to look at; the table stays as it is."),
+]
 Manifest = Annotated[
     Path | None, typer.Option(help="CSV with a row for each take: bag, gloss[, start, end, hands, person].")
 ]
@@ -87,6 +87,10 @@ Workers = Annotated[
 ]
 Dask = Annotated[
     str | None, typer.Option(help="Address of a Dask scheduler that does the work: tcp://HOST:8786.")
+]
+AsJson = Annotated[
+    bool,
+    typer.Option("--json", help="Say progress and outcome as a JSON object a line, for programs."),
 ]
 
 
@@ -112,14 +116,17 @@ def capture(
     picture: Picture = None,
     draw: Draw = True,
     film: Film = False,
+    trial: Trial = None,
     manifest: Manifest = None,
     jobs: Workers = None,
     dask: Dask = None,
+    as_json: AsJson = False,
 ) -> None:
     """Capture a sign from recordings of a person, or every sign of a folder of recordings.
 
     Exit status: 0 captured, 1 not (code and reason on standard error), 2 wrong options.
     """
+    reporter = JsonReporter() if as_json else TerminalReporter()
     from teo_sign_capture.entries.bag_capture import Job, Settings, check_free
     from teo_sign_capture.entries.batch import find_jobs, read_manifest
     from teo_sign_capture.entries.take import Cut
@@ -138,18 +145,19 @@ def capture(
             topic=topic,
             slop=slop,
             cache=cache or default_cache(),
-            pictures=(picture or table) if draw else None,
+            pictures=(picture or trial or table) if draw else None,
             film=film,
+            trial=trial,
         )
         cut = Cut(start=start, end=end)
         if camera is not None:
             if gloss is None or bags or manifest is not None:
                 raise LutError("bad_arguments", "expected --camera NUMBER --gloss GLOSS, and no recording")
             check_free(gloss, settings)
-            bags = [_filmed(camera, gloss, seconds)]
+            bags = [_filmed(camera, gloss, seconds, reporter)]
         if gloss is not None and bags and manifest is None:
             job = Job(gloss=gloss, bags=tuple(bags), cut=cut, handedness=hands, person=person)
-            _capture_one(job, settings)
+            _capture_one(job, settings, reporter)
             return
         one_folder = bags is not None and len(bags) == 1 and bags[0].is_dir() and not is_bag(bags[0])
         if gloss is not None or one_folder == (manifest is not None) or (bags and not one_folder):
@@ -162,102 +170,47 @@ def capture(
                 "bad_arguments", "--start, --end, --hands and --person are for one sign: see --manifest"
             )
         found = read_manifest(manifest) if manifest is not None else find_jobs(cast(list[Path], bags)[0])
-        _capture_all(found, settings, jobs or os.cpu_count() or 1, dask)
+        _capture_all(found, settings, jobs or os.cpu_count() or 1, dask, reporter)
     except LutError as error:
-        fail(error)
+        reporter.failed(gloss, error)
+        raise typer.Exit(1) from error
 
 
-def fail(error: LutError) -> NoReturn:
-    """Say what is wrong and end."""
-    _errors.print(f"{error.code}: {error}", markup=False, soft_wrap=True)
-    raise typer.Exit(1) from error
-
-
-def tell(saved: Saved) -> None:
-    """Say what was captured, how well, and where it is."""
-    sign = saved.captured.sign
-    span = saved.captured.take.span
-    _output.print(
-        f"{sign.gloss}: {sign.handedness}, {sign.duration:.2f} s in {len(sign.times)} knots, from "
-        f"{span.start:.2f} to {span.end:.2f} s of {saved.captured.take.source}",
-        soft_wrap=True,
-    )
-    table = Table(box=None, show_header=False)
-    for name, figure in sign.quality.items():
-        words = name.split("_")
-        unit = {"deg": "°", "percent": "%", "times": "times", "count": ""}.get(words[-1], words[-1])
-        table.add_row(" ".join(words[:-1]), f"{figure:g}", unit)
-    _output.print(table)
-    for note in filter(None, (saved.captured.sign.provenance.notes, *saved.warnings)):
-        _output.print(f"note: {note}", markup=False, soft_wrap=True)
-    if sign.provenance.standing == "sketched":
-        _output.print(
-            "standing sketched: the executor spells the word until its least_standing is sketched; "
-            "see --standing",
-            soft_wrap=True,
-        )
-    for path in filter(None, (saved.path, saved.picture)):
-        _output.print(f"wrote {path}", markup=False, soft_wrap=True)
-
-
-def _filmed(camera: int, gloss: str, seconds: float) -> Path:
+def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path:
     """Film a sign with a webcam, counting down, and return the film, which is kept."""
     from teo_sign_capture.recordings.recording import default_cache
     from teo_sign_capture.recordings.webcam import film_name, film_webcam
 
     out = film_name(default_cache().parent / "recordings", gloss)
-    return film_webcam(camera, out, seconds=seconds, on_state=lambda state: _errors.print(state))
+    return film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
 
 
-def _capture_one(job: Job, settings: Settings) -> None:
+def _capture_one(job: Job, settings: Settings, reporter: Reporter) -> None:
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import capture_bags
+    from teo_sign_capture.entries.outcome import captured_outcome
 
-    with _progress() as progress:
-        task = progress.add_task("capturing", total=None)
-
-        def told(what: str, done: int, total: int) -> None:
-            progress.update(task, description=what, completed=done, total=total)
-
-        saved = capture_bags(Robot.load(), job, settings, told)
-    tell(saved)
+    with reporter:
+        saved = capture_bags(Robot.load(), job, settings, reporter.progress)
+    reporter.captured(captured_outcome(saved))
 
 
-def _capture_all(jobs: list[Job], settings: Settings, count: int, dask: str | None) -> None:
-    from teo_sign_capture.entries.batch import CAPTURED, Outcome, failures, run_jobs, workers
+def _capture_all(
+    jobs: list[Job], settings: Settings, count: int, dask: str | None, reporter: Reporter
+) -> None:
+    from teo_sign_capture.entries.batch import run_jobs, workers
+    from teo_sign_capture.entries.outcome import failures
 
-    with workers(count, dask) as executor, _progress() as progress:
-        task = progress.add_task("capturing", total=len(jobs))
+    ended: list[Outcome] = []
 
-        def done(outcome: Outcome) -> None:
-            progress.advance(task)
-            if outcome.code == CAPTURED:
-                progress.console.print(f"{outcome.gloss}: {outcome.message}", markup=False)
+    def done(outcome: Outcome) -> None:
+        ended.append(outcome)
+        reporter.one_of_many(outcome)
+        reporter.progress("capturing", len(ended), len(jobs))
 
+    with workers(count, dask) as executor, reporter:
+        reporter.progress("capturing", 0, len(jobs))
         outcomes = run_jobs(executor, jobs, settings, done)
-    failed = failures(outcomes)
-    captured = sum(outcome.code == CAPTURED for outcome in outcomes)
-    if failed:
-        table = Table("gloss", "code", "reason", title="not captured")
-        for outcome in failed:
-            table.add_row(outcome.gloss, outcome.code, outcome.message)
-        _output.print(table)
-    _output.print(
-        f"{captured} captured, {len(outcomes) - captured - len(failed)} as before, {len(failed)} failed, "
-        f"in {settings.table}",
-        soft_wrap=True,
-    )
-    if failed:
+    reporter.end(outcomes, settings.table)
+    if failures(outcomes):
         raise typer.Exit(1)
-
-
-def _progress() -> Progress:
-    return Progress(
-        TextColumn("{task.description}", markup=False),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        console=_errors,
-        transient=True,
-        disable=not _errors.is_terminal,
-    )

@@ -23,9 +23,8 @@ from teo_sign_capture.cli.capture import (
     StandingOption,
     Start,
     TableDirectory,
-    fail,
-    tell,
 )
+from teo_sign_capture.cli.reporting import fail, tell
 from teo_signs.errors import LutError
 
 _errors = Console(stderr=True, highlight=False)
@@ -111,6 +110,7 @@ def import_pose(
 
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags
+    from teo_sign_capture.entries.outcome import captured_outcome
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
 
@@ -132,4 +132,4 @@ def import_pose(
             saved = capture_bags(Robot.load(), job, settings)
     except LutError as error:
         fail(error)
-    tell(saved)
+    tell(captured_outcome(saved))

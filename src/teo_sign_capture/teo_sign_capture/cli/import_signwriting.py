@@ -15,7 +15,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from teo_sign_capture.cli.capture import fail
+from teo_sign_capture.cli.reporting import fail
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import sys
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
@@ -11,17 +13,19 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from teo_sign_capture.cli.capture import Cache, End, Hands, Person, Start, Topic, fail
+from teo_sign_capture.cli.capture import AsJson, Cache, End, Hands, Person, Start, Topic
+from teo_sign_capture.cli.reporting import JsonReporter, TerminalReporter, write_json
 from teo_signs.errors import LutError
 
 _output = Console(highlight=False)
-_errors = Console(stderr=True, highlight=False)
 
 
 def recognise(
     recording: Annotated[
         Path,
-        typer.Argument(help="Bag of images or of skeletons, or a .pose file, in which one sign is shown."),
+        typer.Argument(
+            help="Video, bag of images or of skeletons, or .pose file, in which one sign is shown."
+        ),
     ],
     count: Annotated[int, typer.Option(min=1, help="How many signs to name.")] = 5,
     lut: Annotated[
@@ -36,6 +40,10 @@ def recognise(
     person: Person = None,
     topic: Topic = None,
     cache: Cache = None,
+    meant: Annotated[
+        str | None, typer.Option(help="Gloss that was meant: also say what differs from its sign.")
+    ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """Name the signs of the table that look most like a demonstration, with their distances.
 
@@ -43,25 +51,50 @@ def recognise(
     """
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import Settings, recorded_track
-    from teo_sign_capture.recognition.appearance import recording_appearance
+    from teo_sign_capture.recognition.appearance import recording_appearance, sign_appearance
+    from teo_sign_capture.recognition.comparison import compare
     from teo_sign_capture.recognition.sign_index import SignIndex
     from teo_sign_capture.recordings.recording import default_cache, open_recording
     from teo_signs.look_up_table import Lut, user_lut_directory
 
     robot = Robot.load()
+    reporter = JsonReporter() if as_json else TerminalReporter()
     try:
         signs = Lut.open(lut)
         if not signs:
             raise LutError("empty_table", f"expected a table with signs, got none in {signs.place}")
-        with _errors.status(f"looking at {recording.name}"):
-            settings = Settings(table=user_lut_directory(), topic=topic, cache=cache or default_cache())
-            track, _ = recorded_track(open_recording(recording), settings, person=person)
+        wanted = None if meant is None else sign_appearance(robot, signs[meant])  # unknown: say so at once
+        settings = Settings(table=user_lut_directory(), topic=topic, cache=cache or default_cache())
+        with reporter:
+            track, _ = recorded_track(
+                open_recording(recording),
+                settings,
+                person=person,
+                on_progress=lambda done, total: reporter.progress(
+                    f"looking for keypoints in {recording.name}", done, total
+                ),
+            )
+            reporter.progress("comparing", 0, len(signs))
             shown = recording_appearance(robot, track, start=start, end=end, handedness=hands)
             matches = SignIndex.of_signs(robot, signs.values()).nearest(shown, count)
+        compared = None if meant is None or wanted is None else compare(meant, shown, wanted)
     except LutError as error:
-        fail(error)
+        reporter.failed(None, error)
+        raise typer.Exit(1) from error
+    if as_json:
+        found = [asdict(match) for match in matches]
+        told = {"code": "recognised", "recording": recording.name, "matches": found}
+        if compared is not None:
+            told["compared"] = asdict(compared)
+        write_json(told, sys.stdout)
+        return
     table = Table("sign", "distance", box=None)
     for match in matches:
         table.add_row(match.gloss, f"{match.distance:.2f}")
     _output.print(table)
     _output.print("distance: 1 is two differences that are just seen, all through the sign", soft_wrap=True)
+    if compared is not None:
+        parts = ("handshape", "orientation", "place", "movement")
+        differences = ", ".join(f"{part} {getattr(compared, part):.2f}" for part in parts)
+        hands = "" if compared.hands else "; another number of hands"
+        _output.print(f"beside {compared.gloss}: {differences}{hands}", soft_wrap=True)

@@ -22,9 +22,8 @@ from teo_sign_capture.cli.capture import (
     Replace,
     StandingOption,
     TableDirectory,
-    fail,
-    tell,
 )
+from teo_sign_capture.cli.reporting import fail, tell
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 
@@ -57,6 +56,7 @@ def record(
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import Settings, check_free
     from teo_sign_capture.entries.live_capture import default_recordings, keep_and_capture
+    from teo_sign_capture.entries.outcome import captured_outcome
 
     try:
         table = lut or user_lut_directory()
@@ -73,7 +73,8 @@ def record(
         check_free(gloss, settings)
         messages = _listen(countdown)
         _output.print(f"{len(messages)} images recorded")
-        tell(keep_and_capture(Robot.load(), gloss, messages, keep or default_recordings(), settings))
+        saved = keep_and_capture(Robot.load(), gloss, messages, keep or default_recordings(), settings)
+        tell(captured_outcome(saved))
     except LutError as error:
         fail(error)
 

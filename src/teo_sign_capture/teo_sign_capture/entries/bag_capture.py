@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # s
 from teo_description.robot import Robot
 from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
-from teo_sign_capture.entries.similar_signs import similar_sign_warnings
+from teo_sign_capture.entries.similar_signs import SimilarSign, similar_signs
 from teo_sign_capture.entries.take import Cut, Take, capture_take
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recordings.recording import (
@@ -85,6 +85,7 @@ class Settings:
         cache: Directory of skeletons found in images.
         pictures: Directory of the pictures; None makes none.
         film: Whether a film is made beside each picture.
+        trial: Directory that entries go to instead of the table, which stays as it is: to look at first.
     """
 
     table: Path
@@ -100,6 +101,7 @@ class Settings:
     cache: Path = field(default_factory=default_cache)
     pictures: Path | None = None
     film: bool = False
+    trial: Path | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,13 +111,15 @@ class Saved:
     Attributes:
         captured: The sign.
         path: Its entry.
-        picture: Demonstration and robot side by side, if it was asked for.
-        warnings: What could not be used, a sentence each.
+        pictures: Demonstration and robot side by side, drawn and filmed, as far as asked for.
+        similar: The signs of the table that look most like it.
+        warnings: What could not be used, and which sign it may be confused with, a sentence each.
     """
 
     captured: Captured
     path: Path
-    picture: Path | None
+    pictures: tuple[Path, ...]
+    similar: tuple[SimilarSign, ...]
     warnings: tuple[str, ...]
 
 
@@ -144,15 +148,16 @@ def _captured(robot: Robot, job: Job, settings: Settings, on_progress: Progress 
     takes: list[Take] = []
     warnings: list[str] = []
     failed: list[LutError] = []
-    for recording in recordings:
+    tell = on_progress or (lambda *_: None)
+    for number, recording in enumerate(recordings):
 
         def told(done: int, total: int, name: str = recording.name) -> None:
-            if on_progress is not None:
-                on_progress(f"looking for keypoints in {name}", done, total)
+            tell(f"looking for keypoints in {name}", done, total)
 
         try:
             track, found = recorded_track(recording, settings, person=job.person, on_progress=told)
             warnings += found
+            tell(f"bringing {recording.name} onto TEO", number, len(recordings))
             takes.append(capture_take(robot, track, cut=job.cut, handedness=job.handedness))
         except LutError as error:
             failed.append(error)
@@ -160,11 +165,21 @@ def _captured(robot: Robot, job: Job, settings: Settings, on_progress: Progress 
         raise failed[0]
     left_out = [f"Left out: {error.code}: {error}" for error in failed]
     origin = _origin(job, settings, recordings, left_out)
+    tell("checking", 0, 1)
     captured = make_sign(robot, job.gloss, takes, origin, kind=settings.kind, accept=settings.accept)
-    similar = similar_sign_warnings(robot, captured.sign, settings.table)
-    path = save_captured(captured, settings)
-    saved = Saved(captured=captured, path=path, picture=None, warnings=(*warnings, *left_out, *similar))
-    return saved if settings.pictures is None else _with_picture(saved, recordings, settings)
+    similar = similar_signs(robot, captured.sign, settings.table)
+    alike = filter(None, (one.warning(captured.sign.gloss) for one in similar))
+    saved = Saved(
+        captured=captured,
+        path=save_captured(captured, settings),
+        pictures=(),
+        similar=similar,
+        warnings=(*warnings, *left_out, *alike),
+    )
+    if settings.pictures is None:
+        return saved
+    tell("drawing", 0, 1)
+    return _with_picture(saved, recordings, settings)
 
 
 def recorded_track(
@@ -224,7 +239,7 @@ def check_free(gloss: str, settings: Settings) -> None:
         taken = held_entry(settings.table, gloss)
     except LutError as error:
         raise LutError("not_written", f"expected a place to write to, got: {error}") from error
-    if taken is not None and not settings.replace:
+    if taken is not None and not settings.replace and settings.trial is None:
         raise LutError(
             "exists",
             f"{taken.name}: expected a gloss that {taken.parent} does not hold, got {gloss!r}: --replace "
@@ -256,11 +271,13 @@ def _named(recording: Recording, cut: Cut) -> str:
 
 def save_captured(captured: Captured, settings: Settings) -> Path:
     """Write the entry, and return where it is."""
+    directory = settings.trial or settings.table
+    replace_there = settings.replace or settings.trial is not None
     try:
-        return save_sign(settings.table, captured.sign, replace=settings.replace)
+        return save_sign(directory, captured.sign, replace=replace_there)
     except OSError as error:
         raise LutError(
-            "not_written", f"{settings.table}: expected a directory to write to, got: {error}"
+            "not_written", f"{directory}: expected a directory to write to, got: {error}"
         ) from error
 
 
@@ -273,8 +290,11 @@ def _with_picture(saved: Saved, recordings: Sequence[Recording], settings: Setti
     try:
         settings.pictures.mkdir(parents=True, exist_ok=True)
         save_capture_picture(picture, captured, recording, settings.cache)
+        saved = replace(saved, pictures=(picture,))
         if settings.film:
-            save_capture_film(picture.with_suffix(".mp4"), captured, recording, settings.cache)
+            film = picture.with_suffix(".mp4")
+            save_capture_film(film, captured, recording, settings.cache)
+            saved = replace(saved, pictures=(picture, film))
     except OSError as error:
         return replace(saved, warnings=(*saved.warnings, f"{picture}: not drawn: {error}"))
-    return replace(saved, picture=picture)
+    return saved

@@ -13,15 +13,22 @@ import csv
 import functools
 import multiprocessing
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args
 
 from teo_description.robot import Robot
 from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags, is_captured
+from teo_sign_capture.entries.outcome import (
+    CRASHED,
+    UNCHANGED,
+    Outcome,
+    captured_outcome,
+    failed_outcome,
+)
 from teo_sign_capture.entries.take import Cut
 from teo_sign_capture.recordings.recording import is_recording
 from teo_signs.errors import LutError
@@ -31,28 +38,7 @@ from teo_signs.sign_schema import Handedness
 # Ends the names of several takes of one sign: HOLA_1, HOLA_2.
 _TAKE = re.compile(r"_\d+$")
 _COLUMNS = ("bag", "gloss", "start", "end", "hands", "person")
-CAPTURED, UNCHANGED = "captured", "unchanged"
 _CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer, or has no worker, by then will not
-
-
-@dataclass(frozen=True, kw_only=True)
-class Outcome:
-    """How the capture of one sign ended.
-
-    Attributes:
-        gloss: The sign.
-        code: "captured", "unchanged", or why it failed.
-        message: A sentence; what the entry was made of where it went well.
-    """
-
-    gloss: str
-    code: str
-    message: str
-
-    @property
-    def failed(self) -> bool:
-        """Whether there is no good entry now."""
-        return self.code not in (CAPTURED, UNCHANGED)
 
 
 def find_jobs(folder: Path) -> list[Job]:
@@ -149,7 +135,7 @@ def run_jobs(
                 outcome = future.result()
             except Exception as error:  # the process died: out of memory, or killed
                 message = f"expected a process that ends well, got {type(error).__name__} {error}"
-                outcome = Outcome(gloss=futures[future].gloss, code="crashed", message=message)
+                outcome = Outcome(gloss=futures[future].gloss, code=CRASHED, message=message)
             outcomes.append(outcome)
             on_done(outcome)
     except BaseException:
@@ -164,14 +150,11 @@ def capture_job(job: Job, settings: Settings) -> Outcome:
     try:
         if not settings.replace and is_captured(job, settings.table):
             return Outcome(gloss=job.gloss, code=UNCHANGED, message="made from these recordings before")
-        saved = capture_bags(_robot(), job, settings)
+        return captured_outcome(capture_bags(_robot(), job, settings))
     except LutError as error:
-        return Outcome(gloss=job.gloss, code=error.code, message=str(error))
+        return failed_outcome(job.gloss, error)
     except Exception as error:  # a mistake of ours in one of hundreds is no reason to lose the others
-        return Outcome(gloss=job.gloss, code="crashed", message=f"{type(error).__name__}: {error}")
-    quality = saved.captured.sign.quality
-    message = f"palm {quality['palm_error_p95_deg']:.0f} deg, place {quality['place_error_p95_mm']:.0f} mm"
-    return Outcome(gloss=job.gloss, code=CAPTURED, message="; ".join((message, *saved.warnings)))
+        return Outcome(gloss=job.gloss, code=CRASHED, message=f"{type(error).__name__}: {error}")
 
 
 @contextmanager
@@ -204,11 +187,6 @@ def workers(count: int, dask: str | None) -> Iterator[Executor]:
             ) from error
         with client.get_executor(pure=False, retries=0) as pool:
             yield pool
-
-
-def failures(outcomes: Iterable[Outcome]) -> list[Outcome]:
-    """Those that left no good entry."""
-    return [outcome for outcome in outcomes if outcome.failed]
 
 
 def _gloss_of(path: Path) -> str:

@@ -8,7 +8,7 @@ well founded with the reasons in its notes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -78,73 +78,94 @@ _LEAST_DURATION = 0.25
 
 
 @dataclass(frozen=True, kw_only=True)
-class Objection:
-    """Why a sign should not be taken as it is.
+class Verdict:
+    """How a captured sign stands at one gate.
 
     Attributes:
-        code: Stable reason: "much_lost", "palm_off", "contact_off", "wrong_place", "too_slow", "too_short" or
-            "no_rest".
+        code: Stable reason of a refusal: "much_lost", "palm_off", "contact_off", "wrong_place", "too_slow",
+            "too_short" or "no_rest".
+        passed: Whether it keeps to the gate.
         message: What was expected and what came.
-        remedy: What to do.
+        remedy: What to do where it does not.
     """
 
     code: str
+    passed: bool
     message: str
     remedy: str
 
 
-def objections(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> tuple[Objection, ...]:
-    """Everything that speaks against a captured sign.
+class RefusedError(LutError):
+    """A sign that a gate refuses.
+
+    Attributes:
+        verdicts: How it stands at every gate.
+    """
+
+    def __init__(self, code: str, message: str, verdicts: tuple[Verdict, ...]) -> None:
+        """Keep the verdicts beside code and sentence."""
+        super().__init__(code, message)
+        self.verdicts = verdicts
+
+    def __reduce__(self) -> tuple[type[RefusedError], tuple[str, str, tuple[Verdict, ...]]]:
+        """Its arguments, so that the error can pass from one process to another."""
+        return RefusedError, (self.code, str(self), self.verdicts)
+
+
+def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> tuple[Verdict, ...]:
+    """How a captured sign stands at every gate.
 
     Args:
-        quality: Figures of its entry; one that is not there is not judged.
+        quality: Figures of its entry; a gate whose figure is not there is left out.
         duration: Of the stroke, as the person made it [s].
         has_rest: Whether the hands were seen at rest before or after it, or somebody chose where it begins or
             ends.
     """
-    found = [
-        Objection(
+    figures = [
+        Verdict(
             code=gate.code,
+            passed=quality[gate.figure] <= gate.most,
             message=f"expected {gate.expected} of at most {gate.most:g}{gate.unit}, got "
             f"{quality[gate.figure]:g}{gate.unit}",
             remedy=gate.remedy,
         )
         for gate in _GATES
-        if quality.get(gate.figure, 0.0) > gate.most
+        if gate.figure in quality
     ]
-    if duration < _LEAST_DURATION:
-        found.append(
-            Objection(
-                code="too_short",
-                message=f"expected a stroke of {_LEAST_DURATION:g} s or more, got {duration:.2f} s",
-                remedy="let the hands rest before and after it, or say where it is with --start and --end",
-            )
-        )
-    if not has_rest:
-        found.append(
-            Objection(
-                code="no_rest",
-                message="expected hands at rest before or after the sign, got a recording that begins and "
-                "ends within it",
-                remedy="record it from rest to rest, or say with --start and --end where the sign is",
-            )
-        )
-    return tuple(found)
+    length = Verdict(
+        code="too_short",
+        passed=duration >= _LEAST_DURATION,
+        message=f"expected a stroke of {_LEAST_DURATION:g} s or more, got {duration:.2f} s",
+        remedy="let the hands rest before and after it, or say where it is with --start and --end",
+    )
+    got = "such rest" if has_rest else "a recording that begins and ends within it"
+    rest = Verdict(
+        code="no_rest",
+        passed=has_rest,
+        message=f"expected hands at rest before or after the sign, got {got}",
+        remedy="record it from rest to rest, or say with --start and --end where the sign is",
+    )
+    return (*figures, length, rest)
+
+
+def objections(verdicts: Iterable[Verdict]) -> tuple[Verdict, ...]:
+    """The gates that a sign is beyond."""
+    return tuple(verdict for verdict in verdicts if not verdict.passed)
 
 
 def accepted_standing(
-    gloss: str, standing: Standing, against: tuple[Objection, ...], *, accept: bool
+    gloss: str, standing: Standing, verdicts: tuple[Verdict, ...], *, accept: bool
 ) -> Standing:
     """How well founded a sign is after what speaks against it: as before, or one level lower if accepted.
 
     Raises:
-        LutError: The first objection's code and all their messages, if the sign is not accepted.
+        RefusedError: The first objection's code and all their messages, if the sign is not accepted.
     """
+    against = objections(verdicts)
     if not against:
         return standing
     if not accept:
         reasons = "; ".join(f"{objection.message}: {objection.remedy}" for objection in against)
-        raise LutError(
-            against[0].code, f"{gloss}: {reasons}. --accept takes it as it is, one level of evidence lower"
-        )
+        message = f"{gloss}: {reasons}. --accept takes it as it is, one level of evidence lower"
+        raise RefusedError(against[0].code, message, verdicts)
     return STANDINGS[min(STANDINGS.index(standing) + 1, len(STANDINGS) - 1)]

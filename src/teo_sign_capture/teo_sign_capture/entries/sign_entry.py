@@ -13,7 +13,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description import description_hash
 from teo_description.robot import Robot
-from teo_sign_capture.entries.gates import Objection, accepted_standing, objections
+from teo_sign_capture.entries.gates import Verdict, accepted_standing, judge, objections
 from teo_sign_capture.entries.playback import Playback, play
 from teo_sign_capture.entries.take import Take
 from teo_sign_capture.entries.take_combination import Combined, combine
@@ -61,11 +61,13 @@ class Captured:
         sign: The entry.
         takes: Every take that was looked at.
         combined: Which of them the entry is made of, and why.
+        verdicts: How it stands at every gate.
     """
 
     sign: Sign
     takes: tuple[Take, ...]
     combined: Combined
+    verdicts: tuple[Verdict, ...]
 
     @property
     def take(self) -> Take:
@@ -93,8 +95,8 @@ def make_sign(
         accept: Whether a sign beyond a gate is taken all the same, one level less well founded.
 
     Raises:
-        LutError: "takes_differ", what the planner says of a sign that it cannot play, or the code of an
-            `Objection` to a sign that is not accepted.
+        LutError: "takes_differ", or what the planner says of a sign that it cannot play.
+        RefusedError: The sign is beyond a gate.
     """
     combined = combine(robot, [take.motion for take in takes], [take.source for take in takes])
     used = [takes[index] for index in combined.used]
@@ -114,13 +116,14 @@ def make_sign(
     quality = _quality(used, sign, playback, away) | {"takes_count": float(len(takes))}
     # A letter is a posture that is held: clips of the alphabet begin and end with the hand raised.
     has_rest = kind == "letter" or any(take.has_rest for take in used)
-    against = objections(quality, duration=sign.duration, has_rest=has_rest)
-    standing = accepted_standing(sign.gloss, origin.standing, against, accept=accept)
-    sign = replace(sign, quality=quality, provenance=_accepted(sign.provenance, standing, against))
-    return Captured(sign=sign, takes=tuple(takes), combined=combined)
+    verdicts = judge(quality, duration=sign.duration, has_rest=has_rest)
+    standing = accepted_standing(sign.gloss, origin.standing, verdicts, accept=accept)
+    provenance = _accepted(sign.provenance, standing, objections(verdicts))
+    sign = replace(sign, quality=quality, provenance=provenance)
+    return Captured(sign=sign, takes=tuple(takes), combined=combined, verdicts=verdicts)
 
 
-def _accepted(provenance: Provenance, standing: Standing, against: Sequence[Objection]) -> Provenance:
+def _accepted(provenance: Provenance, standing: Standing, against: Sequence[Verdict]) -> Provenance:
     """The provenance of a sign that was taken though something speaks against it."""
     reasons = "; ".join(objection.message for objection in against)
     though = f"Accepted by a person beyond a gate: {reasons}." if reasons else ""

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from teo_description.robot import Robot
@@ -19,8 +20,32 @@ from teo_signs.sign import Sign
 _ALIKE = 2.0
 
 
-def similar_sign_warnings(robot: Robot, sign: Sign, table: Path) -> tuple[str, ...]:
-    """What a teacher should know of signs that look like a new one, a sentence each.
+@dataclass(frozen=True, kw_only=True)
+class SimilarSign:
+    """A sign of the table beside a new one.
+
+    Attributes:
+        gloss: Its name.
+        seen: The largest difference of both [differences that are just seen]; 0 of one and the same motion.
+    """
+
+    gloss: str
+    seen: float
+
+    def warning(self, gloss: str) -> str | None:
+        """What the teacher of a new sign should know; None where both are told apart."""
+        if self.seen == 0.0:
+            return f"{gloss} is the same motion as {self.gloss}."
+        if self.seen < _ALIKE:
+            return (
+                f"{gloss} looks nearly like {self.gloss}: what differs most is {self.seen:.1f} times what is "
+                "just seen."
+            )
+        return None
+
+
+def similar_signs(robot: Robot, sign: Sign, table: Path) -> tuple[SimilarSign, ...]:
+    """The signs of a table that look most like a new one, the most alike first.
 
     Args:
         robot: The robot.
@@ -41,14 +66,8 @@ def similar_sign_warnings(robot: Robot, sign: Sign, table: Path) -> tuple[str, .
             others[gloss] = other
     if not others:
         return ()
-    warnings = []
+    found = []
     for match in SignIndex.of_signs(robot, others.values()).nearest(sign_appearance(robot, sign)):
-        pairs = nearest_pairs(robot, [sign, others[match.gloss]])
-        if not pairs:
-            warnings.append(f"{sign.gloss} is the same motion as {match.gloss}.")
-        elif pairs[0].seen < _ALIKE:
-            warnings.append(
-                f"{sign.gloss} looks nearly like {match.gloss}: what differs most is {pairs[0].seen:.1f} "
-                "times what is just seen."
-            )
-    return tuple(warnings)
+        pairs = nearest_pairs(robot, [sign, others[match.gloss]])  # two names of one motion are no pair
+        found.append(SimilarSign(gloss=match.gloss, seen=round(pairs[0].seen, 2) if pairs else 0.0))
+    return tuple(sorted(found, key=lambda similar: similar.seen))

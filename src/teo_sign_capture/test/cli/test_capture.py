@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
+from typing import Any
 
 import pytest
-from made_bags import SIGN, signing, write_bag
+from made_bags import OUT, SIGN, signing, write_bag
 from typer.testing import CliRunner, Result
 
 from teo_lut_executor.cli.lut import app
@@ -77,6 +79,62 @@ def test_a_folder_ends_with_a_table_of_failures_and_resumes(tmp_path: Path) -> N
     assert second.exit_code == 0
     assert "0 captured, 1 as before, 0 failed" in second.output
     assert Lut.open(table).glosses() == ("HOLA",)
+
+
+def lines(text: str) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def test_a_program_reads_what_became_of_a_sign_and_how_it_stands_at_each_gate(
+    bag: Path, tmp_path: Path
+) -> None:
+    made = run("capture", bag, "--gloss", "SIGNO", "--lut", tmp_path, "--json")
+    (outcome,) = lines(made.stdout)
+    assert (outcome["gloss"], outcome["code"]) == ("SIGNO", "captured")
+    assert outcome["files"] == [str(tmp_path / "SIGNO.json"), str(tmp_path / "SIGNO.png")]
+    assert outcome["quality"] == Lut.open(tmp_path)["SIGNO"].quality
+    assert outcome["gates"] and all(gate["passed"] for gate in outcome["gates"])
+    said = lines(made.stderr)
+    assert {line["event"] for line in said} == {"progress"}
+    assert "drawing" in [line["what"] for line in said]
+
+
+def test_a_trial_leaves_the_table_alone_and_knows_what_it_holds(
+    bag: Path, tmp_path: Path, data_home: Path
+) -> None:
+    own, trial = data_home / "teo" / "lut", tmp_path / "trial"
+    assert run("capture", bag, "--gloss", "SIGNO", "--no-draw").exit_code == 0
+    (outcome,) = lines(run("capture", bag, "--gloss", "SEÑA", "--trial", trial, "--json").stdout)
+    assert outcome["files"] == [str(trial / "SEÑA.json"), str(trial / "SEÑA.png")]
+    assert outcome["similar"][0] == {"gloss": "SIGNO", "seen": 0.0}
+    assert [path.name for path in own.iterdir()] == ["SIGNO.json"]
+    # A sign that is there already may be tried again.
+    assert run("capture", bag, "--gloss", "SIGNO", "--trial", trial, "--no-draw").exit_code == 0
+
+
+def test_a_program_reads_why_a_sign_is_refused(tmp_path: Path) -> None:
+    # Between two places before the body: the recording begins and ends within the sign.
+    moves = [(-1.0, -0.5, OUT), (0.3, 0.9, (0.28, -0.06, 0.02)), (1.1, 1.7, OUT)]
+    bag = write_bag(tmp_path / "take.mcap", signing(moves=moves, duration=2.0, rate=15.0))
+    refused = run("capture", bag, "--gloss", "SIGNO", "--hands", "right", "--lut", tmp_path, "--json")
+    assert refused.exit_code == 1
+    (outcome,) = lines(refused.stdout)
+    assert outcome["code"] == "no_rest"
+    assert [gate["code"] for gate in outcome["gates"] if not gate["passed"]] == ["no_rest"]
+    (wrong,) = lines(run("capture", "--json").stdout)
+    assert (wrong["code"], wrong["gloss"], wrong["gates"]) == ("bad_arguments", "", [])
+
+
+def test_a_program_reads_a_line_for_each_sign_of_a_folder(tmp_path: Path) -> None:
+    folder = tmp_path / "recordings"
+    write_bag(folder / "HOLA.mcap", signing(rate=15.0))
+    write_bag(folder / "NADA.mcap", signing(moves=[], rate=15.0))
+    result = run("capture", folder, "--lut", tmp_path / "lut", "--jobs", "1", "--no-draw", "--json")
+    assert {one["gloss"]: one["code"] for one in lines(result.stdout)} == {
+        "HOLA": "captured",
+        "NADA": "no_motion",
+    }
+    assert [(line["done"], line["total"]) for line in lines(result.stderr)] == [(0, 2), (1, 2), (2, 2)]
 
 
 @pytest.mark.parametrize(

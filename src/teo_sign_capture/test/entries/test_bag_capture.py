@@ -48,8 +48,8 @@ def test_a_bag_becomes_an_entry_with_a_picture(robot: Robot, settings: Settings,
     assert sign.provenance.standing == "recorded"
     assert sign.provenance.recorded == "2024-03-09"
     assert sign.provenance.source.startswith("SIGNO.mcap, sha256 ")
-    assert saved.picture == tmp_path / "pictures" / "SIGNO.png"
-    picture = cv2.imread(str(saved.picture))
+    assert saved.pictures == tuple(tmp_path / "pictures" / name for name in ("SIGNO.png", "SIGNO.mp4"))
+    picture = cv2.imread(str(saved.pictures[0]))
     # Two rows: the person who is drawn above, TEO below, neither empty.
     above, below = np.vsplit(picture[: 2 * (picture.shape[0] // 2)], 2)
     assert above.std() > 5.0
@@ -143,7 +143,7 @@ def test_a_picture_that_cannot_be_drawn_costs_no_entry(
     (tmp_path / "pictures").write_text("a file where the pictures should be")
     bag = write_bag(tmp_path / "SIGNO.mcap", slow())
     saved = capture_bags(robot, job(bag), replace(settings, pictures=tmp_path / "pictures"))
-    assert saved.picture is None
+    assert saved.pictures == ()
     assert "not drawn" in saved.warnings[-1]
     assert "SIGNO" in Lut.open(settings.table)
 

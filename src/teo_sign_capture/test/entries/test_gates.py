@@ -14,7 +14,7 @@ from typer.testing import CliRunner, Result
 
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
-from teo_sign_capture.entries.gates import accepted_standing, objections
+from teo_sign_capture.entries.gates import accepted_standing, judge, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import Cut, Take, capture_take
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
@@ -51,7 +51,7 @@ def run(*arguments: str | Path) -> Result:
 
 
 def test_a_sign_at_every_limit_is_taken() -> None:
-    assert objections(GOOD, duration=0.25, has_rest=True) == ()
+    assert objections(judge(GOOD, duration=0.25, has_rest=True)) == ()
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_a_sign_at_every_limit_is_taken() -> None:
 def test_a_sign_just_beyond_a_limit_is_refused_with_the_figure_and_the_limit(
     figure: str, value: float, code: str
 ) -> None:
-    (found,) = objections(GOOD | {figure: value}, duration=1.0, has_rest=True)
+    (found,) = objections(judge(GOOD | {figure: value}, duration=1.0, has_rest=True))
     assert found.code == code
     assert f"{value:g}" in found.message
     assert f"{GOOD[figure]:g}" in found.message
@@ -75,8 +75,8 @@ def test_a_sign_just_beyond_a_limit_is_refused_with_the_figure_and_the_limit(
 
 
 def test_everything_that_speaks_against_a_sign_is_said_at_once() -> None:
-    against = objections({"palm_error_p95_deg": 62.0, "lost_percent": 44.0}, duration=0.13, has_rest=False)
-    assert {found.code for found in against} == {"much_lost", "palm_off", "too_short", "no_rest"}
+    against = judge({"palm_error_p95_deg": 62.0, "lost_percent": 44.0}, duration=0.13, has_rest=False)
+    assert {found.code for found in objections(against)} == {"much_lost", "palm_off", "too_short", "no_rest"}
     with pytest.raises(LutError) as caught:
         accepted_standing("X", "recorded", against, accept=False)
     assert caught.value.code == "much_lost"
@@ -93,7 +93,7 @@ def test_everything_that_speaks_against_a_sign_is_said_at_once() -> None:
     ],
 )
 def test_accepting_costs_one_level_of_evidence(standing: str, after: str) -> None:
-    against = objections({}, duration=0.1, has_rest=True)
+    against = judge({}, duration=0.1, has_rest=True)
     assert accepted_standing("X", standing, against, accept=True) == after  # type: ignore[arg-type]
 
 

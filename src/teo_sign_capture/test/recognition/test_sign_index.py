@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from typer.testing import CliRunner, Result
 from teo_description import RIGHT_HAND
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
-from teo_sign_capture.entries.similar_signs import similar_sign_warnings
+from teo_sign_capture.entries.similar_signs import similar_signs
 from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance, sign_appearance
 from teo_sign_capture.recognition.sign_index import SignIndex
 from teo_signs.look_up_table import Lut, default_lut_directory
@@ -100,6 +101,8 @@ def test_what_was_captured_of_one_take_is_among_the_first_for_another(robot: Rob
     assert result.exit_code == 0, result.output
     named = [line.split()[0] for line in result.output.split("\n")[1:6]]
     assert "INVENTADA" in named[:3]
+    told = json.loads(run("recognise", bags[1], "--json").stdout)
+    assert [match["gloss"] for match in told["matches"]] == named
     refused = run("recognise", write_bag(tmp_path / "still.mcap", signing(moves=[], rate=15.0)))
     assert refused.exit_code == 1
     assert refused.output.startswith("no_motion")
@@ -114,14 +117,19 @@ def test_a_new_sign_that_is_nearly_another_is_warned_of(
     for sign in words[::20]:
         save_sign(tmp_path, sign, replace=True)
     save_sign(tmp_path, casa, replace=True)
-    assert similar_sign_warnings(robot, casa, tmp_path) == ()  # an entry made anew is not like itself
+    found = similar_signs(robot, casa, tmp_path)
+    assert "CASA" not in [one.gloss for one in found]  # an entry made anew is not like itself
     same = replace(casa, gloss="HOGAR")
-    assert any("CASA" in warning for warning in similar_sign_warnings(robot, same, tmp_path))
+    assert similar_signs(robot, same, tmp_path)[0].warning("HOGAR") == "HOGAR is the same motion as CASA."
     knots = casa.knots.copy()
     knots[:, casa.joints.index(RIGHT_HAND[3])] *= 0.5
     near = replace(casa, gloss="HOGAR", knots=knots)
-    (warning, *_) = similar_sign_warnings(robot, near, tmp_path)
-    assert "looks nearly like CASA" in warning or "same motion" in warning
+    nearest = similar_signs(robot, near, tmp_path)
+    assert nearest[0].gloss == "CASA"
+    assert "looks nearly like CASA" in str(nearest[0].warning("HOGAR"))
+    assert [one.seen for one in nearest] == sorted(one.seen for one in nearest)
     other = replace(words[0], gloss="OTRO")
-    assert not any("CASA" in warning for warning in similar_sign_warnings(robot, other, tmp_path))
-    assert similar_sign_warnings(robot, casa, tmp_path / "nowhere") == ()
+    assert not any(
+        one.warning("OTRO") for one in similar_signs(robot, other, tmp_path) if one.gloss == "CASA"
+    )
+    assert similar_signs(robot, casa, tmp_path / "nowhere") == ()
