@@ -23,14 +23,17 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_sim_driver import JointFollower, plain_trajectory
+from teo_sim_driver.parameters import DEFAULT_FOLLOWING_ERROR
 from teo_sim_driver.plants.physics import PhysicsPlant
 from teo_sim_driver.plants.plant import IdealPlant
 
 SENTENCES = 50
 PERIOD = 0.01  # [s]
 _SECOND = 1_000_000_000
-_AT_REST = 1.0  # [s] after the end of a sentence, for what sags
+_STILL = 1e-3  # [rad/s]; all joints of the body are asked to hold
+_SETTLED = 10  # steps of that after which they do
 _BODY = len(BODY_JOINTS)
+_FAULT = DEFAULT_FOLLOWING_ERROR
 _GRIPS = 1.0  # [N]; lighter touches are not counted
 
 
@@ -40,7 +43,7 @@ class Followed(NamedTuple):
     errors: NDArray[np.float64]
     """Of position at every step [rad]. Shape (steps, joints)."""
     sag: NDArray[np.float64]
-    """Of position a while after the end [rad]. Shape (joints,)."""
+    """The most of body and arms while they are to hold still [rad]. Shape (joints of the body,)."""
     torque: NDArray[np.float64]
     """The most of each servo [N m]. Shape (joints,)."""
     touched: dict[tuple[str, str], float]
@@ -73,28 +76,31 @@ def _followed(plan: Plan, plant: IdealPlant | PhysicsPlant) -> Followed:
         plain_trajectory(COMMANDED_JOINTS, plan.times, plan.positions, plan.velocities, plan.accelerations), 0
     )
     errors = []
+    sag, still = np.zeros(_BODY), 0
     torque = np.zeros(len(COMMANDED_JOINTS))
     touched: dict[tuple[str, str], float] = {}
     seconds = 0.0
-    for step in range(1, round((plan.duration + _AT_REST) / PERIOD) + 1):
+    for step in range(1, round(plan.duration / PERIOD) + 1):
         asked = follower.step(round(step * PERIOD * _SECOND))
         begin = time.thread_time()
         measured = plant.step(asked, PERIOD)
         seconds += time.thread_time() - begin
-        errors.append(measured.positions - asked.positions)
+        positions = plant.positions if isinstance(plant, PhysicsPlant) else measured.positions
+        errors.append(positions - asked.positions)
+        still = still + 1 if (np.abs(asked.velocities[:_BODY]) < _STILL).all() else 0
+        if still > _SETTLED:
+            sag = np.maximum(sag, np.abs(errors[-1][:_BODY]))
         if isinstance(plant, PhysicsPlant):
             torque = np.maximum(torque, np.abs(plant.torques))
             for contact in plant.contacts():
                 pair = (contact.first, contact.second)
                 touched[pair] = max(touched.get(pair, 0.0), contact.force)
-    return Followed(
-        np.array(errors[: -round(_AT_REST / PERIOD)]), errors[-1], torque, touched, seconds, plan.duration
-    )
+    return Followed(np.array(errors), sag, torque, touched, seconds, plan.duration)
 
 
 def _figures(followed: list[Followed], ideal: float) -> Iterator[Figure]:
     errors = np.abs(np.concatenate([each.errors for each in followed]))
-    sag = np.abs([each.sag for each in followed])
+    sag = np.max([each.sag for each in followed], axis=0)
     torque = np.max([each.torque for each in followed], axis=0)
     duration = sum(each.duration for each in followed)
     yield Figure(f"{len(followed)} sentences, {duration:.0f} s; ideal joints' error", f"{ideal:.0e} rad")
@@ -105,13 +111,17 @@ def _figures(followed: list[Followed], ideal: float) -> Iterator[Figure]:
             f"tracking error of the worst joint of {what}, by MuJoCo",
             f"median {p50:.2f}, p99 {p99:.2f}, most {errors[:, joints].max() * 1e3:.2f} mrad ({worst})",
         )
-        j = int(np.argmax(sag[:, joints].max(axis=0)))
-        yield Figure(
-            f"sag of {what}, {_AT_REST:g} s after the end",
-            f"most {sag[:, joints].max() * 1e3:.2f} mrad ({COMMANDED_JOINTS[joints][j]})",
-        )
         j = int(np.argmax(torque[joints]))
         yield Figure(f"torque of {what}", f"most {torque[joints][j]:.1f} N m ({COMMANDED_JOINTS[joints][j]})")
+    j = int(np.argmax(sag))
+    yield Figure(
+        "sag of body and arms while they are to hold still",
+        f"most {sag[j] * 1e3:.2f} mrad ({COMMANDED_JOINTS[j]})",
+    )
+    beyond = sum(bool((np.abs(each.errors[:, :_BODY]) > _FAULT).any()) for each in followed)
+    yield Figure(f"sentences that the driver ends in a fault, {_FAULT:g} rad", str(beyond))
+    stuck = [each for each in followed if (np.abs(each.errors[:, _BODY:]) > _FAULT).any()]
+    yield Figure(f"sentences in which a finger is kept back by over {_FAULT:g} rad", str(len(stuck)))
     forces: Counter[tuple[str, str]] = Counter()
     strongest: dict[tuple[str, str], float] = {}
     for each in followed:
@@ -129,8 +139,7 @@ def _figures(followed: list[Followed], ideal: float) -> Iterator[Figure]:
         _pressed(set(forces) - within, followed, strongest),
     )
     seconds = sum(each.plant_seconds for each in followed)
-    total = duration + _AT_REST * len(followed)
-    yield Figure("MuJoCo: simulated time for one second of one core", f"{total / seconds:.1f} s")
+    yield Figure("MuJoCo: simulated time for one second of one core", f"{duration / seconds:.1f} s")
 
 
 def _pressed(

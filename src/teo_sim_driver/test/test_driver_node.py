@@ -7,6 +7,7 @@ import time
 from array import array
 
 import numpy as np
+import pytest
 import rclpy
 from control_msgs.action import FollowJointTrajectory
 from control_msgs.msg import SpeedScalingFactor
@@ -23,6 +24,8 @@ from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
+from teo_sim_driver.errors import DriverError
+from teo_sim_driver.node.driver_node import DriverNode
 from teo_sim_driver.parameters import PARAMETERS
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -300,6 +303,19 @@ def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, 
     assert set_to("max_points", 5)
     bench.commands.publish(one_way())
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "too_many_points")
+
+
+def test_joints_with_mass_execute_a_trajectory(new_bench, one_way):
+    bench = new_bench(parameter_overrides=[Parameter("plant", value="mujoco")])
+    bench.commands.publish(one_way(duration=2.0, angle=-0.2))
+    bench.until(lambda: abs(bench.position("FrontalRightElbow") + 0.2) < 0.005)
+    assert bench.position("FrontalRightElbow") != -0.2  # nobody is where he was told to be to the last digit
+    bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
+
+
+def test_a_plant_that_is_not_known_is_refused(context):
+    with pytest.raises(DriverError, match="unknown_plant"):
+        DriverNode(context=context, parameter_overrides=[Parameter("plant", value="gazebo")])
 
 
 def test_parameters_may_be_given_at_the_start(new_bench, one_way):

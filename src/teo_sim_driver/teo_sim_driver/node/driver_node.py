@@ -225,5 +225,7 @@ def main(arguments: list[str] | None = None) -> None:
     sys.setswitchinterval(_SWITCH_INTERVAL)
     try:
         run_node(DriverNode, arguments)
-    except (DescriptionError, DriverError) as error:  # of a parameter that is read at the start
-        sys.exit(f"driver_node: {error}" if isinstance(error, DriverError) else f"driver_node: {error.code}: {error}")
+    except DescriptionError as error:  # of a parameter that is read at the start
+        sys.exit(f"driver_node: {error.code}: {error}")
+    except DriverError as error:  # likewise
+        sys.exit(f"driver_node: {error}")

@@ -17,23 +17,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, urdf_text
+from teo_description.joints import BODY_JOINTS
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.plants.servos import SERVOS
 
 # [s]; ten to a step of the driver. The servos' time constant is 16 of them.
 TIMESTEP = 0.001
 
-# Inertia of a motor's rotor, seen through its gear [kg m^2]. No figure of TEO's is public: a rotor of
-# 1e-5 kg m^2, as in flat motors of 50 W, behind the smallest gear of the arms, 100:1, and one of 1e-7 kg m^2
-# behind a finger's 968:1 both come to 0.1.
-ROTOR_INERTIA = 0.1
-
 # Of a phalanx that its tendon moves with another one [kg m^2]: keeps its bond to that one well conditioned.
 _FOLLOWER_INERTIA = 1e-3
 
-# Natural frequency of a servo at HOME [rad/s], 10 Hz, critically damped: a fifth of the rate at which the
-# real drives hear of set-points (50 Hz).
+# Natural frequency of a servo [rad/s], 10 Hz, critically damped: a fifth of the rate at which the real drives
+# hear of set-points (50 Hz).
 SERVO_FREQUENCY = 2.0 * np.pi * 10.0
+
+# Of an arm that signs [rad], for the inertia about its shoulder and wrist.
+_BENT_ELBOW = -1.5
+
+
+# Where the hands begin among the joints.
+_HANDS = len(BODY_JOINTS)
 
 
 class Contact(NamedTuple):
@@ -55,6 +59,7 @@ class PhysicsPlant:
         self._model = model = _model()
         self._data = mujoco.MjData(model)
         self._columns = np.array([model.joint(name).qposadr[0] for name in COMMANDED_JOINTS])
+        self._speeds = np.array([model.joint(name).dofadr[0] for name in COMMANDED_JOINTS])
         self._actuators = np.array([model.actuator(name).id for name in COMMANDED_JOINTS])
         # A servo is a spring about its set-point and a damper about 0: this much of the velocity that is
         # asked for, added to the set-point, makes it a damper about that velocity.
@@ -64,7 +69,10 @@ class PhysicsPlant:
         self._behind = 0.0
 
     def step(self, asked: MotionState, duration: float) -> MotionState:
-        """Move for so long; what is asked for is interpolated, as the real drives do."""
+        """Move for so long; what is asked for is interpolated, as the real drives do.
+
+        Hands say that they are where they were told to be: the real Dextra measures nothing.
+        """
         self._behind += duration
         steps = round(self._behind / TIMESTEP)
         self._behind -= steps * TIMESTEP
@@ -75,9 +83,20 @@ class PhysicsPlant:
             velocity = before.velocities + part * (asked.velocities - before.velocities)
             self._data.ctrl[self._actuators] = position + self._lead * velocity
             mujoco.mj_step(self._model, self._data)
+        moved = self._data.qpos, self._data.qvel, self._data.qacc
+        places = self._columns, self._speeds, self._speeds
         return MotionState(
-            self._data.qpos[self._columns], self._data.qvel[self._columns], self._data.qacc[self._columns]
+            *(
+                np.concatenate([values[place[:_HANDS]], told[_HANDS:]])
+                for values, place, told in zip(moved, places, asked, strict=True)
+            )
         )
+
+    @property
+    def positions(self) -> FloatArray:
+        """Where the joints are, hands too [rad]. Shape (joints,)."""
+        positions: FloatArray = self._data.qpos[self._columns]
+        return positions
 
     @property
     def torques(self) -> FloatArray:
@@ -107,10 +126,12 @@ def _model() -> mujoco.MjModel:
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # damping of servos is stiff
     for joint in spec.joints:
-        if joint.name in ALL_JOINTS:
-            joint.armature = ROTOR_INERTIA
-        else:  # a phalanx's friction is that of the one that it follows
-            joint.armature, joint.frictionloss = _FOLLOWER_INERTIA, 0.0
+        if joint.name in SERVOS:
+            joint.armature, joint.actfrclimited = SERVOS[joint.name].inertia, False
+        if joint.name not in BODY_JOINTS:
+            joint.frictionloss = 0.0  # a hand's is that of its motors; legs hang still
+        if joint.name not in ALL_JOINTS:
+            joint.armature = _FOLLOWER_INERTIA
     bare = spec.compile()
     data = mujoco.MjData(bare)
     _stand(bare, data)
@@ -119,18 +140,29 @@ def _model() -> mujoco.MjModel:
     built |= {(bare.body(parent[parent[i]]).name, bare.body(i).name) for i in range(1, bare.nbody)}
     for first, second in built:
         spec.add_exclude(bodyname1=first, bodyname2=second)
-    mass = np.zeros((bare.nv, bare.nv))
-    mujoco.mj_fullM(bare, data, mass)
+    inertias = _inertias(bare, data)
     for name in ALL_JOINTS:
-        joint = bare.joint(name)
-        inertia = mass[joint.dofadr[0], joint.dofadr[0]]
+        inertia = inertias[bare.joint(name).dofadr[0]]
         stiffness, damping = inertia * SERVO_FREQUENCY**2, 2.0 * inertia * SERVO_FREQUENCY
-        effort = bare.jnt_actfrcrange[joint.id]
-        servo = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-        servo.gainprm[0], servo.biastype = stiffness, mujoco.mjtBias.mjBIAS_AFFINE
-        servo.biasprm[:3] = 0.0, -stiffness, -damping
-        servo.forcelimited, servo.forcerange = True, effort
+        actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        actuator.gainprm[0], actuator.biastype = stiffness, mujoco.mjtBias.mjBIAS_AFFINE
+        actuator.biasprm[:3] = 0.0, -stiffness, -damping
+        if name in SERVOS:
+            actuator.forcelimited, actuator.forcerange = True, (-SERVOS[name].torque, SERVOS[name].torque)
     return spec.compile()
+
+
+def _inertias(model: mujoco.MjModel, data: mujoco.MjData) -> FloatArray:
+    """The most that each joint has to turn, elbows straight or bent [kg m^2]. Shape (nv,)."""
+    found = []
+    for angle in (0.0, _BENT_ELBOW):
+        for side in ("Left", "Right"):
+            data.joint(f"Frontal{side}Elbow").qpos[0] = angle
+        mujoco.mj_forward(model, data)
+        mass = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, data, mass)
+        found.append(mass.diagonal())
+    return np.asarray(np.max(found, axis=0))
 
 
 def _bodies(model: mujoco.MjModel, contact: mujoco.MjContact) -> tuple[str, str]:
