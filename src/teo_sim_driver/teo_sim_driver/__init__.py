@@ -8,6 +8,7 @@ from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.trajectory import MotionState, Trajectory
+from teo_sim_driver.position_direct import PositionDirect, position_direct
 from teo_sim_driver.rules import Rules
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "Mode",
     "MotionState",
     "PlainTrajectory",
+    "PositionDirect",
     "Refusal",
     "Rules",
     "Scheduled",
@@ -25,5 +27,6 @@ __all__ = [
     "TrajectoryError",
     "TrajectoryLike",
     "plain_trajectory",
+    "position_direct",
     "validate",
 ]

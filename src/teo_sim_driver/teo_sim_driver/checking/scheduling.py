@@ -23,6 +23,16 @@ from teo_sim_driver.rules import REST_VELOCITY, Rules
 # in which joints that are a little beside the path, as the sender could not know, cannot be back on it.
 _SOONEST = 0.005
 
+# How much a start may be shifted to where the robot is as the first point says [s]: two joint states and the
+# way of a message.
+_LONGEST_SHIFT = 0.025
+
+# A robot that is slower than this does not tell by its place what time it is [rad/s].
+_SLOW = 0.02
+
+# Newton's method is there after two steps, or four where the path is executed at half the speed.
+_STEPS_TO_MEET = 4
+
 _START = Codes(Refusal.START_LEAVES_LIMITS, Refusal.START_TOO_FAST, Refusal.START_TOO_FAST)
 
 
@@ -59,6 +69,8 @@ def schedule(
         TrajectoryError: with one reason, the first found; nothing of the message may be executed.
     """
     delay, passed = _schedule(points, now, rules)
+    if points.times[0] == 0 and passed == 0:
+        delay, passed = _where_they_meet(points, delay, state_in)
     start = state_in(delay).of_joints(points.columns)
     limits = of_joints(limits, points.columns)
     due = _times_from_start(points, passed)
@@ -110,6 +122,36 @@ def _schedule(points: Points, now: int, rules: Rules) -> tuple[float, int]:
             "check that the clocks agree",
         )
     return max(ahead, 0) / SECOND, max(-ahead, 0)
+
+
+def _where_they_meet(
+    points: Points, delay: float, state_in: Callable[[float], MotionState]
+) -> tuple[float, int]:
+    """When the robot, in motion, is where the first point says that it is: a little sooner or later.
+
+    A sender knows the place of a robot in motion from joint states, some milliseconds late, and its clock is
+    another one. To be exactly where it says at exactly that time, the robot would have to leap.
+
+    Args:
+        points: Of which the first is due at the start.
+        delay: Until the start, as asked for [s].
+        state_in: The state of all commanded joints in so many seconds from now.
+
+    Returns:
+        Delay until the start [s], and how long ago the start was [ns]; one of them is 0.
+    """
+    moment = delay
+    for _ in range(_STEPS_TO_MEET):
+        state = state_in(max(moment, 0.0)).of_joints(points.columns)
+        speed = float(state.velocities @ state.velocities)
+        if speed < _SLOW**2:
+            return delay, 0
+        ago = min(moment, 0.0)
+        here = state.positions + ago * (state.velocities + 0.5 * ago * state.accelerations)
+        behind = points.positions[0] - here
+        moment += float(np.clip(behind @ state.velocities / speed, -_LONGEST_SHIFT, _LONGEST_SHIFT))
+    moment = float(np.clip(moment, delay - _LONGEST_SHIFT, delay + _LONGEST_SHIFT))
+    return max(moment, 0.0), round(max(-moment, 0.0) * SECOND)
 
 
 def _times_from_start(points: Points, passed: int) -> FloatArray:
