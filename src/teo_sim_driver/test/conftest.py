@@ -116,7 +116,9 @@ class Bench:
 
     def __init__(self, context, **driver_arguments):
         self.driver = DriverNode(context=context, **driver_arguments)
-        self.client = rclpy.create_node("client", context=context)
+        self.client = rclpy.create_node(
+            "client", context=context, namespace=driver_arguments.get("namespace")
+        )
         self.executor = SingleThreadedExecutor(context=context)
         self.executor.add_node(self.driver)
         self.executor.add_node(self.client)
