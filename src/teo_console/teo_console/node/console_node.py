@@ -19,6 +19,8 @@ from rclpy.parameter import Parameter
 from teo_common.node_process import run_node
 from teo_common.package_files import package_path
 from teo_common.parameters import declare_parameters
+from teo_console.api.routes import all_routes
+from teo_console.api.workbench import Folders, Workbench
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
 from teo_console.node.bridge import Bridge
@@ -95,12 +97,20 @@ class ConsoleNode(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     def _make_app(self) -> web.Application:
-        return make_app(
+        workbench = Workbench(Folders.of_user())
+
+        async def clear_up(_: web.Application) -> None:
+            await workbench.close()
+
+        app = make_app(
             web_folder=package_path("teo_console", "web"),
             access=self._access,
             hub=self._hub,
             urdf=lambda: self._observer.urdf,
+            routes=all_routes(workbench),
         )
+        app.on_cleanup.append(clear_up)
+        return app
 
     def _count_pages(self, pages: int) -> None:
         self._pages = pages
