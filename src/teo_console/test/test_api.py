@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""/api against what is sent to it: reviews stay blind, hostile uploads and nonsense are refused, nothing is kept."""
+"""/api against what is sent to it: reviews stay blind, hostile uploads are refused, nothing is kept."""
 
 from __future__ import annotations
 
