@@ -34,6 +34,9 @@ _REACH = 0.52
 # Hands rest lower than this below the shoulders: in the lap, folded before the belly, hanging. The space in
 # which people sign ends at the waist.
 _LOW = 0.6
+# Wrists lower than this are below the waist, on arms that hang: what is forward of such a hand follows, in a
+# film without depth, from an arm that seems a little too short, and tells nothing.
+_HANGS = 0.75
 # Rest is no higher than this above the lowest place.
 _REST_BAND = 0.25
 # A hand this far from rest has left it; one this near has returned: 10 and 8 cm. Hands at rest sway by 3.
@@ -195,7 +198,9 @@ def _distance_from_rest(track: SkeletonTrack, side: str, reach: float) -> Array:
     lowest = float(np.nanpercentile(height, 5.0))
     resting = known & (height < min(-_LOW, lowest + _REST_BAND)) & (_speed(track, [side]) < _SLOW)
     if resting.any():
-        distance: Array = np.linalg.norm(wrist - np.median(wrist[resting], axis=0), axis=-1)
+        way = wrist - np.median(wrist[resting], axis=0)
+        way[height < -_HANGS, 0] = 0.0
+        distance: Array = np.linalg.norm(way, axis=-1)
     else:  # never seen at rest: how far it is above the space where hands rest
         distance = np.maximum(height + _LOW + _LEAVES, 0.0)
     for first, last in runs(~known):
