@@ -13,7 +13,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -22,12 +22,13 @@ import planning
 from report import Figure
 
 from teo_common.text_folding import without_accents
-from teo_description import COMMANDED_JOINTS
+from teo_description import COMMANDED_JOINTS, DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
+from teo_motion.sentence.rest_posture import REST
+from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_translator.data_files import data_file
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import Lexicon
@@ -38,6 +39,7 @@ from teo_signs.tokens import Kind, Token
 NAMES, WORDS = 200, 1000
 _SHORTEST, _LONGEST = 3, 10
 _BATCH = 25
+_OTHERS = tuple(drive for drive in HAND_DRIVES if drive != DEFAULT_HAND_DRIVE)
 
 
 class Word(NamedTuple):
@@ -62,6 +64,7 @@ def measure() -> list[Figure]:
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         now = pool.map(spelled, words, chunksize=10)
         before = pool.map(_spelled_as_captured, words, chunksize=10)
+        drives = {drive: pool.map(partial(spelled, drive=drive), words, chunksize=10) for drive in _OTHERS}
         shares = [range(begin, begin + _BATCH) for begin in range(0, WORDS, _BATCH)]
         checked = pool.map(_random_words, shares)
     slowest = [joint for word in now for joint in word.joints]
@@ -71,6 +74,7 @@ def measure() -> list[Figure]:
     return [
         Figure(what, _figure(now)),
         Figure("baseline: letters as captured and held", _figure(before)),
+        *(Figure(f"with the hand drive {drive}", _figure(other)) for drive, other in drives.items()),
         Figure(f"slowest joint, of {len(slowest)} ways", joints),
         Figure(
             f"{WORDS} random words of {_SHORTEST} to {_LONGEST} letters",
@@ -94,9 +98,9 @@ def names() -> list[list[str]]:
     return words[:NAMES]
 
 
-def spelled(letters: list[str]) -> Word:
-    """Plan a word with the alphabet as it is."""
-    return _timed([Token(gloss=letter, kind=Kind.LETTER) for letter in letters], _planner(), _alphabet())
+def spelled(letters: list[str], drive: str = DEFAULT_HAND_DRIVE) -> Word:
+    """Plan a word with the alphabet as it is, for a hand with this drive."""
+    return _timed([Token(gloss=letter, kind=Kind.LETTER) for letter in letters], _planner(drive), _alphabet())
 
 
 def _spelled_as_captured(letters: list[str]) -> Word:
@@ -115,7 +119,7 @@ def _timed(tokens: list[Token], planner: Planner, table: dict[str, Sign]) -> Wor
     plan = planner.plan(tokens)
     first, last = plan.timings[0], plan.timings[-1]
     limits = planner.limits
-    signed = choose_postures(Lexicon(table).resolve(tokens), start=REST, limits=limits)
+    signed = choose_postures(Lexicon(table).resolve(tokens), start=REST, end=REST, limits=limits)
     ways, joints = 0.0, []
     for one, other in pairwise([item.sign for item in signed]):
         assert one is not None and other is not None
@@ -174,8 +178,8 @@ def _captured() -> dict[str, Sign]:
 
 
 @cache
-def _planner() -> Planner:
-    return Planner(_alphabet(), robot=_robot())
+def _planner(drive: str = DEFAULT_HAND_DRIVE) -> Planner:
+    return Planner(_alphabet(), robot=_robot(), limits=MotionLimits.of_robot(hand_drive=drive))
 
 
 def main() -> None:

@@ -30,7 +30,8 @@ from std_msgs.msg import String
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
 
 from teo_bringup.graph import NODES, executable_of
-from teo_description import ALL_JOINTS, HOME, joint_limits
+from teo_description import ALL_JOINTS, COMMANDED_JOINTS, joint_limits
+from teo_motion.sentence.rest_posture import REST_POSITIONS
 
 KILLS = 20
 _TEXT = "Hola. Me llamo Al. ¿Tú comer?"
@@ -72,9 +73,11 @@ class _Witness(Node):
 
     @property
     def at_rest(self) -> bool:
-        """Whether the robot is at home and the executor says that all is done."""
-        home = np.array([HOME[name] for name in ALL_JOINTS])
-        there = bool(self.states) and bool(np.abs(self.states[-1][1] - home).max() < _AT_REST)
+        """Whether the robot is at rest and the executor says that all is done."""
+        columns = [ALL_JOINTS.index(name) for name in COMMANDED_JOINTS]
+        there = bool(self.states) and any(
+            np.abs(self.states[-1][1][columns] - rest).max() < _AT_REST for rest in REST_POSITIONS.values()
+        )
         return there and self.state == ExecutorStatus.STATE_IDLE
 
     def fastest(self) -> float:

@@ -32,6 +32,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from teo_bringup.graph import Graph
 from teo_description import COMMANDED_JOINTS, HOME
+from teo_motion.sentence.rest_posture import REST
 
 SENTENCES = 200
 _TEXTS = (
@@ -130,7 +131,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
         joints.publish(state)
 
     def ends_at_rest(message: JointTrajectory) -> bool:
-        return bool(np.allclose(message.points[-1].positions, [HOME[name] for name in COMMANDED_JOINTS]))
+        return bool(np.allclose(message.points[-1].positions, REST))
 
     def wait(condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + _TIMEOUT

@@ -26,8 +26,8 @@ from teo_lut_executor.execution.events import (
 )
 from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.sign import Sign

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`start`: translator, executor and driver under one command, until it is told to end or one of them ends."""
+"""`start`: what signs, and the console if asked for, until it is told to end or one of them ends."""
 
 from __future__ import annotations
 
@@ -34,16 +34,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, _raise_told_to_end)
     try:
-        status = _run(["--ros-args", "--params-file", str(given.params_file), *ros_arguments])
+        arguments_of_nodes = ["--ros-args", "--params-file", str(given.params_file), *ros_arguments]
+        status = _run(arguments_of_nodes, view=given.view)
     except GraphError as error:
         sys.exit(f"start: {error}")
     sys.exit(status)
 
 
-def _run(arguments: Sequence[str]) -> int:
+def _run(arguments: Sequence[str], *, view: bool) -> int:
     with Graph() as graph:
         try:
-            graph.start_nodes(arguments)
+            graph.start_nodes(arguments, view=view)
             name, status = graph.wait()
         except _ToldToEndError as told:
             graph.tell_to_end(signal.SIGTERM if told.number == signal.SIGHUP else told.number)
@@ -67,6 +68,9 @@ def _parser() -> argparse.ArgumentParser:
         type=_existing_file,
         default=Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml",
         help="parameters of the nodes; those of teo_bringup if not given",
+    )
+    parser.add_argument(
+        "--view", action="store_true", help="start the console too, which says where its page is"
     )
     return parser
 

@@ -47,6 +47,15 @@ def test_every_node_that_signs_is_installed() -> None:
         assert executable_of(package, executable).is_file()
 
 
+@pytest.mark.parametrize("view", [False, True])
+def test_the_console_is_started_where_it_is_asked_for(view: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[str] = []
+    monkeypatch.setattr(Graph, "start", lambda *given: started.append(given[1]))
+    with Graph() as graph:
+        graph.start_nodes(view=view)
+    assert started == [*NODES, *(["console"] if view else [])]
+
+
 def test_a_package_or_executable_that_is_not_there_is_named() -> None:
     with pytest.raises(GraphError, match="teo_nowhere"):
         executable_of("teo_nowhere", "node")

@@ -110,9 +110,10 @@ def test_every_configuration_is_declared_and_the_parameter_file_is_there(actions
     assert used == set(declared)
 
 
-def test_there_is_one_for_signing_for_seeing_and_for_learning() -> None:
+def test_there_is_one_for_signing_seeing_learning_and_showing() -> None:
     assert [path.name for path in LAUNCH_FILES] == [
         "capture.launch.py",
+        "console.launch.py",
         "retriever.launch.py",
         "signing.launch.py",
     ]

@@ -3,6 +3,7 @@
 """TEO's robot description: URDF, joint groups, limits, self-collision and a renderer without a display."""
 
 from teo_description.errors import DescriptionError
+from teo_description.hand_drives import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_description.home import HOME
 from teo_description.joints import (
     ALL_JOINTS,
@@ -25,6 +26,8 @@ __all__ = [
     "ALL_JOINTS",
     "BODY_JOINTS",
     "COMMANDED_JOINTS",
+    "DEFAULT_HAND_DRIVE",
+    "HAND_DRIVES",
     "HEAD",
     "HOME",
     "LEFT_ARM",

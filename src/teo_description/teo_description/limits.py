@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 
 from teo_common.package_files import package_path
 from teo_description.errors import DescriptionError
+from teo_description.hand_drives import DEFAULT_HAND_DRIVE
 from teo_description.joints import COMMANDED_JOINTS, check_joint_names
+from teo_description.urdf.urdf_writer import urdf
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,21 +50,33 @@ def urdf_path() -> Path:
 
 
 @cache
-def urdf_text() -> str:
-    """TEO's URDF."""
-    return urdf_path().read_text(encoding="utf-8")
+def urdf_text(hand_drive: str = DEFAULT_HAND_DRIVE) -> str:
+    """TEO's URDF, with the velocity limits of a hand drive.
+
+    Args:
+        hand_drive: One of `HAND_DRIVES`. Only the default one stands in a file.
+
+    Raises:
+        DescriptionError: ``unknown_hand_drive``, ``urdf_missing``.
+    """
+    return urdf_path().read_text(encoding="utf-8") if hand_drive == DEFAULT_HAND_DRIVE else urdf(hand_drive)
 
 
 @cache
 def description_hash() -> str:
-    """SHA-256 of the URDF text (UTF-8), in hexadecimal: names the robot that a trajectory was made for."""
-    return hashlib.sha256(urdf_text().encode("utf-8")).hexdigest()
+    """SHA-256, in hexadecimal, of what joint angles are made for: names the robot of a sign.
+
+    It is that of the canonical URDF (C14N 2.0, UTF-8) without comments, white space and limits of velocity
+    and effort: a sign looks the same on a robot that is faster or stronger.
+    """
+    text = ET.canonicalize(urdf_text(), strip_text=True, exclude_attrs=["velocity", "effort"])
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
 @cache
-def _limits() -> Mapping[str, tuple[float, float, float]]:
+def _limits(hand_drive: str) -> Mapping[str, tuple[float, float, float]]:
     limits = {}
-    for joint in ET.fromstring(urdf_text()).iter("joint"):
+    for joint in ET.fromstring(urdf_text(hand_drive)).iter("joint"):
         limit = joint.find("limit")
         if limit is not None and joint.find("mimic") is None:
             lower, upper, velocity = (float(limit.attrib[key]) for key in ("lower", "upper", "velocity"))
@@ -70,17 +84,20 @@ def _limits() -> Mapping[str, tuple[float, float, float]]:
     return limits
 
 
-def joint_limits(names: Sequence[str] = COMMANDED_JOINTS) -> JointLimits:
+def joint_limits(
+    names: Sequence[str] = COMMANDED_JOINTS, *, hand_drive: str = DEFAULT_HAND_DRIVE
+) -> JointLimits:
     """Limits of the named joints.
 
     Args:
         names: Joints among `ALL_JOINTS`, in the order wanted.
+        hand_drive: One of `HAND_DRIVES`.
 
     Raises:
-        DescriptionError: ``unknown_joint``.
+        DescriptionError: ``unknown_joint``, ``unknown_hand_drive``.
     """
     check_joint_names(names)
-    table = _limits()
+    table = _limits(hand_drive)
     values = np.array([table[name] for name in names], dtype=np.float64).reshape(-1, 3)
     values.setflags(write=False)
     return JointLimits(names=tuple(names), lower=values[:, 0], upper=values[:, 1], velocity=values[:, 2])

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import hashlib
 import math
 import xml.etree.ElementTree as ET
 
@@ -14,7 +13,10 @@ from teo_description import (
     ALL_JOINTS,
     COMMANDED_JOINTS,
     HOME,
+    LEFT_HAND,
+    RIGHT_HAND,
     DescriptionError,
+    description_hash,
     joint_limits,
     urdf_path,
     urdf_text,
@@ -80,7 +82,8 @@ def test_limits_are_the_published_ones():
     assert limits.names == ALL_JOINTS
     assert np.array_equal(limits.lower, expected[:, 0])
     assert np.array_equal(limits.upper, expected[:, 1])
-    assert np.array_equal(limits.velocity, np.full(40, math.radians(50.0)))
+    body = np.array([name not in LEFT_HAND + RIGHT_HAND for name in ALL_JOINTS])
+    assert np.array_equal(limits.velocity[body], np.full(28, math.radians(50.0)))
 
 
 def test_limits_come_in_the_order_asked_for_and_cannot_be_changed():
@@ -185,5 +188,19 @@ def test_shapes_are_primitives_only(tree):
     assert kinds == {"box", "cylinder", "sphere"}
 
 
-def test_hash_names_the_text():
-    assert teo_description.description_hash() == hashlib.sha256(urdf_path().read_bytes()).hexdigest()
+@pytest.mark.parametrize(
+    ("old", "new", "same"),
+    [
+        ('velocity="0.87', 'velocity="0.97', True),
+        ('effort="30"', 'effort="40"', True),
+        ("Units: m, rad", "Units: metre, rad", True),
+        ('lower="-1.0471975511965976"', 'lower="-1.0471975511965977"', False),
+        ('axis xyz="0 0 1"', 'axis xyz="0 0 -1"', False),
+        ('box size="0.1', 'box size="0.2', False),
+    ],
+)
+def test_hash_names_what_joint_angles_are_made_for(monkeypatch, old, new, same):
+    changed = urdf_text().replace(old, new, 1)
+    assert changed != urdf_text()
+    monkeypatch.setattr(teo_description.limits, "urdf_text", lambda: changed)
+    assert (teo_description.limits.description_hash.__wrapped__() == description_hash()) is same

@@ -363,6 +363,7 @@ def test_parameters_are_checked_and_take_effect_with_the_next_sentence(graph: Gr
     assert not change("acceleration", -1.0)
     assert not change("least_standing", "guessed")
     assert not change("lut_directory", 1.0)
+    assert not change("hand_drive", "hydraulic")
     assert change("posture_hold", 1.5) and change("acceleration", 2.0) and change("jerk", 10.0)
     graph.publish(graph.sentence("NOD"))
     graph.rest(signed=1)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -13,11 +14,11 @@ from hypothesis import strategies as st
 
 from teo_description import COMMANDED_JOINTS
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
-from teo_signs.look_up_table import Lut
+from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
@@ -210,3 +211,16 @@ def test_lower_limits_are_kept_too(random_table: Callable[..., dict[str, Sign]],
     assert (np.abs(view.accelerations) <= 1.0).all() and (np.abs(view.velocities) <= limits.velocity).all()
     assert max(motion.extremes().jerk for motion in plan.motions) <= 4.0 * (1.0 + 1e-9)
     assert (np.abs(view.jerks) <= 4.0 * (1.0 + 1e-6)).all()
+
+
+def test_fingers_of_a_slower_drive_are_waited_for() -> None:
+    table = dict(Lut.open(default_lut_directory()).items())
+    tokens = [Token(gloss=letter, kind=Kind.LETTER) for letter in "AB"]
+    finger = COMMANDED_JOINTS.index("RightIndexFinger")
+    # A finger without load at 968:1 with the slowest motors: 13 rpm, 4.5 mm, 78 deg for 20 mm.
+    most = math.radians(13.0 / 60.0 * math.tau * 4.5 * 78.0 / 20.0)
+    usual = Planner(table).plan(tokens)
+    slow = Planner(table, limits=MotionLimits.of_robot(hand_drive="spool_1000")).plan(tokens)
+    assert np.abs(usual.velocities[:, finger]).max() > most
+    assert np.abs(slow.velocities[:, finger]).max() <= most
+    assert slow.duration > usual.duration + 1.0

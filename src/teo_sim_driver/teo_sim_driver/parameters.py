@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
+from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_sim_driver.joint_follower import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
 from teo_sim_driver.plant import Faults
 from teo_sim_driver.rules import Rules
@@ -115,6 +116,13 @@ PARAMETERS = (
         description=(
             "Whether the node configures and activates itself, so that it works without a lifecycle manager."
         ),
+        read_only=True,
+    ),
+    ParameterRow(
+        name="hand_drive",
+        default=DEFAULT_HAND_DRIVE,
+        choices=tuple(HAND_DRIVES),
+        description="Gearmotors of the hands, which limit the speed of their axes.",
         read_only=True,
     ),
     *RULE_PARAMETERS,

@@ -290,9 +290,14 @@ def test_a_parameter_out_of_range_is_refused_and_a_good_one_takes_effect(bench, 
     bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "too_many_points")
 
 
-def test_parameters_may_be_given_at_the_start(new_bench):
-    bench = new_bench(parameter_overrides=[Parameter("update_rate", value=50)])
+def test_parameters_may_be_given_at_the_start(new_bench, one_way):
+    drive = Parameter("hand_drive", value="spool_1000")
+    bench = new_bench(parameter_overrides=[Parameter("update_rate", value=50), drive])
     del bench.states[:]
     begin = time.monotonic()
     bench.until(lambda: len(bench.states) > 25)
     assert time.monotonic() - begin > 0.45
+    # Four fifths of what a finger does by default.
+    bench.commands.publish(one_way(joint="RightIndexFinger", angle=np.radians(39.0), duration=1.875))
+    bench.until(lambda: bench.diagnostics and bench.said("last refusal code") == "velocity_limit")
+    assert "RightIndexFinger" in bench.said("last refusal")

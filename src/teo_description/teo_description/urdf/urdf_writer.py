@@ -4,21 +4,16 @@
 
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
+from teo_description.hand_drives import BODY_SPEED, DEFAULT_HAND_DRIVE, hand_speeds
 from teo_description.urdf import figures as tables
 from teo_description.urdf.figures import FixedFrame, Inertial, JointRow, Vector
 from teo_description.urdf.solids import Solid, collision_solids, uniform_inertial, visual_solids
 
 ROBOT_NAME = "teo"
 ROOT_LINK = "base_link"
-
-# Greatest speed of every joint [rad/s]. Body, arms, head: maxVel of nodes/common-ipos.ini. Fingers: what the
-# newer drive of the hand does under load, which happens to be the same; see "How fast the hands are" in the
-# README. Thumb and its abductor could be several times as fast; sentences would be 2 % shorter.
-VELOCITY_LIMIT = math.radians(50.0)
 
 # A placeholder [N m]: URDF demands a figure and none is published for the real joints.
 EFFORT_PLACEHOLDER = 30.0
@@ -33,12 +28,21 @@ _HEAD_COMMENT = """
   TEO, the humanoid of Universidad Carlos III de Madrid, with two Dextra hands. Written by `build_urdf` from
   the tables in teo_description/data, where every figure names its source: do not edit.
   Units: m, rad, kg. x forward, y left, z up. Joint effort limits and the hands' masses are placeholders.
-  Velocity limits: 50 deg/s on every axis. Phalanges beyond the first follow it (mimic).
+  Velocity limits: 50 deg/s; of hand axes what their drive does under load ("How fast the hands are" in the
+  README). Phalanges beyond the first follow it (mimic).
   """
 
 
-def urdf() -> str:
-    """Build the URDF text, ending in a newline."""
+def urdf(hand_drive: str = DEFAULT_HAND_DRIVE) -> str:
+    """Build the URDF text, ending in a newline.
+
+    Args:
+        hand_drive: One of `HAND_DRIVES`.
+
+    Raises:
+        DescriptionError: ``unknown_hand_drive``.
+    """
+    speeds = hand_speeds(hand_drive)
     root = ET.Element("robot", name=ROBOT_NAME)
     root.append(ET.Comment(_HEAD_COMMENT))
     for name, colour in tables.materials().items():
@@ -56,10 +60,10 @@ def urdf() -> str:
     )
     _add_link(root, "root_link", inertials["root_link"], shapes)
     for joint in tables.body_joints():
-        _add_joint(root, joint)
+        _add_joint(root, joint, BODY_SPEED)
         _add_link(root, f"{joint.name}_link", inertials[f"{joint.name}_link"], shapes)
     for side in ("Left", "Right"):
-        _add_hand(root, side, shapes)
+        _add_hand(root, side, shapes, speeds)
     for frame in tables.fixed_frames():
         ET.SubElement(root, "link", name=frame.name)
         _add_fixed(root, frame)
@@ -68,7 +72,9 @@ def urdf() -> str:
     return '<?xml version="1.0"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _add_hand(root: ET.Element, side: str, shapes: Iterable[tables.Shape]) -> None:
+def _add_hand(
+    root: ET.Element, side: str, shapes: Iterable[tables.Shape], speeds: Mapping[str, float]
+) -> None:
     palm = f"{side}Hand_link"
     # The Dextra's base frame is the wrist's last link frame (dextra-yarp-devices).
     mount = FixedFrame(name=palm, parent=f"Frontal{side}Wrist_link", origin=(0, 0, 0), rpy=(0, 0, 0))
@@ -76,7 +82,7 @@ def _add_hand(root: ET.Element, side: str, shapes: Iterable[tables.Shape]) -> No
     _add_link(root, palm, uniform_inertial(PALM_MASS, collision_solids(shapes, palm)), shapes)
     for joint in tables.hand_joints(side):
         link = f"{joint.name}_link"
-        _add_joint(root, joint)
+        _add_joint(root, joint, speeds[joint.follows or joint.name] * abs(joint.multiplier))
         _add_link(root, link, uniform_inertial(PHALANX_MASS, collision_solids(shapes, link)), shapes)
 
 
@@ -107,7 +113,7 @@ def _add_solid(element: ET.Element, solid: Solid) -> None:
         ET.SubElement(element, "material", name=solid.material)
 
 
-def _add_joint(root: ET.Element, joint: JointRow) -> None:
+def _add_joint(root: ET.Element, joint: JointRow, speed: float) -> None:
     element = ET.SubElement(root, "joint", name=joint.name, type="revolute")
     ET.SubElement(element, "parent", link=joint.parent)
     ET.SubElement(element, "child", link=f"{joint.name}_link")
@@ -119,7 +125,7 @@ def _add_joint(root: ET.Element, joint: JointRow) -> None:
         # Every digit: the limits read back are exactly math.radians() of the published degrees.
         lower=repr(joint.lower),
         upper=repr(joint.upper),
-        velocity=repr(VELOCITY_LIMIT),
+        velocity=repr(speed),
         effort=_number(EFFORT_PLACEHOLDER),
     )
     ET.SubElement(element, "dynamics", damping=_number(DAMPING), friction=_number(FRICTION))

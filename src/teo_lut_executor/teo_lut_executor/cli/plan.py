@@ -18,7 +18,7 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
-from teo_description import DescriptionError
+from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES, DescriptionError
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan, sample_at
@@ -81,6 +81,9 @@ def _plan(
         float, typer.Option(help="Greatest acceleration of every joint [rad/s^2].")
     ] = DEFAULT_ACCELERATION,
     jerk: Annotated[float, typer.Option(help="Greatest jerk of every joint [rad/s^3].")] = DEFAULT_JERK,
+    hand_drive: Annotated[
+        str, typer.Option(help=f"Gearmotors of the hands: {', '.join(HAND_DRIVES)}.")
+    ] = DEFAULT_HAND_DRIVE,
     left: Annotated[
         bool, typer.Option("--left", help="Sign as a left-handed signer: every sign as its mirror image.")
     ] = False,
@@ -94,7 +97,7 @@ def _plan(
     Example: plan "TÚ AGUA BEBER?" --csv plan.csv --strip plan.png
     """
     try:
-        limits = MotionLimits.of_robot(acceleration=acceleration, jerk=jerk)
+        limits = MotionLimits.of_robot(acceleration=acceleration, jerk=jerk, hand_drive=hand_drive)
         signs, robot = Lut.open(lut), Robot.load()
         planner = Planner(MirroredSigns(signs, robot) if left else signs, limits=limits, robot=robot)
         tokens = parse_printed(without_marks(sentence))

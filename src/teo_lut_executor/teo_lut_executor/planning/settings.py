@@ -8,8 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from teo_description import DEFAULT_HAND_DRIVE
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD, Planner
+from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_signs.lexicon import DEFAULT_STANDING
@@ -27,6 +29,7 @@ class PlannerSettings:
         left_handed: Whether signs are mirrored.
         acceleration: Greatest of every joint [rad/s^2].
         jerk: Greatest of every joint [rad/s^3].
+        hand_drive: Gearmotors of the hands, one of `HAND_DRIVES`.
     """
 
     lut_directory: Path | None = None
@@ -35,9 +38,11 @@ class PlannerSettings:
     style: SigningStyle = field(default_factory=SigningStyle)
     acceleration: float = DEFAULT_ACCELERATION
     jerk: float = DEFAULT_JERK
+    hand_drive: str = DEFAULT_HAND_DRIVE
     least_clearance: float = DEFAULT_CLEARANCE
     period: float = DEFAULT_PERIOD
     max_duration: float = DEFAULT_MAX_DURATION
+    rest_posture: RestPosture = DEFAULT_REST
 
     def planner(self, lut: Mapping[str, Sign], robot: Robot | None) -> Planner:
         """Make the planner.
@@ -52,11 +57,14 @@ class PlannerSettings:
         """
         return Planner(
             MirroredSigns(lut, robot) if self.left_handed and robot is not None else lut,
-            limits=MotionLimits.of_robot(acceleration=self.acceleration, jerk=self.jerk),
+            limits=MotionLimits.of_robot(
+                acceleration=self.acceleration, jerk=self.jerk, hand_drive=self.hand_drive
+            ),
             style=self.style,
             robot=robot,
             least_clearance=self.least_clearance,
             period=self.period,
             max_duration=self.max_duration,
             least_standing=self.least_standing,
+            rest_posture=self.rest_posture,
         )

@@ -20,8 +20,8 @@ import numpy as np
 from teo_description.robot import Robot
 from teo_lut_executor.execution.events import PlanWanted, ReturnWanted, Sentence
 from teo_lut_executor.planning.settings import PlannerSettings
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_description import COMMANDED_JOINTS, DEFAULT_HAND_DRIVE, DescriptionError, joint_limits
 from teo_motion.trajectory.ruckig_segment import Bounds
 from teo_signs.errors import PlanError
 
@@ -53,22 +53,30 @@ class MotionLimits:
 
     @classmethod
     def of_robot(
-        cls, *, acceleration: float = DEFAULT_ACCELERATION, jerk: float = DEFAULT_JERK
+        cls,
+        *,
+        acceleration: float = DEFAULT_ACCELERATION,
+        jerk: float = DEFAULT_JERK,
+        hand_drive: str = DEFAULT_HAND_DRIVE,
     ) -> MotionLimits:
         """Positions and velocities of the robot description, with one acceleration and jerk for all joints.
 
         Args:
             acceleration: [rad/s^2], above 0.
             jerk: [rad/s^3], above 0.
+            hand_drive: Gearmotors of the hands, one of `HAND_DRIVES`.
 
         Raises:
-            PlanError: Not finite or not above 0 ("bad_limits").
+            PlanError: Not finite or not above 0, or no such drive ("bad_limits").
         """
         for name, value in (("acceleration", acceleration), ("jerk", jerk)):
             if not (math.isfinite(value) and value > 0.0):
                 message = f"{name}: expected a finite number above 0, got {value}"
                 raise PlanError("bad_limits", message)
-        limits = joint_limits(COMMANDED_JOINTS)
+        try:
+            limits = joint_limits(COMMANDED_JOINTS, hand_drive=hand_drive)
+        except DescriptionError as error:
+            raise PlanError("bad_limits", str(error)) from error
         return cls(
             names=tuple(limits.names),
             lower=limits.lower,

@@ -23,7 +23,7 @@ from trajectory_msgs.msg import JointTrajectory
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher, RateMeter
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
-from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
+from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, DescriptionError, joint_limits, urdf_text
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.goal_monitor import ResultCode
@@ -64,7 +64,8 @@ class DriverNode(LifecycleNode):
         super().__init__("teo_sim_driver", **node_arguments)
         declare_parameters(self, PARAMETERS)
         self._rate = self.get_parameter("update_rate").value
-        limits = joint_limits(COMMANDED_JOINTS)
+        hand_drive = self.get_parameter("hand_drive").value
+        limits = joint_limits(COMMANDED_JOINTS, hand_drive=hand_drive)
         home = np.array([HOME[name] for name in COMMANDED_JOINTS])
         self._follower = JointFollower(limits=limits, start=home, period=1.0 / self._rate, held=LEG_JOINTS)
         self._follower.block(Mode.INACTIVE, "not active", self._now())
@@ -85,7 +86,7 @@ class DriverNode(LifecycleNode):
         self._driver_state = DriverStatePublisher(self, _LATCHED, self._rate)
         self._hands = HandPublisher(self, _LATCHED)
         self._description = self.create_publisher(String, "robot_description", _LATCHED)
-        self._description.publish(String(data=urdf_text()))
+        self._description.publish(String(data=urdf_text(hand_drive)))
         self._diagnostics = DiagnosticsPublisher(self, "joints")
         self._action = FollowAction(
             self,
@@ -333,4 +334,7 @@ def _names(text: str) -> tuple[str, ...]:
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
     sys.setswitchinterval(_SWITCH_INTERVAL)
-    run_node(DriverNode, arguments)
+    try:
+        run_node(DriverNode, arguments)
+    except DescriptionError as error:  # of a parameter that is read at the start
+        sys.exit(f"driver_node: {error.code}: {error}")
