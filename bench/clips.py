@@ -4,7 +4,8 @@
 
 The synthetic signer performs scores before a D435. Its colour images, as a film, go the way of a phone's;
 the whole recording goes the way of a depth camera's. Both are compared with the true keypoints. Besides,
-written signs performed without a camera (`signs/score_clips.py`), those looked at while capture was built.
+written signs performed without a camera (`signs/score_clips.py`), those looked at while capture was built and
+others.
 """
 
 from __future__ import annotations
@@ -50,6 +51,7 @@ def measure() -> list[Figure]:
             *_performed(robot, Path(folder)),
             *_letters(robot, Path(folder)),
             *score_clips.measure(robot, "known", score_clips.KNOWN),
+            *score_clips.measure(robot, "new", score_clips.NEW),
         ]
 
 

@@ -58,6 +58,10 @@ class Draw(NamedTuple):
 
 # Looked at while the capture was built.
 KNOWN = Draw(seed=11, signs=30, bodies=("woman_average", "man_average"), distance=2.0)
+# Drawn when the capture was finished: other signs, bodies and camera. Looked at, it is known: draw another.
+NEW = Draw(
+    seed=4711, signs=18, bodies=("woman_small", "man_heavy", "woman_old"), distance=1.6, without=(KNOWN,)
+)
 
 
 class Performed(NamedTuple):
