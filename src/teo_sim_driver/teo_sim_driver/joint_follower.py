@@ -54,11 +54,8 @@ class JointFollower:
         Raises:
             DriverError: ``start_outside_limits``.
         """
-        outside = [
-            n
-            for n, p, a, b in zip(limits.names, start, limits.lower, limits.upper, strict=True)
-            if not a <= p <= b
-        ]
+        inside = (start >= limits.lower) & (start <= limits.upper)
+        outside = [name for name, good in zip(limits.names, inside, strict=True) if not good]
         if outside:
             raise DriverError(
                 "start_outside_limits", f"expected a start within the joint limits; not so: {outside}"
@@ -141,10 +138,8 @@ class JointFollower:
         try:
             self._gate.check(self._following)
             if self._ending:
-                raise TrajectoryError(
-                    Refusal.STOPPING,
-                    "the robot slows down and is not at rest yet: send it again when it is",
-                )
+                sentence = "the robot slows down and is not at rest yet: send it again when it is"
+                raise TrajectoryError(Refusal.STOPPING, sentence)
             delay, trajectory = schedule(
                 points, limits=self.limits, rules=self.rules, now=now, state_in=self._path_state_in
             )
