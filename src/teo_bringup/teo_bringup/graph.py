@@ -151,6 +151,10 @@ class Graph:
                     return name, process.returncode
             time.sleep(_LOOK_PERIOD)
 
+    def process_id(self, name: str) -> int:
+        """Number by which the system knows a process that was started."""
+        return self._processes[name].pid
+
     def check(self) -> None:
         """Raise `GraphError` if a process has ended by itself."""
         for name, process in self._processes.items():

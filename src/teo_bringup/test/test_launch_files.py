@@ -100,11 +100,12 @@ def test_every_configuration_is_declared_and_the_parameter_file_is_there(actions
         if isinstance(action, DeclareLaunchArgument)
     }
     assert Path(declared["params_file"]).is_file()
+    nodes = [node for node in actions if isinstance(node, Node)]
     used = {
         value.arguments[0]
-        for node in actions
-        if isinstance(node, Node)
-        for value in (node.keywords["namespace"], *node.keywords["parameters"])
+        for node in nodes
+        for given in (node.keywords["namespace"], *node.keywords["parameters"])
+        for value in (given.values() if isinstance(given, dict) else [given])
         if isinstance(value, LaunchConfiguration)
     }
     assert used == set(declared)

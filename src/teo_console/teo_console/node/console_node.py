@@ -165,11 +165,13 @@ class ConsoleNode(Node):
 
 def _own_addresses() -> list[str]:
     """IPv4 addresses under which others reach this machine; none without a network."""
-    try:
-        found = socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)
-    except OSError:
-        return []
-    return sorted({str(address[4][0]) for address in found} - LOOPBACK_NAMES)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            # Nothing is sent: the system only chooses the interface that leads out (an address of RFC 5737).
+            probe.connect(("192.0.2.1", 9))
+        except OSError:
+            return []
+        return [str(probe.getsockname()[0])]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

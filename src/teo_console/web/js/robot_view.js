@@ -7,19 +7,22 @@ import {
 } from "../vendor/robot_drawing.js";
 import { h } from "./dom.js";
 
-// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base. `follow` names links: the camera
-// keeps its place relative to the one that moves.
+// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base; `view` is the vertical opening [deg].
+// `follow` names links: the camera keeps its place relative to the one that moves. The signer's view is from the eyes.
 const CAMERAS = {
-  front: { from: [1.85, 0.0, 0.55], at: [0.0, 0.0, 0.47] },
-  hand: { from: [0.52, -0.06, 0.06], at: [0, 0, 0], follow: { right: "RightHand_link", left: "LeftHand_link" } },
-  signer: { from: [-0.32, 0.0, 0.72], at: [0.38, 0.0, 0.22] },
+  front: { from: [1.85, 0.0, 0.55], at: [0.0, 0.0, 0.47], view: 36 },
+  hand: {
+    from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36,
+    follow: { right: "RightMiddleFinger_link", left: "LeftMiddleFinger_link" },
+  },
+  signer: { from: [0.1, 0.0, 0.76], at: [0.5, 0.0, 0.64], view: 85 },
 };
-const FIELD_OF_VIEW = 36; // [deg], vertical: little perspective, as from across a table
+const WIDEST_VIEW = 90; // [deg], to which a narrow picture may open
 // A hand that moved this much more than the other is the one that signs [m], within about a second of frames.
 const HAND_LEAD = 0.02;
 const FORGET = 0.97;
-// How fast the camera goes after the hand: share of the way a frame.
-const CHASE = 0.12;
+// Time in which the camera goes two thirds of the way after the hand [s].
+const CHASE = 0.3;
 const PIXEL_RATIO = 2; // finer than that nobody sees, and a telephone would draw nine times the pixels
 // A picture that takes longer than this, so many times in a row, is drawn with fewer pixels from then on: a computer
 // without a graphics card draws with its processor.
@@ -76,7 +79,7 @@ class RobotView {
     const sun = new DirectionalLight(0xffffff, 1.8);
     sun.position.set(2, 1.2, 3);
     this.scene.add(sun);
-    this.eye = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.02, 20);
+    this.eye = new PerspectiveCamera(CAMERAS.front.view, 1, 0.02, 20);
     this.eye.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.eye, this.canvas);
     this.controls.addEventListener("change", () => (this.#dirty = true));
@@ -119,7 +122,7 @@ class RobotView {
       this.#chase(1);
     }
     this.controls.update();
-    this.#dirty = true;
+    this.#resize();
   }
 
   /** Shows the picture as in a mirror. */
@@ -149,9 +152,11 @@ class RobotView {
     this.place.replaceChildren();
   }
 
-  #draw() {
+  #draw(before = performance.now()) {
     if (this.#removed.signal.aborted) return;
-    requestAnimationFrame(() => this.#draw());
+    const now = performance.now();
+    const passed = (now - before) / 1000;
+    requestAnimationFrame(() => this.#draw(now));
     const time = this.live.clock.now();
     const [joints, positions] = this.#motion ? this.#played() : [this.live.track.joints, this.live.track.at(time)];
     if (this.#robot && positions && !same(positions, this.#shown)) {
@@ -160,7 +165,7 @@ class RobotView {
       this.#dirty = true;
       this.#hand.look(this.#robot);
     }
-    if (CAMERAS[this.#preset].follow && this.#robot) this.#chase(CHASE);
+    if (CAMERAS[this.#preset].follow) this.#chase(1 - Math.exp(-passed / CHASE));
     if (!this.#dirty) {
       this.#drawnAt = null;
       return;
@@ -213,7 +218,8 @@ class RobotView {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.eye.aspect = clientWidth / clientHeight;
     // A narrow picture shows as much of the arms' span as a wide one.
-    this.eye.fov = this.eye.aspect < 1 ? Math.min(FIELD_OF_VIEW / this.eye.aspect, 60) : FIELD_OF_VIEW;
+    const { view } = CAMERAS[this.#preset];
+    this.eye.fov = this.eye.aspect < 1 ? Math.min(view / this.eye.aspect, WIDEST_VIEW) : view;
     this.eye.updateProjectionMatrix();
     this.#dirty = true;
   }
