@@ -62,9 +62,9 @@ def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
 ) -> None:
     page = new_page(tab="teach/SALUDAR")
     accessible(page)
-    page.click(".camera button.primary")
     page.select_option(".camera select", "6")
-    page.click(".camera button.primary >> visible=true")
+    page.click("#camera-start")
+    page.click("#camera-record")
     expect(page.locator("#outcome-title")).to_be_visible(timeout=LONG)
     expect(page.locator(".gate.passed, .gate.failed")).to_have_count(6)  # no contact, no gate of contacts
     expect(page.locator(".similar li")).to_have_count(5)

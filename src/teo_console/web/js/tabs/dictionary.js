@@ -95,7 +95,7 @@ function coverage({ api, t, attempt }) {
     event.preventDefault();
     await attempt(async () => {
       const told = await progress.finish(await api.post("/api/coverage", { text: text.value }));
-      const words = Object.entries(told.showings).map(([how, count]) => h("li", {}, `${has(`coverage.${how}`) ? t(`coverage.${how}`) : how}: ${count}`));
+      const words = Object.entries(told.showings).filter(([, count]) => count > 0).map(([how, count]) => h("li", {}, `${has(`coverage.${how}`) ? t(`coverage.${how}`) : how}: ${count}`));
       const missing = Object.entries(told.missing).sort(([, a], [, b]) => b - a).slice(0, MOST_WANTED);
       const wanted = missing.map(([gloss, count]) => h("li", {}, h("a", { href: `#teach/${encodeURIComponent(gloss)}` }, gloss), ` · ${count}`));
       result.replaceChildren(
