@@ -144,7 +144,7 @@ def _seconds(texts: Sequence[str], signs: Set[str]) -> list[Figure]:
             continue
         for sentence in answer.sentences:
             try:
-                plan = planner.plan(_tokens(sentence))
+                plan = planner.plan(tokens_of(sentence))
             except PlanError:
                 refused += 1
                 continue
@@ -165,7 +165,8 @@ def _seconds(texts: Sequence[str], signs: Set[str]) -> list[Figure]:
     ]
 
 
-def _tokens(sentence: Sentence) -> list[Token]:
+def tokens_of(sentence: Sentence) -> list[Token]:
+    """A translated sentence as the executor takes it."""
     return [
         Token(
             gloss=token.gloss,
