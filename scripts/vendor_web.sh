@@ -19,7 +19,7 @@ npm install --no-audit --no-fund --silent "three@$three" "urdf-loader@$urdf_load
 # Only what robot_view.js uses: esbuild leaves out the rest.
 cat >entry.js <<'END'
 export {
-    Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+    DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
 export { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 export { default as URDFLoader } from "urdf-loader";

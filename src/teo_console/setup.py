@@ -26,7 +26,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml", "protocol.schema.json"]),
         *web_files(),
     ],
-    install_requires=["aiohttp", "msgspec", "segno"],
+    install_requires=["aiohttp", "av", "msgspec", "segno"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",

@@ -84,7 +84,8 @@ class World:
             elif isinstance(event, TrajectoryReady):
                 self.sent.append(event)
                 if self.follows(event.plan):
-                    begin = self._path_time + (event.start - self.now) * self.pace
+                    earlier = event.samples.times[-1] - event.plan.duration  # than the plan begins
+                    begin = self._path_time + (event.start + earlier - self.now) * self.pace
                     self._motions = [item for item in self._motions if item[0] < begin] + [
                         (begin, event.plan)
                     ]

@@ -60,7 +60,7 @@ def test_between_joined_sentences_the_hands_stay_for_the_pause(world: World) -> 
     first, second = world.sent
     last = first.plan.timings[-1]
     ended = last.start + last.duration
-    assert second.start - first.start == pytest.approx(ended, abs=0.021)
+    assert ended - 0.04 <= second.start - first.start <= ended, "a period before the last point of standing"
     stays = second.plan.positions[second.plan.times <= world.queue.settings.sentence_pause]
     np.testing.assert_allclose(stays - stays[0], 0.0, atol=1e-6)
 

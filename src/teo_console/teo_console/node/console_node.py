@@ -19,6 +19,8 @@ from rclpy.parameter import Parameter
 from teo_common.node_process import run_node
 from teo_common.package_files import package_path
 from teo_common.parameters import declare_parameters
+from teo_console.api.routes import all_routes
+from teo_console.api.workbench import Folders, Workbench
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
 from teo_console.node.bridge import Bridge
@@ -95,12 +97,20 @@ class ConsoleNode(Node):
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
     def _make_app(self) -> web.Application:
-        return make_app(
+        workbench = Workbench(Folders.of_user())
+
+        async def clear_up(_: web.Application) -> None:
+            await workbench.close()
+
+        app = make_app(
             web_folder=package_path("teo_console", "web"),
             access=self._access,
             hub=self._hub,
             urdf=lambda: self._observer.urdf,
+            routes=all_routes(workbench),
         )
+        app.on_cleanup.append(clear_up)
+        return app
 
     def _count_pages(self, pages: int) -> None:
         self._pages = pages
@@ -155,11 +165,13 @@ class ConsoleNode(Node):
 
 def _own_addresses() -> list[str]:
     """IPv4 addresses under which others reach this machine; none without a network."""
-    try:
-        found = socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET)
-    except OSError:
-        return []
-    return sorted({str(address[4][0]) for address in found} - LOOPBACK_NAMES)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            # Nothing is sent: the system only chooses the interface that leads out (an address of RFC 5737).
+            probe.connect(("192.0.2.1", 9))
+        except OSError:
+            return []
+        return [str(probe.getsockname()[0])]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:

@@ -8,8 +8,10 @@ let words = {};
 
 /** Loads a language's words and writes them wherever the page has them. */
 export async function speak(language) {
-  const response = await fetch(`/i18n/${language}.json`);
-  words = await response.json();
+  // Those of the frame and Watch, and those of the other tabs.
+  const files = [`/i18n/${language}.json`, `/i18n/${language}.tabs.json`];
+  const loaded = await Promise.all(files.map(async (file) => (await fetch(file)).json()));
+  words = Object.assign({}, ...loaded);
   settings.set("language", language);
   document.documentElement.lang = language;
   document.title = t("title");

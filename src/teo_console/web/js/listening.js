@@ -10,6 +10,12 @@ export class Listening {
     target.addEventListener(name, (event) => handler(event.detail ?? event), { signal: this.#controller.signal });
   }
 
+  /** Calls a function every so many milliseconds. */
+  every(period, action) {
+    const timer = setInterval(action, period);
+    this.#controller.signal.addEventListener("abort", () => clearInterval(timer));
+  }
+
   end() {
     this.#controller.abort();
   }

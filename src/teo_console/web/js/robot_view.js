@@ -3,36 +3,45 @@
 // The robot in 3D, placed in any element: it follows the live poses, or plays a motion of its own.
 
 import {
-  DirectionalLight, HemisphereLight, OrbitControls, PerspectiveCamera, Scene, URDFLoader, Vector3, WebGLRenderer,
+  DirectionalLight, HemisphereLight, OrbitControls, PerspectiveCamera, Scene, SphereGeometry, URDFLoader, Vector3, WebGLRenderer,
 } from "../vendor/robot_drawing.js";
 import { h } from "./dom.js";
 
-// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base. `follow` names links: the camera
-// keeps its place relative to the one that moves.
+// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base; `view` is the vertical opening [deg].
+// `follow` names links: the camera keeps its place relative to the one that moves. The signer's view is from the eyes.
 const CAMERAS = {
-  front: { from: [1.75, 0.0, 0.42], at: [0.1, 0.0, 0.30] },
-  hand: { from: [0.52, -0.06, 0.06], at: [0, 0, 0], follow: { right: "RightHand_link", left: "LeftHand_link" } },
-  signer: { from: [-0.32, 0.0, 0.72], at: [0.38, 0.0, 0.22] },
+  front: { from: [1.85, 0.0, 0.55], at: [0.0, 0.0, 0.47], view: 36 },
+  hand: {
+    from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36,
+    follow: { right: "RightMiddleFinger_link", left: "LeftMiddleFinger_link" },
+  },
+  signer: { from: [0.1, 0.0, 0.76], at: [0.5, 0.0, 0.64], view: 85 },
 };
-const FIELD_OF_VIEW = 36; // [deg], vertical: little perspective, as from across a table
+const WIDEST_VIEW = 90; // [deg], to which a narrow picture may open
 // A hand that moved this much more than the other is the one that signs [m], within about a second of frames.
 const HAND_LEAD = 0.02;
 const FORGET = 0.97;
-// How fast the camera goes after the hand: share of the way a frame.
-const CHASE = 0.12;
+// Time in which the camera goes two thirds of the way after the hand [s].
+const CHASE = 0.3;
 const PIXEL_RATIO = 2; // finer than that nobody sees, and a telephone would draw nine times the pixels
+// A picture that takes longer than this, so many times in a row, is drawn with fewer pixels from then on: a computer
+// without a graphics card draws with its processor.
+const SLOW = 60; // [ms]
+const SLOW_FRAMES = 5;
+const COARSER = 0.7; // times the pixels of a row
+const COARSEST = 0.35; // of the page's
 
 let description = null; // one download for all views
 
 /**
  * Places the robot.
  * @param {HTMLElement} place Gets the picture as its child; its size is the picture's.
- * @param {Object} options `socket`, `live`, `t`; `onFrame(time)` is called before each picture of the live robot.
+ * @param {Object} options `socket`, `live`, `t`.
  * @returns {Promise<Object>} `camera(name)`, `mirrored(on)`, `play(motion)`, `follow()`, `remove()`, and `frames`, how
  *   many pictures have been drawn.
  */
-export async function robotView(place, { socket, live, t, onFrame = () => {} }) {
-  const view = new RobotView(place, live, t, onFrame);
+export async function robotView(place, { socket, live, t }) {
+  const view = new RobotView(place, live, t);
   view.begin(socket);
   return view;
 }
@@ -45,32 +54,32 @@ class RobotView {
   #preset = "front";
   #shown = null;
   #dirty = true;
+  #ratio = Math.min(devicePixelRatio, PIXEL_RATIO);
+  #drawnAt = null; // when the picture before was drawn [ms]; null after a rest
+  #slow = 0;
   #removed = new AbortController();
 
-  constructor(place, live, t, onFrame) {
+  constructor(place, live, t) {
     this.live = live;
-    this.onFrame = onFrame;
     this.place = place;
     place.classList.add("stage");
     this.empty = h("p", { class: "empty" }, t("view.waiting"));
     place.append(this.empty);
-    try {
-      this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "low-power" });
-    } catch {
+    this.renderer = renderer();
+    if (!this.renderer) {
       this.empty.textContent = t("view.no_webgl");
       return;
     }
     this.canvas = this.renderer.domElement;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", t("view.label"));
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, PIXEL_RATIO));
     place.prepend(this.canvas);
     this.scene = new Scene();
     this.scene.add(new HemisphereLight(0xffffff, 0x8a96a3, 2.2));
     const sun = new DirectionalLight(0xffffff, 1.8);
     sun.position.set(2, 1.2, 3);
     this.scene.add(sun);
-    this.eye = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.02, 20);
+    this.eye = new PerspectiveCamera(CAMERAS.front.view, 1, 0.02, 20);
     this.eye.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.eye, this.canvas);
     this.controls.addEventListener("change", () => (this.#dirty = true));
@@ -91,6 +100,7 @@ class RobotView {
         description = null; // it was not there yet: the next welcome tells
         return;
       }
+      lighten(this.#robot);
       this.scene.add(this.#robot);
       this.empty.hidden = true;
       this.#dirty = true;
@@ -112,7 +122,7 @@ class RobotView {
       this.#chase(1);
     }
     this.controls.update();
-    this.#dirty = true;
+    this.#resize();
   }
 
   /** Shows the picture as in a mirror. */
@@ -142,11 +152,12 @@ class RobotView {
     this.place.replaceChildren();
   }
 
-  #draw() {
+  #draw(before = performance.now()) {
     if (this.#removed.signal.aborted) return;
-    requestAnimationFrame(() => this.#draw());
+    const now = performance.now();
+    const passed = (now - before) / 1000;
+    requestAnimationFrame(() => this.#draw(now));
     const time = this.live.clock.now();
-    if (!this.#motion) this.onFrame(time);
     const [joints, positions] = this.#motion ? this.#played() : [this.live.track.joints, this.live.track.at(time)];
     if (this.#robot && positions && !same(positions, this.#shown)) {
       joints.forEach((name, i) => this.#robot.setJointValue(name, positions[i]));
@@ -154,11 +165,25 @@ class RobotView {
       this.#dirty = true;
       this.#hand.look(this.#robot);
     }
-    if (CAMERAS[this.#preset].follow && this.#robot) this.#chase(CHASE);
-    if (!this.#dirty) return;
+    if (CAMERAS[this.#preset].follow) this.#chase(1 - Math.exp(-passed / CHASE));
+    if (!this.#dirty) {
+      this.#drawnAt = null;
+      return;
+    }
     this.#dirty = false;
     this.renderer.render(this.scene, this.eye);
     this.frames += 1;
+    this.#adapt(performance.now());
+  }
+
+  #adapt(now) {
+    const took = this.#drawnAt === null ? 0 : now - this.#drawnAt;
+    this.#drawnAt = now;
+    this.#slow = took > SLOW ? this.#slow + 1 : 0;
+    if (this.#slow < SLOW_FRAMES || this.#ratio <= COARSEST) return;
+    this.#slow = 0;
+    this.#ratio *= COARSER;
+    this.#resize();
   }
 
   #played() {
@@ -189,12 +214,37 @@ class RobotView {
   #resize() {
     const { clientWidth, clientHeight } = this.place;
     if (!clientWidth || !clientHeight) return;
+    this.renderer.setPixelRatio(this.#ratio);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.eye.aspect = clientWidth / clientHeight;
     // A narrow picture shows as much of the arms' span as a wide one.
-    this.eye.fov = this.eye.aspect < 1 ? Math.min(FIELD_OF_VIEW / this.eye.aspect, 60) : FIELD_OF_VIEW;
+    const { view } = CAMERAS[this.#preset];
+    this.eye.fov = this.eye.aspect < 1 ? Math.min(view / this.eye.aspect, WIDEST_VIEW) : view;
     this.eye.updateProjectionMatrix();
     this.#dirty = true;
+  }
+}
+
+/** Rounds balls with fewer triangles: the loader's have 1,740 each, nine tenths of the whole robot's. */
+function lighten(robot) {
+  const ball = new SphereGeometry(1, 20, 14);
+  robot.traverse((part) => {
+    if (part.geometry?.type === "SphereGeometry") part.geometry = ball;
+  });
+}
+
+/** What draws; smooth edges only where a graphics card makes them. Null where there is no WebGL 2. */
+function renderer() {
+  const options = { alpha: true, powerPreference: "low-power" };
+  try {
+    return new WebGLRenderer({ ...options, antialias: true, failIfMajorPerformanceCaveat: true });
+  } catch {
+    // by its processor, or not at all
+  }
+  try {
+    return new WebGLRenderer(options);
+  } catch {
+    return null;
   }
 }
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 
-from teo_common.parameters import ParameterRow
+from teo_common.parameters import AUTOSTART, ParameterRow
 from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_lut_executor.planning.settings import PlannerSettings
@@ -50,12 +50,7 @@ PARAMETERS = (
         default="right",
         description="Hand that makes one-handed signs (right, left); left mirrors every sign.",
     ),
-    ParameterRow(
-        name="autostart",
-        default=True,  # `ros2 run` without a lifecycle manager must give a node that signs
-        description="Whether the node configures and activates itself when it starts; else a manager does.",
-        read_only=True,
-    ),
+    AUTOSTART,
     ParameterRow(
         name="journal",
         default="~/.ros/teo_lut_executor",  # where ROS keeps its logs

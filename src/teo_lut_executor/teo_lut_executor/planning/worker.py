@@ -8,6 +8,7 @@ order, and ends when the socket is closed: also when the process at its other en
 
 from __future__ import annotations
 
+import gc
 import signal
 import sys
 import time
@@ -104,6 +105,9 @@ class _Worker:
         wanted = PlanWanted(number=0, sentence=sentence, start=rest, opening=True)
         for _ in self.answers(wanted):
             pass
+        # What is loaded stays: no collection is to walk it while somebody waits for a plan.
+        gc.collect()
+        gc.freeze()
 
     def answers(self, wanted: PlanWanted | ReturnWanted) -> Iterator[Answer]:
         """Answer a request, as soon as each part of the answer is known."""
@@ -167,3 +171,5 @@ def main() -> None:
         serve(Connection(int(sys.argv[1])))
     except LutError as error:
         sys.exit(f"planner: [{error.code}] {error}")
+    finally:
+        gc.unfreeze()  # else bindings complain of leaks at the end

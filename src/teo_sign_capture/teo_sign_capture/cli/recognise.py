@@ -96,5 +96,5 @@ def recognise(
     if compared is not None:
         parts = ("handshape", "orientation", "place", "movement")
         differences = ", ".join(f"{part} {getattr(compared, part):.2f}" for part in parts)
-        hands = "" if compared.hands else "; another number of hands"
-        _output.print(f"beside {compared.gloss}: {differences}{hands}", soft_wrap=True)
+        other = "" if compared.hands else "; another number of hands"
+        _output.print(f"beside {compared.gloss}: {differences}{other}", soft_wrap=True)

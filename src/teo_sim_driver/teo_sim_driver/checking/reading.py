@@ -1,0 +1,278 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""From a message to arrays: all that can be judged without knowing the robot's limits, or where it is."""
+
+from __future__ import annotations
+
+import difflib
+from collections import Counter
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_sim_driver.checking.cdr import FIELDS
+from teo_sim_driver.checking.message import TrajectoryLike
+from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.rules import Rules
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """A well-formed message as arrays.
+
+    Attributes:
+        stamp: Scheduled start [ns on the message's clock], None for now.
+        columns: Which of the driver's joints each column is about. Shape (joints,).
+        times: From the start [ns], strictly increasing, the first >= 0. Shape (n,), n >= 1.
+        positions: [rad]. Shape (n, joints).
+        velocities: [rad/s], 0 where not given. Shape (n, joints).
+        accelerations: [rad/s^2], 0 where not given. Shape (n, joints).
+        degrees: Of the polynomial that each point's fields allow: 1, 3 or 5. Shape (n,).
+    """
+
+    stamp: int | None
+    columns: NDArray[np.intp]
+    times: NDArray[np.int64]
+    positions: FloatArray
+    velocities: FloatArray
+    accelerations: FloatArray
+    degrees: NDArray[np.int8]
+
+
+class Fields(Protocol):
+    """A trajectory message as arrays, as it came; `cdr.CdrTrajectory` is one."""
+
+    @property
+    def stamp(self) -> tuple[int, int]:
+        """Of the header [s], [ns]."""
+
+    @property
+    def names(self) -> list[str]:
+        """Of the joints."""
+
+    @property
+    def count(self) -> int:
+        """Of the points."""
+
+    @property
+    def lengths(self) -> NDArray[np.int64]:
+        """Number of values of each of `cdr.FIELDS` at each point. Shape (n, 4)."""
+
+    @property
+    def times(self) -> NDArray[np.int64]:
+        """time_from_start of each point [s], [ns]. Shape (n, 2)."""
+
+    def table(self, field: int) -> FloatArray:
+        """One of `cdr.FIELDS`, 0 where a point does not give it; all that give it have the same number."""
+
+
+class MessageFields:
+    """The fields of a message that is made of objects."""
+
+    def __init__(self, message: TrajectoryLike) -> None:
+        self._points = message.points
+        self.names = list(message.joint_names)
+        self.stamp = (message.header.stamp.sec, message.header.stamp.nanosec)
+        self.count = len(self._points)
+
+    @cached_property
+    def lengths(self) -> NDArray[np.int64]:
+        """See `Fields`."""
+        return np.array([[len(getattr(point, name)) for name in FIELDS] for point in self._points])
+
+    @cached_property
+    def times(self) -> NDArray[np.int64]:
+        """See `Fields`."""
+        moments = (point.time_from_start for point in self._points)
+        return np.array([(moment.sec, moment.nanosec) for moment in moments], dtype=np.int64)
+
+    def table(self, field: int) -> FloatArray:
+        """See `Fields`."""
+        table = np.zeros((self.count, len(self.names)))
+        given = self.lengths[:, field] > 0
+        if given.any():
+            rows = (getattr(point, FIELDS[field]) for point in self._points)
+            table[given] = [row for row in rows if len(row)]
+        return table
+
+
+def read(
+    message: Fields,
+    *,
+    joints: Sequence[str],
+    held: Collection[str],
+    rules: Rules,
+    group: Collection[str] = (),
+) -> Points:
+    """Read a message into checked arrays.
+
+    Args:
+        message: As received.
+        joints: Names that the driver commands, in its order.
+        held: Names of joints that the robot has and the driver never moves, for a better answer.
+        rules: Limits on the message.
+        group: Names of the joints that the message is to be about; all of `joints` if empty.
+
+    Raises:
+        TrajectoryError: the message is malformed.
+    """
+    names = message.names
+    columns = _columns(names, joints, held, rules, group or joints)
+    if not message.count:
+        raise TrajectoryError(Refusal.NO_POINTS, "expected at least one point, got none")
+    if message.count > rules.max_points:
+        raise TrajectoryError(
+            Refusal.TOO_MANY_POINTS,
+            f"expected at most {rules.max_points} points, got {message.count}: send fewer, or in parts",
+        )
+    _check_lengths(message.lengths, len(names))
+    stamp = _stamp(message.stamp)
+    times = _times(message.times, rules)
+    positions, velocities, accelerations = (message.table(field) for field in range(3))
+    given = message.lengths > 0
+    read_points = Points(
+        stamp=stamp or None,
+        columns=columns,
+        times=times,
+        positions=positions,
+        velocities=velocities,
+        accelerations=accelerations,
+        degrees=(1 + 2 * given[:, 1] + 2 * given[:, 2]).astype(np.int8),
+    )
+    _check_finite(read_points, names)
+    return read_points
+
+
+def quoted(name: str) -> str:
+    """A name as it came, short and printable whatever it holds."""
+    return repr(name if len(name) <= 40 else name[:40] + "...")
+
+
+def listed(names: Sequence[str], most: int = 6) -> str:
+    """Names in a row, the first few of many."""
+    shown = ", ".join(quoted(name) for name in names[:most])
+    return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
+
+
+def _columns(
+    names: list[str], joints: Sequence[str], held: Collection[str], rules: Rules, group: Collection[str]
+) -> NDArray[np.intp]:
+    if not names:
+        raise TrajectoryError(Refusal.NO_JOINTS, f"expected the names of {len(group)} joints, got none")
+    index = {name: i for i, name in enumerate(joints)}
+    unknown = [name for name in names if name not in index]
+    if unknown and unknown[0] in held:
+        raise TrajectoryError(
+            Refusal.HELD_JOINT,
+            f"{quoted(unknown[0])} is held still by this driver: leave it out of the trajectory",
+        )
+    if unknown:
+        near = difflib.get_close_matches(unknown[0][:40], joints, n=1)
+        hint = f"did you mean {near[0]!r}?" if near else f"expected some of {', '.join(joints)}"
+        raise TrajectoryError(Refusal.UNKNOWN_JOINT, f"no joint is called {listed(unknown)}: {hint}")
+    if others := [name for name in names if name not in group]:
+        raise TrajectoryError(
+            Refusal.OTHER_GROUP,
+            f"expected some of {', '.join(group)}, got {listed(others)}: send it to their group",
+        )
+    given = set(names)
+    if len(given) < len(names):
+        twice = [name for name, count in Counter(names).items() if count > 1]
+        raise TrajectoryError(
+            Refusal.DUPLICATE_JOINT, f"expected each joint once, got more of {listed(twice)}"
+        )
+    missing = [name for name in group if name not in given]
+    if missing and not rules.allow_partial_joints_goal:
+        raise TrajectoryError(
+            Refusal.MISSING_JOINTS,
+            f"expected all {len(group)} joints, missing: {listed(missing)}; "
+            "give them all, or set the parameter allow_partial_joints_goal",
+        )
+    return np.array([index[name] for name in names], dtype=np.intp)
+
+
+def _check_lengths(lengths: NDArray[np.int64], count: int) -> None:
+    """Refuse the first point that has another number of values than there are joints."""
+    wrong = lengths != count
+    wrong[:, 1:3] &= lengths[:, 1:3] != 0
+    wrong[:, 3] = lengths[:, 3] != 0
+    lone = (lengths[:, 2] != 0) & (lengths[:, 1] == 0)
+    bad = wrong.any(axis=1) | lone
+    if not bad.any():
+        return
+    i = int(np.argmax(bad))
+    for field in range(3):
+        if wrong[i, field]:
+            optional = ", or none" if field else ""
+            raise TrajectoryError(
+                Refusal.WRONG_LENGTH,
+                f"point {i}: expected {count} {FIELDS[field]}, one for each joint name{optional}; "
+                f"got {lengths[i, field]}",
+            )
+    if lone[i]:
+        raise TrajectoryError(
+            Refusal.ACCELERATIONS_WITHOUT_VELOCITIES,
+            f"point {i} has accelerations and no velocities: give both (quintic) or velocities (cubic)",
+        )
+    raise TrajectoryError(
+        Refusal.EFFORT_GIVEN,
+        f"point {i} has {lengths[i, 3]} efforts: this driver commands positions, leave them out",
+    )
+
+
+def _stamp(stamp: tuple[int, int]) -> int:
+    """Scheduled start [ns]; 0 for now."""
+    seconds, nanoseconds = stamp
+    if not 0 <= nanoseconds < SECOND:
+        raise TrajectoryError(
+            Refusal.BAD_TIME, f"header.stamp: expected nanosec in 0..999999999, got {nanoseconds}"
+        )
+    return seconds * SECOND + nanoseconds
+
+
+def _times(parts: NDArray[np.int64], rules: Rules) -> NDArray[np.int64]:
+    bad = (parts[:, 1] < 0) | (parts[:, 1] >= SECOND)
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise TrajectoryError(
+            Refusal.BAD_TIME,
+            f"point {i} time_from_start: expected nanosec in 0..999999999, got {parts[i, 1]}",
+        )
+    times = parts[:, 0] * SECOND + parts[:, 1]
+    if times[0] < 0:
+        raise TrajectoryError(
+            Refusal.NEGATIVE_TIME, f"point 0: expected time_from_start >= 0 s, got {times[0] / SECOND:.9g} s"
+        )
+    back = np.nonzero(np.diff(times) <= 0)[0]
+    if len(back):
+        i = int(back[0]) + 1
+        raise TrajectoryError(
+            Refusal.TIMES_NOT_INCREASING,
+            f"expected time_from_start to grow from point to point, got {times[i - 1] / SECOND:.9g} s at "
+            f"point {i - 1} and {times[i] / SECOND:.9g} s at point {i}",
+        )
+    if times[-1] > rules.max_duration * SECOND:
+        raise TrajectoryError(
+            Refusal.TOO_LONG,
+            f"expected a duration of at most {rules.max_duration:g} s, got {times[-1] / SECOND:.9g} s: "
+            "send it in parts, or raise the parameter max_duration",
+        )
+    return np.asarray(times)
+
+
+def _check_finite(points: Points, names: list[str]) -> None:
+    for field in ("positions", "velocities", "accelerations"):
+        values = getattr(points, field)
+        bad = ~np.isfinite(values)
+        if bad.any():
+            i, column = divmod(int(np.argmax(bad)), values.shape[1])
+            raise TrajectoryError(
+                Refusal.NOT_FINITE,
+                f"point {i} {field}: expected a finite number for {names[column]}, got {values[i, column]}",
+            )
