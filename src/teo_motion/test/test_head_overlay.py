@@ -244,7 +244,7 @@ def test_signs_at_the_face_stay_clear_of_the_head(lut: Lut, robot: Robot, text: 
         plan = Planner(lut, robot=robot).plan(parse_printed(text), form=form)
         assert plan.nearest is not None and plan.nearest.distance >= 0.0
         near = plan.nearest
-        point = plan.positions[int(np.searchsorted(plan.times, near.time))]
+        point = np.array([np.interp(near.time, plan.times, column) for column in plan.positions.T])
         found = robot.clearance(robot.configuration(dict(zip(plan.names, point.tolist(), strict=True))))
         assert found.distance == pytest.approx(near.distance, abs=1e-5)
 

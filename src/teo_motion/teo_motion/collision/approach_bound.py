@@ -79,8 +79,10 @@ def _arm(positions: Array) -> Array:
         axis=1,
     )
     way = np.diff(corners, axis=0)
-    displaced: Array = np.sqrt(np.einsum("ijk,ijk->ij", way, way).max(axis=1))
-    return displaced + np.abs(np.diff(positions, axis=0)).sum(axis=1) ** 2 * ARM_REACH / 8.0
+    straight = np.sqrt(np.einsum("ijk,ijk->ij", way, way).max(axis=1))
+    beside = np.abs(np.diff(positions, axis=0)).sum(axis=1) ** 2 * ARM_REACH / 8.0
+    displaced: Array = straight + beside
+    return displaced
 
 
 def _turn(axis: int, angles: Array) -> Array:
