@@ -10,6 +10,7 @@ import os
 import signal
 import tempfile
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -45,7 +46,7 @@ pytest_plugins = ["made_signs"]
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what meets others over DDS, as `make test` runs it alone: others' load would make it late."""
     for item in items:
-        if "domain_id" in getattr(item, "fixturenames", ()):
+        if {"domain_id", "module_domain_id"} & set(getattr(item, "fixturenames", ())):
             item.add_marker("dds")
 
 
@@ -58,8 +59,22 @@ def data_home(monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+def domain_id() -> Iterator[int]:
     """A DDS domain that no other test here uses, confined to localhost; also in the environment."""
+    with own_domain() as domain:
+        yield domain
+
+
+@pytest.fixture(scope="module")
+def module_domain_id() -> Iterator[int]:
+    """The same for all tests of a module, which share the nodes that they watch."""
+    with own_domain() as domain:
+        yield domain
+
+
+@contextmanager
+def own_domain() -> Iterator[int]:
+    """Take a DDS domain, and name it in the environment."""
     folder = Path(tempfile.gettempdir()) / "teo_test_domains"
     folder.mkdir(exist_ok=True)
     # Start at a place of this process's own, so that a domain is not reused at once by the next test.
@@ -71,9 +86,10 @@ def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 continue
-            monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-            monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-            yield domain
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setenv("ROS_DOMAIN_ID", str(domain))
+                patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+                yield domain
             return
     raise RuntimeError(f"expected a free DDS domain in {_DOMAINS}, all are in use by other tests")
 

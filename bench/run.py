@@ -23,7 +23,7 @@ import spelling
 import translation
 import words
 from accuracy import limbs
-from nodes import driver_rate, driver_robustness, kills, text_to_trajectory
+from nodes import console_page, driver_rate, driver_robustness, kills, text_to_trajectory
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -38,6 +38,7 @@ BENCHES = (
     clips,
     driver_rate,
     driver_robustness,
+    console_page,
     translation,
     words,
     text_to_trajectory,

@@ -25,9 +25,9 @@ from teo_common.text_folding import without_accents
 from teo_description import COMMANDED_JOINTS, DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_translator.data_files import data_file
 from teo_signs.errors import PlanError
@@ -119,7 +119,7 @@ def _timed(tokens: list[Token], planner: Planner, table: dict[str, Sign]) -> Wor
     plan = planner.plan(tokens)
     first, last = plan.timings[0], plan.timings[-1]
     limits = planner.limits
-    signed = choose_postures(Lexicon(table).resolve(tokens), start=REST, limits=limits)
+    signed = choose_postures(Lexicon(table).resolve(tokens), start=REST, end=REST, limits=limits)
     ways, joints = 0.0, []
     for one, other in pairwise([item.sign for item in signed]):
         assert one is not None and other is not None

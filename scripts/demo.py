@@ -9,6 +9,7 @@ until TEO rests again, and leaves the bag, a film and a film strip. Exit status 
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -142,14 +143,21 @@ def seconds(stamp: object) -> float:
     return float(Time.from_msg(stamp).nanoseconds) * 1e-9
 
 
-def sign(text: str, out: Path, console: Console) -> bool:
-    """Have the text signed; True if all of it was."""
+def sign(text: str, out: Path, console: Console, *, view: bool) -> bool:
+    """Have the text signed; True if all of it was.
+
+    Args:
+        text: Spanish.
+        out: Folder for what the run leaves.
+        console: Where it says what happens.
+        view: Whether to serve the console's page, and to go on until Ctrl-C.
+    """
     os.environ.update(ROS_DOMAIN_ID=DOMAIN, ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
     shutil.rmtree(out / "bag", ignore_errors=True)
     out.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
     with Graph(log_folder=out / "log") as graph:
-        graph.start_nodes()
+        graph.start_nodes(view=view)
         record = ("ros2", "bag", "record", "-o", str(out / "bag"), "--include-unpublished-topics")
         graph.start("recorder", *record, "--topics", *RECORDED)
         rclpy.init()
@@ -158,27 +166,58 @@ def sign(text: str, out: Path, console: Console) -> bool:
                 spectator = Spectator(film)
                 executor = SingleThreadedExecutor()
                 executor.add_node(spectator)
-                perform(text, graph, spectator, executor, console)
+                perform(text, graph, spectator, executor, console, view=view)
         finally:
             rclpy.try_shutdown()
         if not film.whole:
             raise DemoError(f"expected a film at {out / 'signing.mp4'}; the process that draws it failed")
         if graph.stop("recorder") != 0:
             raise DemoError(f"expected the recorder to end cleanly:\n{graph.tail('recorder')}")
-    draw_strip(spectator, out / "signing.png")
-    console.print(table(spectator.progress))
-    moved = sum(status.duration for status in spectator.progress.started.values())
-    console.print(
-        f"signing took {moved:.1f} s, the whole run {time.monotonic() - began:.1f} s; left in {out}/:"
-    )
-    console.print("  bag/ (MCAP), signing.mp4, signing.png, log/")
-    for refusal in spectator.progress.refusals:
-        console.print(f"not signed: {refusal}", style="red", markup=False)
+        report(spectator, out, console, took=time.monotonic() - began)
+        if view:
+            keep_open(graph, console)
     return spectator.progress.signed
 
 
+def report(spectator: Spectator, out: Path, console: Console, *, took: float) -> None:
+    """Say what was signed, and what the run has left; `took` is how long it was [s]."""
+    draw_strip(spectator, out / "signing.png")
+    console.print(table(spectator.progress))
+    moved = sum(status.duration for status in spectator.progress.started.values())
+    console.print(f"signing took {moved:.1f} s, the whole run {took:.1f} s; left in {out}/:")
+    console.print("  bag/ (MCAP), signing.mp4, signing.png, log/")
+    for refusal in spectator.progress.refusals:
+        console.print(f"not signed: {refusal}", style="red", markup=False)
+
+
+def keep_open(graph: Graph, console: Console) -> None:
+    """Leave the nodes and the page as they are until Ctrl-C, or until one of them ends.
+
+    Raises:
+        DemoError: One of them ended.
+    """
+    console.print("TEO waits for more on the page; Ctrl-C ends it")
+    try:
+        name, status = graph.wait()
+    except KeyboardInterrupt:
+        return
+    raise DemoError(f"expected {name} to keep running, it ended with status {status}:\n{graph.tail(name)}")
+
+
+def page_of(said: str) -> str:
+    """Find the page's address in what the console said; empty while it has not said it."""
+    found = re.search(r"http://\S+", said)
+    return found.group() if found else ""
+
+
 def perform(
-    text: str, graph: Graph, spectator: Spectator, executor: SingleThreadedExecutor, console: Console
+    text: str,
+    graph: Graph,
+    spectator: Spectator,
+    executor: SingleThreadedExecutor,
+    console: Console,
+    *,
+    view: bool,
 ) -> None:
     """Publish the text once everybody listens, and wait until TEO is at rest again."""
 
@@ -209,6 +248,9 @@ def perform(
             f"every process to listen ({', '.join(listeners)})",
             "executor",
         )
+    if view:
+        wait(lambda: bool(page_of(graph.tail("console"))), START_TIMEOUT, "the console's page", "console")
+        console.print(f"the page is at {page_of(graph.tail('console'))}", markup=False)
     spectator.start_filming()
     console.print(f"signing: {text}", markup=False)
     message = f"{{data: {yaml_quoted(text)}}}"
@@ -270,11 +312,12 @@ def table(progress: Progress) -> Table:
 def main(
     text: Annotated[str, typer.Argument(help="Spanish text, one or more sentences.")],
     out: Annotated[Path, typer.Option(help="Folder for what the run leaves.")] = Path("out"),
+    view: Annotated[bool, typer.Option(help="Serve the console's page, and go on until Ctrl-C.")] = False,
 ) -> None:
     """Sign TEXT with the simulated TEO."""
     console = Console()
     try:
-        signed = sign(text, out, console)
+        signed = sign(text, out, console, view=view)
     except (DemoError, GraphError) as error:
         console.print(str(error), style="red", markup=False)
         signed = False

@@ -19,6 +19,7 @@ TABLES = {
     "executor": ("teo_lut_executor.node.parameters", "PARAMETERS"),
     "teo_sim_driver": ("teo_sim_driver.parameters", "PARAMETERS"),
     "skeleton_retriever": ("teo_skeleton_retriever.node.node_parameters", "PARAMETERS"),
+    "console": ("teo_console.node.parameters", "PARAMETERS"),
     "capture": ("teo_sign_capture.node.parameters", "CAPTURE_PARAMETERS"),
 }
 _HEAD = """\

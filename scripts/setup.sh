@@ -3,16 +3,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes the workspace ready: a virtual environment in .venv and the packages built into install/.
 #   scripts/setup.sh run   what signs, and the demo
-#   scripts/setup.sh all   that, and what sees, trains, tests and documents
+#   scripts/setup.sh view  that, the console, and what sees and captures, which it teaches with
+#   scripts/setup.sh all   that, and what trains, tests and documents
 # Does only what is missing; a second call takes well under a second.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 level="${1:-all}"
 case "$level" in
-    run) stamp=.ready-run ;;
-    all) stamp=.ready ;;
-    *) echo "setup: expected 'run' or 'all', got '$level'" >&2 && exit 2 ;;
+    run) stamps=(.ready-run .ready-view .ready) ;;
+    view) stamps=(.ready-view .ready) ;;
+    all) stamps=(.ready) ;;
+    *) echo "setup: expected 'run', 'view' or 'all', got '$level'" >&2 && exit 2 ;;
 esac
 
 # The Python asked for, else the one that .venv was made with, else the system's.
@@ -54,9 +56,13 @@ repair_wheel_exports() {
         -e "s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$python_include#g"
 }
 
-# One stamp for each level: everything holds what signs as well.
+# A stamp for each level, its own before those that hold more.
 is_ready() { # FOLDER WANT
-    [ "$(cat "$1/.ready" 2>/dev/null)" = "$2" ] || [ "$(cat "$1/$stamp" 2>/dev/null)" = "$2" ]
+    local stamp
+    for stamp in "${stamps[@]}"; do
+        [ "$(cat "$1/$stamp" 2>/dev/null)" = "$2" ] && return
+    done
+    return 1
 }
 
 install_requirements() {
@@ -81,24 +87,25 @@ install_requirements() {
         options=(-c requirements/constraints.txt)
         building+=(-r requirements/ros.txt numpy)
     fi
-    if [ "$level" = run ]; then
-        echo "setup: installing what signs and building it (about a minute and 1.2 GB the first time)"
-    else
-        echo "setup: installing Python packages (a few minutes and 3 GB the first time)"
-    fi
+    case "$level" in
+        run) echo "setup: installing what signs and building it (about a minute and 1.2 GB the first time)" ;;
+        *) echo "setup: installing Python packages (a few minutes and 3 GB the first time)" ;;
+    esac
     "${pip[@]}" "${building[@]}" "${options[@]}"
     repair_wheel_exports
     # The messages take longest to build and need nothing more: they are built while the rest is fetched.
     build --packages-select control_msgs teo_sign_msgs &
     options+=(-r requirements/run.txt)
-    if [ "$level" = all ]; then
-        options+=(-r requirements/train.txt -r requirements/retriever.txt -r requirements/capture.txt -r requirements/test.txt
-            -r requirements/docs.txt)
+    if [ "$level" != run ]; then
+        options+=(-r requirements/console.txt -r requirements/retriever.txt -r requirements/capture.txt)
         "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
+    fi
+    if [ "$level" = all ]; then
+        options+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt)
     fi
     "${pip[@]}" "${options[@]}"
     wait $!
-    echo "$want" >".venv/$stamp"
+    echo "$want" >".venv/${stamps[0]}"
 }
 
 build() { # OPTION...: builds what colcon's options select
@@ -123,12 +130,15 @@ build_workspace() {
         } | sha256sum | cut -d' ' -f1
     )"
     is_ready install "$want" && return
-    if [ "$level" = run ]; then selection=(--packages-up-to teo_bringup teo_ros2cli); fi
+    case "$level" in
+        run) selection=(--packages-up-to teo_bringup teo_ros2cli) ;;
+        view) selection=(--packages-up-to teo_bringup teo_ros2cli teo_console teo_sign_capture) ;;
+    esac
     echo "setup: building the workspace"
     # Links to files that are gone would stop the build.
     { find build install -xtype l -delete 2>/dev/null || true; }
     build "${selection[@]}"
-    echo "$want" >"install/$stamp"
+    echo "$want" >"install/${stamps[0]}"
 }
 
 ros=wheels

@@ -24,6 +24,7 @@ ROS = (
 DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     **{name: (name, None) for name in (*ROS, *PACKAGES, "teo_sign_msgs", "control_msgs")},
     "PIL": ("python3-pil", "pillow"),
+    "aiohttp": ("python3-aiohttp", "aiohttp"),
     "anny": (None, "anny"),
     "av": (None, "av"),
     "casadi": (None, "casadi"),
@@ -39,6 +40,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "mcap": (None, "mcap"),
     "mediapipe": (None, "mediapipe"),
+    "msgspec": (None, "msgspec"),
     "num2words": (None, "num2words"),
     "numpy": ("python3-numpy", "numpy"),
     "pinocchio": ("pinocchio", "pin"),
@@ -49,6 +51,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "rosbags": (None, "rosbags"),
     "ruckig": (None, "ruckig"),
     "sacrebleu": (None, "sacrebleu"),
+    "segno": (None, "segno"),
     "signwriting": (None, "signwriting"),
     "safetensors": (None, "safetensors"),
     "scipy": ("python3-scipy", "scipy"),

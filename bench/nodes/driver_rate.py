@@ -124,10 +124,10 @@ def _node() -> list[Figure]:
         if not wait(lambda: any(heard[-1].velocity), _TIMEOUT):
             raise TimeoutError(f"the driver did not move within {_TIMEOUT} s")
         heard.clear()
-        begin, used = time.monotonic(), _cpu_seconds(driver.pid)
+        begin, used = time.monotonic(), cpu_seconds(driver.pid)
         wait(lambda: False, WATCHED)
         stamps = np.array([_stamp(state) for state in heard])
-        share = (_cpu_seconds(driver.pid) - used) / (time.monotonic() - begin)
+        share = (cpu_seconds(driver.pid) - used) / (time.monotonic() - begin)
         long = _long_messages(node, commands, heard, wait)
     finally:
         driver.send_signal(signal.SIGINT)
@@ -203,7 +203,7 @@ def as_message(plain: PlainTrajectory) -> JointTrajectory:
     return message
 
 
-def _cpu_seconds(pid: int) -> float:
+def cpu_seconds(pid: int) -> float:
     """Processor time that a process has used [s], user and system."""
     fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What becomes of sentences when a process is killed with SIGKILL at a random moment, and started again.
 
-Each time a text of three sentences is typed; at a random moment translator, executor, its planner or the
+Each time a text of two short sentences is typed; at a random moment translator, executor, its planner or the
 driver is killed, and started again a second later, as a supervisor would. Then the robot must come to rest,
 having kept its speed limits, and every sentence that the translator published must have been signed or named.
+A text that dies with the translator before it was answered can be named by nobody: it is counted.
 """
 
 from __future__ import annotations
@@ -21,19 +22,23 @@ from pathlib import Path
 
 import numpy as np
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from report import Figure
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from teo_sign_msgs.msg import ExecutorStatus, SignSentence
+from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TranslationStatus
 
 from teo_bringup.graph import NODES, executable_of
-from teo_description import ALL_JOINTS, HOME, joint_limits
+from teo_description import ALL_JOINTS, COMMANDED_JOINTS, joint_limits
+from teo_motion.sentence.rest_posture import REST_POSITIONS
 
 KILLS = 20
-_TEXT = "Hola. Me llamo Al. ¿Tú comer?"
+_TEXT = "Hola. Sí."
+_SENTENCES = 2
+_LONGEST = 8.0  # [s] until the text is signed, about
 _VICTIMS = ("translator", "executor", "planner", "driver")
 _SEED = 13
 _TIMEOUT = 120.0  # [s] until all is at rest again
@@ -48,16 +53,26 @@ class _Witness(Node):
         super().__init__("witness")
         self.sentences: set[tuple[str, int]] = set()
         self.accounted: dict[tuple[str, int], str] = {}
+        self.answered = 0
+        self.heard: set[str] = set()  # nodes that have told how they are
         self.state: int | None = None
         self.states: list[tuple[float, np.ndarray]] = []
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(SignSentence, "sign_tokens", self._on_sentence, 100)
+        self.create_subscription(DiagnosticArray, "diagnostics", self._on_diagnostics, 100)
+        self.create_subscription(TranslationStatus, "translation_status", self._on_answer, 100)
         self.create_subscription(ExecutorStatus, "executor_status", self._on_status, latched)
         self.create_subscription(JointState, "joint_states", self._on_joints, 100)
         self.texts = self.create_publisher(String, "text", 10)
 
     def _on_sentence(self, message: SignSentence) -> None:
         self.sentences.add((message.utterance_id, message.sentence_index))
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        self.heard |= {status.name.split(":")[0] for status in message.status}
+
+    def _on_answer(self, _: TranslationStatus) -> None:
+        self.answered += 1
 
     def _on_status(self, message: ExecutorStatus) -> None:
         self.state = message.state
@@ -70,11 +85,21 @@ class _Witness(Node):
         stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
         self.states.append((stamp, np.array(message.position)))
 
+    def forget(self) -> None:
+        """Know nothing of sentences any more."""
+        self.answered = 0
+        self.sentences.clear()
+        self.accounted.clear()
+
     @property
     def at_rest(self) -> bool:
-        """Whether the robot is at home and the executor says that all is done."""
-        home = np.array([HOME[name] for name in ALL_JOINTS])
-        there = bool(self.states) and bool(np.abs(self.states[-1][1] - home).max() < _AT_REST)
+        """Whether all nodes are there, the robot is at rest and the executor says that all is done."""
+        if len(self.heard) < len(NODES):
+            return False
+        columns = [ALL_JOINTS.index(name) for name in COMMANDED_JOINTS]
+        there = bool(self.states) and any(
+            np.abs(self.states[-1][1][columns] - rest).max() < _AT_REST for rest in REST_POSITIONS.values()
+        )
         return there and self.state == ExecutorStatus.STATE_IDLE
 
     def fastest(self) -> float:
@@ -88,12 +113,12 @@ class _Witness(Node):
         return float((speeds / joint_limits(ALL_JOINTS).velocity).max()) if speeds.size else 0.0
 
 
-def measure(kills: int = KILLS) -> list[Figure]:
-    """Kill processes at random moments and count what is lost."""
+def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
+    """Kill processes at random moments, each as often as the others, and count what is lost."""
     os.environ.setdefault("ROS_DOMAIN_ID", "18")
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     rclpy.init()
-    witness, executor, dice = _Witness(), SingleThreadedExecutor(), random.Random(_SEED)
+    witness, executor, dice = _Witness(), SingleThreadedExecutor(), random.Random(seed)
     executor.add_node(witness)
     processes: dict[str, subprocess.Popen[bytes]] = {}
 
@@ -111,6 +136,7 @@ def measure(kills: int = KILLS) -> list[Figure]:
 
     lost: list[str] = []
     restless: list[str] = []
+    unanswered = 0
     outcomes: Counter[str] = Counter()
     fastest = 0.0
     with tempfile.TemporaryDirectory() as folder:
@@ -118,24 +144,25 @@ def measure(kills: int = KILLS) -> list[Figure]:
         try:
             for name in NODES:
                 start(name, journal)
-            for _ in range(kills):
-                wait(lambda: witness.at_rest and witness.texts.get_subscription_count() > 0, _TIMEOUT)
-                victim, moment = dice.choice(_VICTIMS), dice.uniform(0.0, 12.0)
-                witness.sentences.clear()
-                witness.accounted.clear()
+            for index in range(kills):
+                wait(lambda: witness.at_rest, _TIMEOUT)
+                victim, moment = _VICTIMS[index % len(_VICTIMS)], dice.uniform(0.0, _LONGEST)
                 witness.texts.publish(String(data=_TEXT))
                 wait(lambda: False, moment)
                 _kill(victim, processes)
                 wait(lambda: False, _RESTART)
+                witness.heard.clear()  # what was restarted is there when it is heard again
                 if victim != "planner":
                     start(victim, journal)
                 if not wait(lambda: witness.at_rest, _TIMEOUT):
                     restless.append(f"{victim} after {moment:.1f} s")
+                unanswered += not witness.answered and len(witness.sentences) < _SENTENCES
                 lost += [
                     f"{victim} after {moment:.1f} s" for _ in witness.sentences - witness.accounted.keys()
                 ]
                 outcomes.update(witness.accounted.values())
                 fastest = max(fastest, witness.fastest())
+                witness.forget()
         finally:
             for process in processes.values():
                 process.kill()
@@ -146,6 +173,7 @@ def measure(kills: int = KILLS) -> list[Figure]:
     return [
         Figure(f"sentences after {kills} kills", told),
         Figure("sentences neither signed nor named", f"{len(lost)} {'; '.join(lost)}".strip()),
+        Figure("texts that died with the translator, unanswered", str(unanswered)),
         Figure("kills after which the robot did not come to rest", f"{len(restless)} {'; '.join(restless)}"),
         Figure("greatest speed over the limit", f"{fastest:.3f}"),
     ]

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time from a text on `text` to its first JointTrajectory, through the real translator and executor.
 
-The bench stands in for driver and clock: simulated time runs with real time and the robot follows, until the
-motion of the whole sentence has arrived; then the clock is set past its end, so that 200 sentences take
-seconds instead of the hour that signing them would take. The baseline, in the same run, is the same text
-echoed by a process that does nothing with it: what DDS alone costs.
+The bench stands in for driver and clock, at the driver's rate: simulated time runs with real time and the
+robot follows, until the motion of the whole sentence has arrived; then the clock is set past its end, so that
+200 sentences take seconds instead of the hour that signing them would take. The baseline, in turn in the same
+run, is the same text echoed by a process that does nothing with it: what DDS alone costs.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import numpy as np
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from report import Figure, percentiles
 from rosgraph_msgs.msg import Clock
@@ -32,6 +33,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from teo_bringup.graph import Graph
 from teo_description import COMMANDED_JOINTS, HOME
+from teo_motion.sentence.rest_posture import REST
 
 SENTENCES = 200
 _TEXTS = (
@@ -44,7 +46,7 @@ _TEXTS = (
     "Dame la mano",
 )
 _TIMEOUT = 60.0  # [s] for one answer, start of the processes included
-_TICK = 0.002  # [s] between clock messages
+_TICK = 0.01  # [s] between joint states, and between clock messages
 
 _ECHO = """
 import rclpy
@@ -52,7 +54,7 @@ from std_msgs.msg import String
 rclpy.init()
 node = rclpy.create_node("echo")
 publisher = node.create_publisher(String, "echo", 10)
-node.create_subscription(String, "text", publisher.publish, 10)
+node.create_subscription(String, "call", publisher.publish, 10)
 rclpy.spin(node)
 """
 
@@ -62,7 +64,7 @@ class _Inbox:
     """What has arrived since it was last emptied."""
 
     trajectories: list[JointTrajectory] = field(default_factory=list)
-    echoes: list[String] = field(default_factory=list)
+    arrived: list[float] = field(default_factory=list)  # [s] when each came
     states: list[int] = field(default_factory=list)
 
 
@@ -107,15 +109,20 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     robot = _Robot()
 
     def on_trajectory(message: JointTrajectory) -> None:
+        inbox.arrived.append(time.perf_counter())
         inbox.trajectories.append(message)
         robot.take(message)
 
+    def on_echo(_: String) -> None:
+        inbox.arrived.append(time.perf_counter())
+
     node.create_subscription(JointTrajectory, "joint_trajectory", on_trajectory, 10)
-    node.create_subscription(String, "echo", inbox.echoes.append, 10)
+    node.create_subscription(String, "echo", on_echo, 10)
     node.create_subscription(
         ExecutorStatus, "executor_status", lambda m: inbox.states.append(m.state), latched
     )
     text = node.create_publisher(String, "text", 10)
+    call = node.create_publisher(String, "call", 10)
     clock = node.create_publisher(Clock, "clock", 10)
     joints = node.create_publisher(JointState, "joint_states", 10)
     state = JointState(name=list(COMMANDED_JOINTS))
@@ -130,16 +137,28 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
         joints.publish(state)
 
     def ends_at_rest(message: JointTrajectory) -> bool:
-        return bool(np.allclose(message.points[-1].positions, [HOME[name] for name in COMMANDED_JOINTS]))
+        return bool(np.allclose(message.points[-1].positions, REST))
 
     def wait(condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + _TIMEOUT
+        due = time.monotonic()
+        deadline = due + _TIMEOUT
         while not condition():
-            if time.monotonic() > deadline:
+            now = time.monotonic()
+            if now > deadline:
                 raise TimeoutError(f"no answer within {_TIMEOUT} s")
-            graph.check()
-            tick()
-            executor.spin_once(timeout_sec=_TICK)
+            if now >= due:
+                graph.check()
+                tick()
+                due = now + _TICK
+            executor.spin_once(timeout_sec=max(due - time.monotonic(), 0.0))
+
+    def measured(publisher: Publisher, message: String) -> float:
+        inbox.trajectories.clear()
+        inbox.arrived.clear()
+        start = time.perf_counter()
+        publisher.publish(message)
+        wait(lambda: bool(inbox.arrived))
+        return inbox.arrived[0] - start
 
     latencies: dict[str, list[float]] = {"text to trajectory": [], "DDS echo": []}
     with tempfile.TemporaryDirectory() as folder, Graph(log_folder=Path(folder)) as graph:
@@ -147,17 +166,13 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
         simulated = ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=''")
         graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)
         graph.start("echo", sys.executable, "-c", _ECHO)
-        wait(lambda: node.count_subscribers("text") == 2 and node.count_subscribers("sign_tokens") == 1)
+        for topic in ("text", "call", "sign_tokens"):
+            wait(lambda topic=topic: node.count_subscribers(topic) == 1)  # type: ignore[misc]
         wait(lambda: ExecutorStatus.STATE_IDLE in inbox.states)
         for index in range(sentences):
-            inbox.trajectories.clear()
-            inbox.echoes.clear()
-            start = time.perf_counter()
-            text.publish(String(data=_TEXTS[index % len(_TEXTS)]))
-            wait(lambda: bool(inbox.echoes))
-            latencies["DDS echo"].append(time.perf_counter() - start)
-            wait(lambda: bool(inbox.trajectories))
-            latencies["text to trajectory"].append(time.perf_counter() - start)
+            message = String(data=_TEXTS[index % len(_TEXTS)])
+            latencies["DDS echo"].append(measured(call, message))
+            latencies["text to trajectory"].append(measured(text, message))
             wait(lambda: ExecutorStatus.STATE_SIGNING in inbox.states)
             wait(lambda: ends_at_rest(inbox.trajectories[-1]))
             inbox.states.clear()

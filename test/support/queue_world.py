@@ -26,8 +26,8 @@ from teo_lut_executor.execution.events import (
 )
 from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.sign import Sign
@@ -84,7 +84,8 @@ class World:
             elif isinstance(event, TrajectoryReady):
                 self.sent.append(event)
                 if self.follows(event.plan):
-                    begin = self._path_time + (event.start - self.now) * self.pace
+                    earlier = event.samples.times[-1] - event.plan.duration  # than the plan begins
+                    begin = self._path_time + (event.start + earlier - self.now) * self.pace
                     self._motions = [item for item in self._motions if item[0] < begin] + [
                         (begin, event.plan)
                     ]

@@ -21,6 +21,8 @@ NODES = {
     "executor": ("teo_lut_executor", "executor_node"),
     "driver": ("teo_sim_driver", "driver_node"),
 }
+# The page that shows it, where it is asked for.
+CONSOLE = {"console": ("teo_console", "console_node")}
 
 # A node that has not ended so long after the signal [s] is killed: a clean end takes a fraction of a second.
 _STOP_TIMEOUT = 5.0
@@ -77,13 +79,17 @@ class Graph:
         for name in list(self._processes):
             self.stop(name)
 
-    def start_nodes(self, arguments: Sequence[str] = ()) -> None:
+    def start_nodes(self, arguments: Sequence[str] = (), *, view: bool = False) -> None:
         """Start every node that takes part in signing, each with these arguments.
+
+        Args:
+            arguments: Of every node.
+            view: Whether to start the console as well.
 
         Raises:
             GraphError: A node is not installed.
         """
-        for name, (package, executable) in NODES.items():
+        for name, (package, executable) in (NODES | (CONSOLE if view else {})).items():
             self.start(name, str(executable_of(package, executable)), *arguments)
 
     def start(self, name: str, *command: str) -> None:
@@ -144,6 +150,10 @@ class Graph:
                 if process.poll() is not None:
                     return name, process.returncode
             time.sleep(_LOOK_PERIOD)
+
+    def process_id(self, name: str) -> int:
+        """Number by which the system knows a process that was started."""
+        return self._processes[name].pid
 
     def check(self) -> None:
         """Raise `GraphError` if a process has ended by itself."""

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
     """Describe nodes that start together, all in one namespace, and end together.
 
-    The arguments `params_file` and `namespace` are declared for `ros2 launch`.
+    The arguments `params_file`, `namespace` and `use_sim_time` are declared for `ros2 launch`.
 
     Args:
         nodes: Package and executable of each.
@@ -34,12 +34,18 @@ def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
                 "params_file", default_value=str(parameters), description="Parameters of the nodes."
             ),
             DeclareLaunchArgument("namespace", default_value="", description="Before every topic and node."),
+            DeclareLaunchArgument(
+                "use_sim_time", default_value="false", description="Take the time from the topic clock."
+            ),
             *(
                 Node(
                     package=package,
                     executable=executable,
                     namespace=LaunchConfiguration("namespace"),
-                    parameters=[LaunchConfiguration("params_file")],
+                    parameters=[
+                        LaunchConfiguration("params_file"),
+                        {"use_sim_time": LaunchConfiguration("use_sim_time")},
+                    ],
                     output="screen",
                     on_exit=Shutdown(reason=f"{executable} ended"),
                 )

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from teo_bringup.graph import NODES, Graph, GraphError, executable_of
+from teo_bringup.start import parse
 
 PATIENCE = 30.0  # [s] for a Python process to start on a loaded machine
 # Says that it is there, and at the end which signals came.
@@ -45,6 +46,15 @@ def wait_for(text: str, path: Path) -> None:
 def test_every_node_that_signs_is_installed() -> None:
     for package, executable in NODES.values():
         assert executable_of(package, executable).is_file()
+
+
+@pytest.mark.parametrize("view", [False, True])
+def test_the_console_is_started_where_it_is_asked_for(view: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[str] = []
+    monkeypatch.setattr(Graph, "start", lambda *given: started.append(given[1]))
+    with Graph() as graph:
+        graph.start_nodes(view=view)
+    assert started == [*NODES, *(["console"] if view else [])]
 
 
 def test_a_package_or_executable_that_is_not_there_is_named() -> None:
@@ -110,7 +120,7 @@ def start(*arguments: str) -> subprocess.Popen[str]:
 
 @pytest.mark.usefixtures("domain_id")
 def test_start_runs_every_node_until_it_is_told_to_end() -> None:
-    process = start("--ros-args", "-r", "__ns:=/lab")
+    process = start("--namespace", "lab")
     assert process.stdout is not None
     said: list[str] = []
     watchdog = threading.Timer(4 * PATIENCE, process.kill)
@@ -145,6 +155,21 @@ def test_start_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path)
     assert process.returncode == 1, said
     assert "executor ended with status 1" in said
     assert "/nowhere" in said
+
+
+def test_start_hands_namespace_clock_and_what_follows_on_to_every_node() -> None:
+    given, _ = parse(["--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256"])
+    assert given[:2] == ["--ros-args", "--params-file"]
+    assert given[3:] == [
+        "-r",
+        "__ns:=/left",
+        "-p",
+        "use_sim_time:=true",
+        "--ros-args",
+        "-p",
+        "model:=lstm256",
+    ]
+    assert parse([]).for_nodes[3:] == []
 
 
 def test_start_wants_a_file_of_parameters_that_is_there() -> None:

@@ -100,19 +100,21 @@ def test_every_configuration_is_declared_and_the_parameter_file_is_there(actions
         if isinstance(action, DeclareLaunchArgument)
     }
     assert Path(declared["params_file"]).is_file()
+    nodes = [node for node in actions if isinstance(node, Node)]
     used = {
         value.arguments[0]
-        for node in actions
-        if isinstance(node, Node)
-        for value in (node.keywords["namespace"], *node.keywords["parameters"])
+        for node in nodes
+        for given in (node.keywords["namespace"], *node.keywords["parameters"])
+        for value in (given.values() if isinstance(given, dict) else [given])
         if isinstance(value, LaunchConfiguration)
     }
     assert used == set(declared)
 
 
-def test_there_is_one_for_signing_for_seeing_and_for_learning() -> None:
+def test_there_is_one_for_signing_seeing_learning_and_showing() -> None:
     assert [path.name for path in LAUNCH_FILES] == [
         "capture.launch.py",
+        "console.launch.py",
         "retriever.launch.py",
         "signing.launch.py",
     ]

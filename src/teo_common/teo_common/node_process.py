@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Sequence
 
 import rclpy
@@ -26,6 +27,10 @@ def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> 
         # object, whose destructor writes a traceback.
         executor = SingleThreadedExecutor()
         node = make_node()
+        # Models and tables are there to stay: a collection that walked them all would hold up a callback
+        # for a tenth of a second.
+        gc.collect()
+        gc.freeze()
         rclpy.spin(node, executor)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

@@ -48,6 +48,15 @@ class ParameterRow:
         return descriptor
 
 
+# `ros2 run` without a manager must give a node that works.
+AUTOSTART = ParameterRow(
+    name="autostart",
+    default=True,
+    description="Whether the node configures and activates itself when it starts; else a manager does.",
+    read_only=True,
+)
+
+
 def declare_parameters(node: Node, rows: Iterable[ParameterRow]) -> None:
     """Declare every row on the node."""
     for row in rows:

@@ -16,7 +16,7 @@ from teo_lut_executor.execution.events import (
     PlanWanted,
     QueueSettings,
 )
-from teo_motion.sentence.composition import REST
+from teo_motion.sentence.rest_posture import REST
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 

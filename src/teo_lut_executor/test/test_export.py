@@ -25,6 +25,7 @@ from teo_description import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint
 from teo_lut_executor.cli.lut import app
 from teo_motion.lone_sign import sign_motion
 from teo_motion.planner import Planner
+from teo_motion.sentence.rest_posture import RestPosture
 from teo_signs.errors import LutError
 from teo_signs.export.play_motion2 import play_motion2_parameters
 from teo_signs.export.playback_thread import playback_mask, playback_table, save_playback_tables
@@ -70,7 +71,8 @@ def dextra_angle(axis: int, value: float) -> float:
 
 
 def planned(signs: Mapping[str, Sign], gloss: str, **options: Any) -> SignMotion:
-    return sign_motion(Planner(signs, least_standing="sketched"), signs[gloss], **options)
+    planner = Planner(signs, least_standing="sketched", rest_posture=RestPosture.HANGING)
+    return sign_motion(planner, signs[gloss], **options)
 
 
 def run(*arguments: str | Path) -> Result:

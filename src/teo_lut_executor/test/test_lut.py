@@ -39,6 +39,58 @@ def test_list_can_be_of_one_kind() -> None:
     assert "3 recorded" in output  # what TEO has signed in public
 
 
+def test_list_as_json_says_of_every_sign_what_the_lines_say_and_its_motion() -> None:
+    listed = {
+        sign["gloss"]: sign for sign in json.loads(run("list", "--lut", TABLE, "--json").output)["signs"]
+    }
+    assert listed.keys() == {path.stem for path in TABLE.glob("*.json")}
+    assert (listed["7"]["kind"], listed["7"]["handedness"]) == ("number", "both")
+    # Flat hands and fists, as their scores say; a letter looks like itself.
+    assert all(listed[gloss]["handshapes"] == ["B"] for gloss in ("CASA", "ANIMAL", "B"))
+    assert all(listed[gloss]["handshapes"] == ["A"] for gloss in ("BICICLETA", "A"))
+    assert len({sign["motion_hash"] for sign in listed.values()}) > 500
+
+
+def test_nearest_as_json_names_for_each_sign_those_most_like_it(tmp_path: Path) -> None:
+    for name in ("R", "U", "A"):
+        (tmp_path / f"{name}.json").write_text((TABLE / f"{name}.json").read_text("utf-8"), "utf-8")
+    near = json.loads(run("nearest", "--lut", tmp_path, "--json", "--count", "1").output)
+    assert near["R"][0]["gloss"] == "U" and near["U"][0]["gloss"] == "R"  # as LUT.md says
+    assert len(near["A"]) == 1
+
+
+def test_review_writes_what_enough_people_found_right_into_the_own_table(
+    tmp_path: Path, data_home: Path
+) -> None:
+    listed = json.loads(run("list", "--json").output)["signs"]
+    motions = {sign["gloss"]: sign["motion_hash"] for sign in listed}
+    answers = [
+        {
+            "kind": "sign",
+            "reviewer": reviewer,
+            "gloss": gloss,
+            "motion_hash": motions[gloss],
+            "rating": rating,
+            "at": "2026-03-01T12:00:00+00:00",
+        }
+        for reviewer in ("Ana", "Luis", "Eva")
+        for gloss, rating in (("CALLE", "right"), ("CASA", "wrong"))
+    ]
+    export = tmp_path / "reviews.json"
+    export.write_text(json.dumps({"format": "teo-review-1", "answers": answers}), "utf-8")
+    result = run("review", export)
+    assert result.exit_code == 0, result.output
+    assert [path.name for path in (data_home / "teo" / "lut").iterdir()] == ["CALLE.json"]
+    assert "standing: reviewed" in run("show", "CALLE").output
+    assert "3 of 3" in result.output and "0 of 3" in result.output
+
+
+def test_review_of_what_is_no_export_fails_with_a_sentence(tmp_path: Path) -> None:
+    result = run("review", tmp_path / "none.json")
+    assert result.exit_code == 1
+    assert "unreadable" in result.output
+
+
 def test_show_tells_everything() -> None:
     output = run("show", "Ñ", "--lut", TABLE).output
     for word in ("Ñ", "letter", "MIT", "FrontalRightElbow", "palm_angle_error_deg", "notes"):

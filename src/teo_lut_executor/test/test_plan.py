@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from teo_description import COMMANDED_JOINTS, HOME, joint_limits
+from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_motion.sentence.rest_posture import REST
 
 # What it does must not depend on ROS: importing it would fail here.
 _RUN = "import sys; sys.modules['rclpy'] = None; from teo_lut_executor.cli.plan import main; main()"
@@ -48,8 +49,7 @@ def test_a_sentence_is_planned_to_a_table_and_a_csv(table_directory: Path, tmp_p
     np.testing.assert_allclose(content[:, 0], np.arange(len(content)) / 100.0)
     limits = joint_limits()
     assert (content[:, 1:] >= limits.lower - 1e-8).all() and (content[:, 1:] <= limits.upper + 1e-8).all()
-    home = [HOME[name] for name in COMMANDED_JOINTS]
-    np.testing.assert_allclose(content[[0, -1], 1:], [home, home], atol=1e-8)
+    np.testing.assert_allclose(content[[0, -1], 1:], [REST, REST], atol=1e-8)
     speed = np.abs(np.diff(content[:, 1:], axis=0)) * 100.0
     assert (speed <= limits.velocity + 1e-6).all()
     assert list(tmp_path.glob(".plan*")) == []

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from queue_world import TICK, World
 
-from teo_description import COMMANDED_JOINTS
 from teo_lut_executor.execution.events import (
     Activity,
     DriverMode,
@@ -19,10 +18,8 @@ from teo_lut_executor.execution.events import (
     Preemption,
     QueueSettings,
 )
-from teo_motion.sentence.composition import REST
+from teo_motion.sentence.rest_posture import REST
 from teo_signs.sign import Sign
-
-ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
 
 
 @pytest.fixture
@@ -30,11 +27,6 @@ def world(table: Mapping[str, Sign]) -> World:
     made = World(table)
     made.run(0.2)
     return made
-
-
-def elbow(world: World) -> np.ndarray:
-    """Angle of the right elbow at every tick [rad]: 0 hanging, about -1.3 while it spells."""
-    return np.array([positions[ELBOW] for positions, _ in world.path])
 
 
 def assert_smooth(world: World) -> None:
@@ -51,11 +43,11 @@ def test_sentences_in_a_row_are_signed_with_the_arms_up(world: World) -> None:
     world.run_until(lambda: len(world.finished()) == 3)
     assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
     assert_smooth(world)
-    raised = elbow(world) < -1.0
+    raised = np.array([np.abs(positions - REST).max() > 0.1 for positions, _ in world.path])
     assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == 1, "raised once for all three"
     np.testing.assert_allclose(world.positions, REST, atol=1e-3)
     singly = sum(world.planner.plan(event.sentence.tokens).duration for event in plans_wanted(world))
-    assert world.now - 100.2 < singly - 4.0
+    assert world.now - 100.2 < singly - 2.0
 
 
 def plans_wanted(world: World) -> list[PlanWanted]:
@@ -68,7 +60,7 @@ def test_between_joined_sentences_the_hands_stay_for_the_pause(world: World) -> 
     first, second = world.sent
     last = first.plan.timings[-1]
     ended = last.start + last.duration
-    assert second.start - first.start == pytest.approx(ended, abs=0.021)
+    assert ended - 0.04 <= second.start - first.start <= ended, "a period before the last point of standing"
     stays = second.plan.positions[second.plan.times <= world.queue.settings.sentence_pause]
     np.testing.assert_allclose(stays - stays[0], 0.0, atol=1e-6)
 
@@ -110,7 +102,7 @@ def test_the_arms_rise_before_the_sentence_is_planned(world: World) -> None:
     world.opening_time, world.planning_time = 0.5, 0.3
     ticket = world.sign("A-N")
     world.run(0.2)
-    assert len(world.sent) == 1 and elbow(world)[-1] < 0.0, "they move already"
+    assert len(world.sent) == 1 and np.abs(world.path[-1][0] - REST).max() > 1e-3, "they move already"
     assert world.activities()[-1] == Activity.WAITING, "and nothing is said of a plan that is not there"
     world.run_until(lambda: bool(world.finished()))
     assert world.finished() == [(ticket, Outcome.SUCCESS)]

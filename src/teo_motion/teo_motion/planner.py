@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plans sentences: tokens in, motion out.
 
-One walk: `Lexicon` finds the signs, `SignSize` makes those smaller that are too slow, `choose_postures` takes
-those of their postures that are the shortest way apart, `compose` lays them out as waypoints,
+One walk: `Lexicon` finds the signs, `choose_postures` takes those of their postures that are the shortest way
+apart, `SignSize` makes those smaller that are too slow, `compose` lays them out as waypoints,
 `CollisionAvoidance` settles idle limbs, has the waypoints timed (`SentenceTiming`) and leads the motion
 around the robot's body, `HeadOverlay` lays the head's gestures over it. What travels: `SignedToken`,
 `Composition`, `Route`, `Plan`.
@@ -20,10 +20,11 @@ from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.collision.opening import opening
 from teo_motion.head.overlay import HeadOverlay
-from teo_motion.sentence.composition import REST, compose
+from teo_motion.sentence.composition import compose
 from teo_motion.sentence.head_gestures import head_gestures
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
+from teo_motion.sentence.rest_posture import DEFAULT_REST, REST_POSITIONS, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
 from teo_motion.sentence.sign_size import SignSize
@@ -31,7 +32,7 @@ from teo_motion.sentence.timing import SentenceTiming
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
-from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
+from teo_signs.lexicon import DEFAULT_STANDING, Lexicon
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 from teo_signs.tokens import Token
@@ -72,6 +73,7 @@ class Planner:
         period: float = DEFAULT_PERIOD,
         max_duration: float = DEFAULT_MAX_DURATION,
         least_standing: Standing = DEFAULT_STANDING,
+        rest_posture: RestPosture = DEFAULT_REST,
     ) -> None:
         """Prepare.
 
@@ -84,6 +86,7 @@ class Planner:
             period: Time between two samples of a plan [s].
             max_duration: A longer motion is refused [s].
             least_standing: Signs of a lower standing are spelled.
+            rest_posture: Where sentences end, and begin if nothing else is said.
 
         Raises:
             PlanError: The period or the duration is not above 0 ("bad_period").
@@ -97,6 +100,7 @@ class Planner:
         motion_clearance = None if robot is None else MotionClearance(robot)
         self._motion_clearance = motion_clearance
         self._least_clearance = least_clearance
+        self._rest = REST_POSITIONS[rest_posture]
         self._period = period
         self._max_duration = max_duration
         self._size = (
@@ -157,11 +161,13 @@ class Planner:
         check_form(form)
         begin = self._checked(start)
         style = self.style.for_form(form)
-        signed: Sequence[SignedToken] = self._lexicon.resolve(tokens)
+        captured = self._lexicon.resolve(tokens)
+        signed = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
         if self._size is not None:
-            signed = self._size.fitted(signed)
-        signed = choose_postures(signed, start=begin.position, limits=self.limits)
-        composition = compose(signed, start=begin, limits=self.limits, style=style, hold=hold)
+            signed = self._size.fitted(signed, captured)
+        composition = compose(
+            signed, start=begin, limits=self.limits, style=style, rest=self._rest, hold=hold
+        )
         plan = self._avoidance.plan(composition)
         return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
 
@@ -184,8 +190,9 @@ class Planner:
             PlanError: The sentence cannot be signed; the code says why.
         """
         begin = self._checked(start)
-        signed = choose_postures(self._lexicon.resolve(tokens), start=begin.position, limits=self.limits)
-        composition = compose(signed[:1], start=begin, limits=self.limits, style=self.style)
+        captured = self._lexicon.resolve(tokens)
+        signed = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
+        composition = compose(signed[:1], start=begin, limits=self.limits, style=self.style, rest=self._rest)
         for share in _OPENING_SHARES:
             found = opening(
                 composition,
@@ -206,14 +213,16 @@ class Planner:
             PlanError: There is no way that keeps the limits and the clearance; the code says why.
         """
         begin = self._checked(start)
-        return self._avoidance.plan(compose((), start=begin, limits=self.limits, style=self.style))
+        return self._avoidance.plan(
+            compose((), start=begin, limits=self.limits, style=self.style, rest=self._rest)
+        )
 
     def _checked(self, start: State | None) -> State:
         """The state to plan from, moved onto the limits where it is a little beyond them."""
         joints = len(self.limits.names)
         still = np.zeros(joints)
         if start is None:
-            return State(position=REST, velocity=still, acceleration=still)
+            return State(position=self._rest, velocity=still, acceleration=still)
         for name, values in (
             ("position", start.position),
             ("velocity", start.velocity),

@@ -20,8 +20,8 @@ from teo_description import (
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Samples
+from teo_motion.sentence.rest_posture import HANGING, REST
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.mirroring import mirrored_positions
@@ -62,7 +62,7 @@ def without_looking(signs: dict[str, Sign], glosses: str, robot: Robot) -> float
     return MotionClearance(robot).nearest(plan.samples).distance
 
 
-def test_an_idle_left_hand_in_the_way_goes_to_rest_first(make_sign: MakeSign, lut: Lut, robot: Robot) -> None:
+def test_an_idle_left_hand_in_the_way_hangs_first(make_sign: MakeSign, lut: Lut, robot: Robot) -> None:
     right, left = arms(lut, "AMIGO", 0)
     signs = {
         "TWO": make_sign("TWO", [[*right, *OPEN, *left, *OPEN]], joints=BOTH),
@@ -75,7 +75,7 @@ def test_an_idle_left_hand_in_the_way_goes_to_rest_first(make_sign: MakeSign, lu
     assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
     one = plan.timings[1]
     position, _, _ = plan.at(one.start + one.duration / 2.0)
-    shown = dict(zip(plan.names, position - REST, strict=True))
+    shown = dict(zip(plan.names, position - HANGING, strict=True))
     assert max(abs(shown[joint]) for joint in LEFT_ARM) < 0.05
 
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
-from teo_motion.sentence.composition import REST, Composition, compose
+from teo_motion.sentence.composition import Composition, compose
+from teo_motion.sentence.rest_posture import HANGING, REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -129,11 +130,13 @@ def test_a_pause_keeps_the_hands_where_they_are(table: Mapping[str, Sign]) -> No
     )
 
 
-def test_joints_of_a_limb_that_a_sign_leaves_out_are_at_rest(make_sign: Callable[..., Sign]) -> None:
+def test_joints_of_a_limb_that_a_sign_leaves_out_are_as_in_the_hanging_posture(
+    make_sign: Callable[..., Sign],
+) -> None:
     one = {"X": make_sign("X", [[-1.0]], joints=("FrontalLeftElbow",))}
     row = composed(one, "X").targets[1]
     columns = [COMMANDED_JOINTS.index(name) for name in LEFT_ARM]
-    expected = REST[columns].copy()
+    expected = HANGING[columns].copy()
     expected[3] = -1.0
     np.testing.assert_array_equal(row[columns], expected)
 

@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.head_gestures import GestureKind
 from teo_motion.sentence.plan import Plan, TokenTiming
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType
 from teo_motion.trajectory.limits import MotionLimits
@@ -244,9 +244,9 @@ def test_signs_at_the_face_stay_clear_of_the_head(lut: Lut, robot: Robot, text: 
         plan = Planner(lut, robot=robot).plan(parse_printed(text), form=form)
         assert plan.nearest is not None and plan.nearest.distance >= 0.0
         near = plan.nearest
-        point = np.array([np.interp(near.time, plan.times, column) for column in plan.positions.T])
+        point, _, _ = plan.at(near.time)
         found = robot.clearance(robot.configuration(dict(zip(plan.names, point.tolist(), strict=True))))
-        assert found.distance == pytest.approx(near.distance, abs=1e-5)
+        assert found.distance == pytest.approx(near.distance, abs=1e-3)  # points leave the motion by 0.5 mrad
 
 
 @pytest.mark.parametrize("share", [0.3, 0.5, 0.7])

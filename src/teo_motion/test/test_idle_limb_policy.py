@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
@@ -38,8 +38,22 @@ def test_an_arm_that_is_needed_again_at_once_waits_where_it_is(table: Mapping[st
 
 
 def test_its_hand_goes_to_rest_meanwhile(table: Mapping[str, Sign]) -> None:
-    plan = Planner(table).plan(parse_printed("CASA TÚ CASA"))
-    np.testing.assert_allclose(during(plan, 1, LEFT_HAND)[-1], REST[columns(LEFT_HAND)], atol=5e-4)
+    plan = Planner(table).plan(parse_printed("CASA TÚ TÚ CASA"))
+    away = np.abs(np.vstack([during(plan, token, LEFT_HAND) for token in (1, 2)]) - REST[columns(LEFT_HAND)])
+    assert away.max(axis=1).min() < 5e-4
+
+
+def test_an_arm_at_rest_sets_out_while_the_other_still_signs(table: Mapping[str, Sign]) -> None:
+    plan = Planner(table).plan(parse_printed("TÚ A-N-A CASA"))
+    letter, casa = plan.timings[-2:]
+    left = columns(LEFT_ARM)
+    there = plan.at(casa.start)[0][left]
+    takes = MotionLimits.of_robot().least_times(there - REST[left], left).max()
+    ways = [
+        np.abs(plan.at(time)[0][left] - REST[left]).max() for time in (casa.start - takes / 2.0, letter.start)
+    ]
+    assert ways[0] > 0.2, "half way up when its least time is half over"
+    assert ways[1] == 0.0, "not long before"
 
 
 def test_an_arm_that_is_not_needed_for_long_goes_to_rest_and_stays_there(table: Mapping[str, Sign]) -> None:

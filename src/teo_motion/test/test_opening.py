@@ -10,7 +10,7 @@ import pytest
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut

@@ -11,8 +11,8 @@ import pytest
 from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner, plan
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -66,7 +66,7 @@ def test_an_easy_sign_is_not_stretched_and_a_fast_one_says_by_how_much(
     easy = make_sign("EASY", [[-1.0], [-1.1]], [0.0, 0.5], joints=elbow)
     fast = make_sign("FAST", [[-1.0], [0.0], [-1.0]], [0.0, 0.2, 0.4], joints=elbow)
     signs = {"EASY": easy, "FAST": fast}
-    planner = Planner(signs, style=SigningStyle(final_hold=0.0))
+    planner = Planner(signs, style=SigningStyle(final_hold=0.0), rest_posture=RestPosture.HANGING)
     assert planner.plan([Token(gloss="EASY")]).stretch == pytest.approx(1.0)
     result = planner.plan([Token(gloss="EASY"), Token(gloss="FAST")])
     # 1 rad at 50 deg/s is 1.15 s, and some to speed up and slow down: twice that instead of 0.4 s.
@@ -88,7 +88,7 @@ def test_a_hand_does_not_stop_between_signs_that_go_on(make_sign: Callable[..., 
         "ONE": make_sign("ONE", [[-0.3], [-0.5]], [0.0, 0.5], joints=elbow),
         "TWO": make_sign("TWO", [[-0.8], [-1.0]], [0.0, 0.5], joints=elbow),
     }
-    planner = Planner(signs, style=SigningStyle(final_hold=0.0))
+    planner = Planner(signs, style=SigningStyle(final_hold=0.0), rest_posture=RestPosture.HANGING)
     result = planner.plan([Token(gloss="ONE"), Token(gloss="TWO")])
     column = COMMANDED_JOINTS.index("FrontalRightElbow")
     first, second = result.timings

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from teo_description import COMMANDED_JOINTS
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.look_up_table import Lut, default_lut_directory

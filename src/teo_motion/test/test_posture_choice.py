@@ -12,8 +12,8 @@ import pytest
 from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_motion.planner import Planner
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.posture_choice import choose_postures, postures_of, shortest_postures
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
@@ -57,7 +57,7 @@ def test_no_other_choice_of_postures_takes_less_time(make_sign: MakeSign, seed: 
         paths = generator.uniform(limits.lower, limits.upper, (count, knots, len(joints)))
         sign = make_sign(f"S{number}", paths[0], 0.3 * np.arange(knots), joints=joints)
         signs.append(with_alternatives(sign, *paths[1:]))
-    chosen = shortest_postures(signs, REST, LIMITS)
+    chosen = shortest_postures(signs, REST, REST, LIMITS)
     every = product(*(range(len(postures_of(sign))) for sign in signs))
     assert total_time(signs, tuple(chosen)) == pytest.approx(min(total_time(signs, one) for one in every))
 
@@ -69,14 +69,14 @@ def test_a_posture_that_is_far_now_is_taken_where_it_is_near_what_follows(make_s
     far = make_sign("C", np.full((1, 6), -0.9), joints=RIGHT_ARM)
     start = REST.copy()
     start[[COMMANDED_JOINTS.index(name) for name in RIGHT_ARM]] = -0.9
-    assert shortest_postures([far, both, away], start, LIMITS) == [0, 1, 0]
+    assert shortest_postures([far, both, away], start, REST, LIMITS) == [0, 1, 0]
 
 
 def test_a_doubled_letter_keeps_its_posture(make_sign: MakeSign) -> None:
     letter = with_alternatives(make_sign("L", np.full((1, 6), -0.8), joints=RIGHT_ARM), np.zeros((1, 6)))
     start = REST.copy()
     start[[COMMANDED_JOINTS.index(name) for name in RIGHT_ARM]] = -0.8
-    first, second = shortest_postures([letter, letter], start, LIMITS)
+    first, second = shortest_postures([letter, letter], start, REST, LIMITS)
     assert first == second
 
 
@@ -86,9 +86,9 @@ def test_signs_without_a_choice_and_pauses_stay_as_they_are(make_sign: MakeSign)
         SignedToken(token=Token(gloss="A"), sign=sign),
         SignedToken(token=Token(gloss="", kind=Kind.PAUSE), sign=None),
     )
-    assert choose_postures(signed, start=REST, limits=LIMITS) == signed
-    assert choose_postures((), start=REST, limits=LIMITS) == ()
-    assert shortest_postures([], REST, LIMITS) == []
+    assert choose_postures(signed, start=REST, end=REST, limits=LIMITS) == signed
+    assert choose_postures((), start=REST, end=REST, limits=LIMITS) == ()
+    assert shortest_postures([], REST, REST, LIMITS) == []
 
 
 def test_a_plan_passes_the_posture_that_was_chosen(make_sign: MakeSign) -> None:

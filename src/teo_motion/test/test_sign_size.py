@@ -12,7 +12,7 @@ import pytest
 
 from teo_description import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_motion.sentence.composition import REST
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sign_size import SignSize
 from teo_motion.trajectory.limits import MotionLimits
@@ -37,7 +37,8 @@ def robot() -> Robot:
 def fitted(robot: Robot, sign: Sign, *, scale: float = 1.0, least: float = 0.6) -> Sign:
     size = SignSize(robot, limits=MotionLimits.of_robot(), least=least)
     token = Token(gloss=sign.gloss, kind=Kind.LEXICAL, duration_scale=scale)
-    (item,) = size.fitted([SignedToken(token=token, sign=sign)])
+    signed = [SignedToken(token=token, sign=sign)]
+    (item,) = size.fitted(signed, signed)
     assert item.sign is not None
     return item.sign
 

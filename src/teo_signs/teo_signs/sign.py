@@ -100,4 +100,9 @@ def sign_warnings(sign: Sign) -> tuple[str, ...]:
             f"{sign.gloss}: handedness: expected joints of {', '.join(sorted(expected))} for "
             f"{sign.handedness!r}, got {', '.join(sorted(sides)) or 'none of an arm or hand'}"
         )
+    if sign.provenance.review is not None and sign.provenance.standing != "reviewed":
+        warnings.append(
+            f"{sign.gloss}: provenance.review: expected a review of the motion as it is, got one of another "
+            f"motion; the sign is {sign.provenance.standing} until it is reviewed again"
+        )
     return tuple(warnings)

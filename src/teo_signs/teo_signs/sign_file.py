@@ -18,6 +18,7 @@ from pydantic_core import ErrorDetails
 from teo_common.atomic_files import write_atomically
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_signs.errors import LutError
+from teo_signs.motion_hash import with_standing_in_force
 from teo_signs.sign import Form, Sign, gloss_key
 from teo_signs.sign_schema import SCHEMA_VERSION, FormFile, Provenance, SignFile
 
@@ -38,7 +39,8 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         file: Its name: the stem must be the gloss, and every message begins with it.
 
     Returns:
-        The sign, with read-only arrays.
+        The sign, with read-only arrays. A review of another motion than the entry's leaves the standing
+        before it in force; `sign_warnings` says so.
 
     Raises:
         LutError: The entry is not a good one; the message names file, field, expected and got.
@@ -48,7 +50,7 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         inflection: Form(times=_array(form.times), knots=_array(form.knots))
         for inflection, form in content.forms.items()
     }
-    return Sign(
+    sign = Sign(
         gloss=content.gloss,
         language=content.language,
         kind=content.kind,
@@ -61,6 +63,7 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         forms=MappingProxyType(forms),
         alternatives=tuple(_array(other) for other in content.alternatives),
     )
+    return with_standing_in_force(sign)
 
 
 def read_sign(path: Path) -> Sign:
@@ -101,7 +104,9 @@ def format_sign(sign: Sign) -> str:
     if sign.alternatives:
         others = [_json(_rounded_within(sign.joints, other).tolist()) for other in sign.alternatives]
         lines.append(_block("alternatives", "[]", others))
-    for key, fields in (("provenance", sign.provenance.model_dump()), ("quality", dict(sign.quality))):
+    unasked = {"review"} if sign.provenance.review is None else set()
+    provenance = sign.provenance.model_dump(exclude=unasked)
+    for key, fields in (("provenance", provenance), ("quality", dict(sign.quality))):
         lines.append(_block(key, "{}", [f"{_json(name)}: {_json(value)}" for name, value in fields.items()]))
     return "{\n" + ",\n".join(lines) + "\n}\n"
 
@@ -126,7 +131,7 @@ def save_sign(directory: Path, sign: Sign, *, replace: bool = False) -> Path:
         text = format_sign(sign)
     except ValueError as error:  # NaN and infinity have no JSON
         raise LutError("non_finite", f"{path.name}: expected finite numbers, got: {error}") from error
-    parse_sign(text, file=path)
+    text = format_sign(parse_sign(text, file=path))  # as it will be read: with the standing in force
     if not replace and path.exists():
         message = f"{path.name}: expected a gloss that {directory} does not hold, got {sign.gloss!r}"
         raise LutError("exists", message)

@@ -13,7 +13,7 @@ import datetime
 import unicodedata
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, model_validator
 
 SCHEMA_VERSION = 1
 
@@ -59,13 +59,35 @@ Inflection = Annotated[
     str, Field(min_length=1, max_length=MAX_INFLECTION_LENGTH, pattern=r"^[0-9A-ZÁÉÍÓÚÜÑ_>]+$")
 ]
 
-# How well founded a sign's form is, the best first.
-Standing = Literal["recorded", "measured", "described", "sketched"]
-STANDINGS: tuple[Standing, ...] = get_args(Standing)
-STANDING_MEANING = (
+# What a sign's form is founded on, the best first.
+SourceStanding = Literal["recorded", "measured", "described", "sketched"]
+SOURCE_STANDINGS: tuple[SourceStanding, ...] = get_args(SourceStanding)
+SOURCE_STANDING_MEANING = (
     "How well founded the form is: made from a real recording; measured on a dictionary's video; taken from "
     "a published description; or sketched without a source, not to be trusted."
 )
+
+# The same with what signers have said of the motion; no source gives that (see `reviews`).
+Standing = Literal["reviewed", SourceStanding]
+STANDINGS: tuple[Standing, ...] = get_args(Standing)
+
+_HASH = r"^[0-9a-f]{64}$"
+
+
+class Review(BaseModel):
+    """What signers have said of a sign's motion."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+
+    reviewers: int = Field(ge=1, description="How many people rated the motion.")
+    right: int = Field(ge=0, description="How many of them found it right.")
+    standing: SourceStanding = Field(
+        description="The standing without the review: of another motion than the reviewed one it holds."
+    )
+    motion_hash: str = Field(
+        pattern=_HASH, description="SHA-256 of the motion that was shown, lower-case hexadecimal."
+    )
+    reviewed: Date = Field(description="Day on which the review was entered.")
 
 
 class Provenance(BaseModel):
@@ -73,17 +95,28 @@ class Provenance(BaseModel):
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
 
-    standing: Standing = Field(description=STANDING_MEANING)
+    standing: Standing = Field(
+        description=f"{SOURCE_STANDING_MEANING} 'reviewed': enough signers found this motion right."
+    )
     source: Text = Field(description="Recording, publication or person that the sign was taken from.")
     method: Text = Field(description="How the source became joint angles.")
     recorded: Date | None = Field(description="Day on which the source was recorded; null where not known.")
     created: Date = Field(description="Day on which this entry was made.")
     licence: Text = Field(description="Terms of the source, as an SPDX identifier or a sentence.")
     description_hash: str = Field(
-        pattern=r"^[0-9a-f]{64}$",
+        pattern=_HASH,
         description="SHA-256 of the URDF text that the joint angles were made for, lower-case hexadecimal.",
     )
     notes: str = Field(description="What a reader must know beside the numbers; may be empty.")
+    review: Review | None = Field(
+        default=None, description="What signers said of the motion. Left out where nobody was asked."
+    )
+
+    @model_validator(mode="after")
+    def _reviewed_by_somebody(self) -> Provenance:
+        if self.standing == "reviewed" and self.review is None:
+            raise ValueError("a review of a sign whose standing is 'reviewed'")
+        return self
 
 
 class FormFile(BaseModel):

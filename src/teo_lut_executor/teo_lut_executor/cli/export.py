@@ -44,6 +44,7 @@ def export(
     from teo_description.robot import Robot
     from teo_motion.lone_sign import sign_motion
     from teo_motion.planner import Planner
+    from teo_motion.sentence.rest_posture import RestPosture
     from teo_signs.export.play_motion2 import play_motion2_parameters
     from teo_signs.export.playback_thread import playback_mask, save_playback_tables
     from teo_signs.look_up_table import Lut
@@ -53,7 +54,10 @@ def export(
         chosen = [signs[gloss] for gloss in dict.fromkeys(glosses)]
         if format_ is ExportFormat.PLAY_MOTION2 and out.exists() and not replace:
             raise LutError("exists", f"{out}: expected a file that is not there, or --replace")
-        planner = Planner(signs, robot=Robot.load(), least_standing="sketched")
+        # Other programs have TEO begin and end as it is parked.
+        planner = Planner(
+            signs, robot=Robot.load(), least_standing="sketched", rest_posture=RestPosture.HANGING
+        )
         motions = [
             sign_motion(planner, sign, period=period)
             for sign in track(chosen, description="planning", console=_errors, transient=True)

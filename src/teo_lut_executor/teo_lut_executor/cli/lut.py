@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
 from pathlib import Path
 from typing import Annotated
 
@@ -15,12 +14,15 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_lut_executor.cli.export import export
-from teo_lut_executor.cli.options import TableDirectory, fail
+from teo_lut_executor.cli.listing import list_signs
+from teo_lut_executor.cli.nearest import nearest
+from teo_lut_executor.cli.options import TableDirectory, fail, open_table, signs_of_kind
 from teo_lut_executor.cli.plugins import add_plugins
+from teo_lut_executor.cli.review import review
 from teo_signs.look_up_table import Lut, LutError, Sign
 from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
-from teo_signs.sign_schema import STANDINGS, Kind, sign_json_schema
+from teo_signs.sign_schema import sign_json_schema
 
 app = typer.Typer(
     help="Look into a table of signs.",
@@ -29,11 +31,12 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command()(export)
+app.command("list")(list_signs)
+app.command()(nearest)
+app.command()(review)
 add_plugins(app)
 
 _output = Console(highlight=False)
-# Narrowest column of sources [characters]: their names are not cut on a screen of 80.
-_SOURCE_WIDTH = 17
 
 
 @app.callback()
@@ -45,40 +48,6 @@ def _remember_table(context: typer.Context) -> None:
         context.obj = ()
 
 
-@app.command("list")
-def list_signs(
-    lut: TableDirectory = None,
-    kind: Annotated[str | None, typer.Option(help="lexical, letter or number.")] = None,
-) -> None:
-    """One line a sign: gloss, kind, hands, duration, knots, standing, source; and how many of each."""
-    table = Table(box=None)
-    for name in ("gloss", "kind", "hands", "duration [s]", "knots", "standing"):
-        table.add_column(name, no_wrap=True)
-    table.add_column("source", min_width=_SOURCE_WIDTH)
-    standings: Counter[str] = Counter()
-    bad = 0
-    signs = _open(lut)
-    for gloss in signs.glosses():
-        try:
-            sign = signs[gloss]
-        except LutError as error:
-            bad += 1
-            table.add_row(gloss, "[red]not valid[/red]", "", "", "", "", error.code)
-            continue
-        if kind is None or sign.kind == kind:
-            standing, source = sign.provenance.standing, sign.provenance.source.partition(",")[0]
-            standings[standing] += 1
-            figures = (f"{sign.duration:.2f}", str(len(sign.times)))
-            table.add_row(gloss, sign.kind, sign.handedness, *figures, standing, source)
-    _output.print(table)
-    counts = ", ".join(f"{standings[standing]} {standing}" for standing in STANDINGS if standings[standing])
-    _output.print(
-        f"{standings.total()} signs in {signs.place}: {counts}"
-        + (f"; {bad} entries not valid" if bad else ""),
-        soft_wrap=True,
-    )
-
-
 @app.command()
 def show(
     gloss: str,
@@ -87,7 +56,7 @@ def show(
 ) -> None:
     """Everything that an entry says."""
     try:
-        signs = _open(lut)
+        signs = open_table(lut)
         sign, path = signs[gloss], signs.path(gloss)
     except LutError as error:
         fail(error)
@@ -117,7 +86,7 @@ def validate(
     ] = None,
 ) -> None:
     """Read every entry; exit status 1 if one is not valid."""
-    signs = _open(directory)
+    signs = open_table(directory)
     wrong = odd = 0
     for gloss in signs.glosses():
         try:
@@ -144,7 +113,7 @@ def render(
     """Draw a sign (PNG) or film it (MP4); with --all, one sheet for each kind of sign."""
     if out is None or everything == (gloss is not None):
         fail(LutError("bad_arguments", "expected GLOSS --out FILE.png|FILE.mp4, or --all --out DIRECTORY"))
-    signs = _open(lut)
+    signs = open_table(lut)
     try:
         if gloss is None:
             _render_sheets(out, signs)
@@ -165,7 +134,7 @@ def overview(
     """Draw all signs of a kind on one small picture, each as it begins and farthest from there."""
     from teo_signs.pictures import save_overview
 
-    signs = _of_kind(_open(lut), kind)
+    signs = signs_of_kind(open_table(lut), kind)
     if not signs:
         fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
     try:
@@ -173,37 +142,6 @@ def overview(
     except OSError as error:
         fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
     _output.print(f"wrote {out}: {len(signs)} signs", soft_wrap=True)
-
-
-@app.command()
-def nearest(
-    count: Annotated[int, typer.Option(help="How many pairs.", min=1)] = 15,
-    kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "letter",
-    lut: TableDirectory = None,
-) -> None:
-    """The pairs of signs that look most alike on TEO."""
-    from teo_description.robot import Robot
-    from teo_signs.likeness import nearest_pairs
-
-    signs = _of_kind(_open(lut), kind)
-    # Rich takes "[mm]" for markup.
-    columns = (r"handshape \[mm]", r"orientation \[deg]", r"movement \[mm]", r"place \[mm]")
-    table = Table("pair", "seen", *columns, box=None)
-    for pair in nearest_pairs(Robot.load(), signs)[:count]:
-        table.add_row(
-            f"{pair.first} {pair.second}",
-            f"{pair.seen:.1f}",
-            f"{1000.0 * pair.handshape:.0f}",
-            f"{np.degrees(pair.orientation):.0f}",
-            f"{1000.0 * pair.movement:.0f}",
-            f"{1000.0 * pair.place:.0f}",
-        )
-    _output.print(table)
-    _output.print(
-        "seen: the largest difference, in finger thicknesses (15 mm), 15 deg or neighbouring places on the "
-        "face (28 mm); below 1 they look alike",
-        soft_wrap=True,
-    )
 
 
 @app.command()
@@ -215,20 +153,6 @@ def schema() -> None:
 def main() -> None:
     """Run the command."""
     app()
-
-
-def _open(directory: Path | None) -> Lut:
-    try:
-        return Lut.open(directory)
-    except LutError as error:
-        fail(error)
-
-
-def _of_kind(signs: Lut, kind: Kind | str) -> list[Sign]:
-    try:
-        return [sign for sign in signs.values() if sign.kind == kind]
-    except LutError as error:
-        fail(error)
 
 
 def _render_one(out: Path, sign: Sign) -> None:
@@ -249,7 +173,7 @@ def _render_sheets(out: Path, signs: Lut) -> None:
 
     out.mkdir(parents=True, exist_ok=True)
     for kind, name in (("letter", "letters.png"), ("number", "numbers.png"), ("lexical", "signs.png")):
-        chosen = _of_kind(signs, kind)
+        chosen = signs_of_kind(signs, kind)
         if chosen:
             save_sheet(out / name, chosen)
             _output.print(f"wrote {out / name}: {len(chosen)} signs", soft_wrap=True)

@@ -33,6 +33,9 @@ from teo_signs.tokens import parse_printed
 # Rows of a CSV a second [Hz], as TEO's own state is published.
 _RATE = 100
 
+# Joints whose torque is told: the trunk's, which bears the most, and one of each arm.
+_SHOWN_TORQUES = 3
+
 # A nanoradian: what is written stays within the limits that it stands on.
 _DECIMALS = 9
 
@@ -137,11 +140,11 @@ def _summary(plan: Plan, robot: Robot) -> str:
             f"nearest to itself: {near.distance * 1000.0:.0f} mm between {near.first} and {near.second} "
             f"at {near.time:.2f} s"
         )
-    peak = peak_torques(plan, robot)[0]
-    lines.append(
-        f"most torque: {peak.torque:.1f} N m at {peak.joint}, {100.0 * peak.share:.0f} % of its limit, "
-        f"at {peak.time:.2f} s"
+    peaks = (
+        f"{peak.joint} {peak.torque:.1f} N m ({100.0 * peak.share:.0f} % of its limit, at {peak.time:.2f} s)"
+        for peak in peak_torques(plan, robot)[:_SHOWN_TORQUES]
     )
+    lines.append(f"most torque, over limits that are placeholders: {', '.join(peaks)}")
     if plan.head:
         gestures = (f"{item.kind.value} {item.start:.2f} .. {item.end:.2f} s" for item in plan.head)
         lines.append(f"head: {', '.join(gestures)}")

@@ -7,7 +7,7 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass, field
 
-from teo_motion.sentence.plan import Plan, TokenTiming
+from teo_motion.sentence.plan import Plan, Samples, TokenTiming
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.tokens import Token
@@ -117,12 +117,14 @@ class DriverReport:
     Attributes:
         mode: What it is doing.
         speed_scaling: Trajectory time per time, 0 to 1.
+        stamp: When this was true [s].
         remaining: Trajectory time to the end of the trajectory that is executed [s]; None if none is.
         message: A sentence for people: why it does not move.
     """
 
     mode: DriverMode
     speed_scaling: float = 1.0
+    stamp: float = 0.0
     remaining: float | None = None
     message: str = ""
 
@@ -164,11 +166,13 @@ class TrajectoryReady:
     Attributes:
         number: Names the motion in `driver_refused`.
         plan: The motion.
-        start: When the robot is to be at its first sample [s].
+        samples: What the driver is sent: the plan's, or `seam.continued` where it continues a motion.
+        start: When the robot is to be at the first sample [s].
     """
 
     number: int
     plan: Plan
+    samples: Samples
     start: float
 
 

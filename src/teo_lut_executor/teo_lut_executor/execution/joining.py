@@ -15,11 +15,13 @@ from dataclasses import dataclass
 from teo_lut_executor.execution.events import Event, PlanWanted
 from teo_lut_executor.execution.job import Job
 from teo_lut_executor.execution.path_monitor import PathMonitor
+from teo_lut_executor.execution.seam import last_seam
 from teo_lut_executor.execution.situation import Situation
 from teo_motion.sentence.plan import Plan
 
-# With less time than this the driver might get a continuation too late [s].
-LEAST_AHEAD = 0.05
+# With less time than this the driver might get a continuation too late [s]: a period of points, and the
+# message's way.
+LEAST_AHEAD = 0.07
 
 # A motion that continues another is sent this long before it is to take over [s]: late enough that plans can
 # still change, early enough for a loaded machine.
@@ -88,16 +90,15 @@ class Joining:
         return self._ask(current, motion)
 
     def due(self, motion: PathMonitor) -> tuple[Plan, float] | None:
-        """A plan that is to be sent now, and when it takes over [s]; None as long as none is."""
+        """A plan that is to be sent now, and the path time at which it takes over [s]; None if none is."""
         join = self._join
         if join is None or join.plan is None:
             return None
-        ahead = join.splice - motion.elapsed
-        if ahead > _SEND_AHEAD:
+        if join.splice - motion.elapsed > _SEND_AHEAD:
             return None
         self._join = None
         join.job.plan = join.plan
-        return join.plan, self._situation.now + ahead
+        return join.plan, join.splice
 
     def _ask(self, current: Job, motion: PathMonitor) -> list[Event]:
         if not self._waiting or not self._waiting[0].joins:
@@ -105,10 +106,11 @@ class Joining:
         job, last = self._waiting[0], motion.motion.timings[-1]
         end = last.start + last.duration
         earliest = motion.elapsed + job.planning_time
-        splice = earliest if current.canceled else max(end, earliest)
+        waits = not current.canceled and earliest <= end
+        splice = last_seam(motion.motion, end if waits else earliest)
         if splice > motion.motion.duration - _NEARLY_AT_REST:
             return []
-        hold = self._situation.settings.sentence_pause if splice == end else 0.0
+        hold = self._situation.settings.sentence_pause + end - splice if waits else 0.0
         self._join = _Join(number=next(self._numbers), job=job, splice=splice)
         start = motion.state_at(splice)
         return [PlanWanted(number=self._join.number, sentence=job.sentence, start=start, hold=hold)]

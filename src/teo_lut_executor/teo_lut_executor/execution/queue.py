@@ -23,9 +23,11 @@ from teo_lut_executor.execution.events import (
     QueueSettings,
     Sentence,
 )
+from teo_lut_executor.execution.interruption import Interruption
 from teo_lut_executor.execution.job import Job
 from teo_lut_executor.execution.signing import Signing
 from teo_lut_executor.execution.situation import Situation
+from teo_lut_executor.execution.work import Work
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.errors import PlanError
@@ -40,7 +42,9 @@ class ExecutionQueue:
         self._waiting: deque[Job] = deque()
         self._numbers = itertools.count(1)
         self._announcements = Announcements(self._situation, self._waiting)
-        self._signing = Signing(self._situation, self._waiting, self._announcements, self._numbers)
+        self._work = Work(self._situation, self._waiting, self._announcements, self._numbers)
+        self._interruption = Interruption(self._work)
+        self._signing = Signing(self._work, self._interruption)
 
     def configure(self, limits: MotionLimits, settings: QueueSettings) -> None:
         """Take other limits and settings, for what begins from now on."""
@@ -63,7 +67,7 @@ class ExecutionQueue:
 
     def sentences(self) -> tuple[tuple[Sentence, ...], int]:
         """Sentences not signed to the end, in order, and which is being signed; -1 if none is."""
-        jobs = [job for job in (self._signing.current,) if job is not None]
+        jobs = [job for job in (self._work.current,) if job is not None]
         return tuple(job.sentence for job in (*jobs, *self._waiting)), len(jobs) - 1
 
     def submit(self, sentence: Sentence, now: float, *, attempts: int = 0) -> tuple[int, list[Event]]:
@@ -87,7 +91,7 @@ class ExecutionQueue:
             error = PlanError("queue_full", f"expected at most {most} sentences to wait: send this one later")
             return job.ticket, events + self._announcements.refuse(job, Outcome.REFUSED, error)
         self._waiting.append(job)
-        return job.ticket, events + self._signing.tell()
+        return job.ticket, events + self._work.tell()
 
     def refuse(self, sentence: Sentence, error: PlanError, now: float) -> list[Event]:
         """Name a sentence that is not taken."""
@@ -99,11 +103,11 @@ class ExecutionQueue:
         self._tick(now)
         for job in self._waiting:
             if job.ticket == ticket:
-                return self._signing.forget(job, "canceled before it began") + self._signing.tell()
-        current = self._signing.current
+                return self._interruption.forget(job, "canceled before it began") + self._work.tell()
+        current = self._work.current
         if current is None or current.ticket != ticket:
             return []
-        return self._signing.cancel("stopped on request, at rest again")
+        return self._interruption.cancel("stopped on request, at rest again")
 
     def clear(self, now: float) -> list[Event]:
         """Forget every sentence that waits, and name it; the current one is signed to its end."""
@@ -112,13 +116,13 @@ class ExecutionQueue:
         events: list[Event] = []
         for job in tuple(self._waiting):
             events += self._forget(job, cleared)
-        return events + self._signing.tell()
+        return events + self._work.tell()
 
     def deactivate(self, now: float) -> list[Event]:
         """Stop the robot and name the current sentence; what waits is kept."""
         self._tick(now)
         error = PlanError("inactive", "the executor was deactivated: activate it to go on")
-        return self._signing.interrupt(error)
+        return self._interruption.interrupt(error)
 
     def step(self, now: float, *, obstacle: str = "") -> list[Event]:
         """Notice what time has brought.
@@ -129,12 +133,12 @@ class ExecutionQueue:
         """
         self._tick(now)
         self._situation.obstacle = obstacle
-        return self._signing.step() + self._signing.tell()
+        return self._signing.step() + self._work.tell()
 
     def progress(self, now: float) -> Progress | None:
         """How far the current sentence is; None while none is signed."""
         self._tick(now)
-        return self._signing.progress()
+        return self._work.progress()
 
     def joint_states(
         self, names: Sequence[str], positions: Sequence[float], velocities: Sequence[float], now: float
@@ -148,8 +152,9 @@ class ExecutionQueue:
         self._tick(now)
         self._situation.driver = report
         if report.remaining is not None:
-            self._signing.synchronise(report.remaining)
-        return self._signing.end_if_blocked() + self._signing.tell()
+            since = max(now - report.stamp, 0.0)  # the message's way here
+            self._work.motions.synchronise(report.remaining - since * report.speed_scaling)
+        return self._interruption.end_if_blocked() + self._work.tell()
 
     def driver_refused(self, number: int, reason: str, now: float) -> list[Event]:
         """The driver did not take a motion; whatever it was doing goes on.
@@ -186,11 +191,11 @@ class ExecutionQueue:
 
     def _tick(self, now: float) -> None:
         path_time, clock_set = self._situation.tick(now)
-        self._signing.tick(path_time, clock_set)
+        self._work.tick(path_time, clock_set)
 
     def _forget(self, job: Job, error: PlanError) -> list[Event]:
         """End a sentence that waits, and name it."""
-        ended = self._signing.forget(job, f"{error.code}: {error}")
+        ended = self._interruption.forget(job, f"{error.code}: {error}")
         return [*ended, *self._announcements.name(job.sentence, error)]
 
     def _replace_all_but(self, utterance: str) -> list[Event]:
@@ -200,7 +205,7 @@ class ExecutionQueue:
         for job in tuple(self._waiting):
             if not utterance or job.sentence.utterance_id != utterance:
                 events += self._forget(job, replaced)
-        current = self._signing.current
+        current = self._work.current
         if current is None or current.canceled or (utterance and current.sentence.utterance_id == utterance):
             return events
-        return events + self._signing.supersede(current, replaced)
+        return events + self._interruption.supersede(current, replaced)

@@ -8,7 +8,7 @@ import math
 
 from teo_lut_executor.execution.events import DriverMode, DriverReport, QueueSettings
 from teo_lut_executor.execution.robot_state import RobotState
-from teo_motion.sentence.composition import REST
+from teo_motion.sentence.rest_posture import REST_POSITIONS
 from teo_motion.trajectory.limits import MotionLimits
 
 # A step of the clock larger than this between two calls is a clock that was set, or a process that was not
@@ -84,8 +84,9 @@ class Situation:
 
     @property
     def at_rest(self) -> bool:
-        """Whether every joint is at rest, or nearly."""
-        return self.robot.farthest(REST)[0] <= self.settings.goal_tolerance
+        """Whether every joint is, nearly, as in one of the postures in which a robot waits."""
+        away = min(self.robot.farthest(rest)[0] for rest in REST_POSITIONS.values())
+        return away <= self.settings.goal_tolerance
 
     @property
     def hindrance(self) -> str:

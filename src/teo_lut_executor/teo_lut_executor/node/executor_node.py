@@ -4,26 +4,22 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.context import Context
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
-from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
-from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
+from teo_sign_msgs.srv import ListQueue
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
-from teo_common.node_process import run_node
-from teo_common.parameters import declare_parameters
+from teo_common.self_starting_node import SelfStartingNode, run_self_starting
 from teo_lut_executor.execution.events import (
     Activity,
     Begun,
@@ -42,9 +38,9 @@ from teo_lut_executor.node.diagnostics import Statistics, diagnose
 from teo_lut_executor.node.driver_link import DriverLink
 from teo_lut_executor.node.messages import to_sentence, to_status, to_stop, to_trajectory
 from teo_lut_executor.node.parameters import PARAMETERS, planner_settings_from, queue_settings_from
-from teo_lut_executor.node.sentence_goals import SentenceGoals, never_called
+from teo_lut_executor.node.sentence_goals import SentenceGoals
 from teo_lut_executor.node.sentence_journal import SentenceJournal
-from teo_lut_executor.node.sign_services import get_sign, list_signs
+from teo_lut_executor.node.sign_services import SignServices
 from teo_lut_executor.planning.planning_process import PlanningProcess
 from teo_lut_executor.planning.worker import NotPlanned, Opened, Planned
 from teo_motion.planner import Planner
@@ -60,7 +56,7 @@ _STEP_RATE = 50.0
 _FEEDBACK_RATE = 10.0
 
 
-class ExecutorNode(LifecycleNode):
+class ExecutorNode(SelfStartingNode):
     """Signs sentences in the order in which they come: see `ExecutionQueue` for when, `Planner` for how.
 
     Unconfigured: nothing. Inactive: it takes sentences and answers about the table, and does not move the
@@ -76,17 +72,11 @@ class ExecutorNode(LifecycleNode):
             context: The ROS context; the default one if None.
             parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
         """
-        super().__init__("executor", context=context, parameter_overrides=list(parameter_overrides))
-        declare_parameters(self, PARAMETERS)
+        super().__init__("executor", PARAMETERS, context=context, parameter_overrides=parameter_overrides)
         self._configured = self._active = False
         self._diagnostics = DiagnosticsPublisher(self, "sentences")
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
-
-    def start(self) -> bool:
-        """Configure and activate without a manager; tell whether both succeeded."""
-        success = TransitionCallbackReturn.SUCCESS
-        return bool(self.trigger_configure() == success and self.trigger_activate() == success)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
         """Open the table, start the process that plans, and listen."""
@@ -99,7 +89,6 @@ class ExecutorNode(LifecycleNode):
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
             return TransitionCallbackReturn.FAILURE
         self._queue = ExecutionQueue(self._checker.limits, queue_settings)
-        self._goals = SentenceGoals()
         self._statistics = Statistics()
         self._journal = SentenceJournal(self, folder=self._value("journal"))
         answered = self.create_guard_condition(self._on_answers)
@@ -134,7 +123,8 @@ class ExecutorNode(LifecycleNode):
 
     def destroy_node(self) -> None:
         """Name what is not signed, then end."""
-        self._goals = SentenceGoals()  # nobody runs callbacks any more: clients see the server go
+        if self._configured:
+            self._goals.forget()  # nobody runs callbacks any more: clients see the server go
         self._let_go()
         super().destroy_node()
 
@@ -156,22 +146,18 @@ class ExecutorNode(LifecycleNode):
             self._statuses,
             self.create_subscription(SignSentence, "sign_tokens", self._on_tokens, tokens),
             self.create_subscription(JointState, "joint_states", self._on_joint_states, sensor),
-            self.create_service(ListSigns, "list_signs", self._on_list_signs),
-            self.create_service(GetSign, "get_sign", self._on_get_sign),
             self.create_service(ListQueue, "list_queue", self._on_list_queue),
             self.create_service(Trigger, "clear_queue", self._on_clear_queue),
             self.create_timer(1.0 / _STEP_RATE, self._step),
             self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback),
             self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics),
         ]
-        self._action = ActionServer(
+        self._signs = SignServices(self, self._lut)
+        self._goals = SentenceGoals(
             self,
-            ExecuteSentence,
-            "execute_sentence",
-            execute_callback=never_called,
-            goal_callback=self._on_goal_request,
-            handle_accepted_callback=self._on_goal,
-            cancel_callback=self._on_cancel,
+            accepts=self._accepts,
+            take=lambda sentence, goal: self._submit(sentence, goal=goal),
+            cancel=lambda ticket: self._carry_out(self._queue.cancel(ticket, self._now())),
         )
 
     def _let_go(self) -> None:
@@ -183,7 +169,8 @@ class ExecutorNode(LifecycleNode):
         self._planning.close()
         self._journal.close()
         self._driver.close()
-        self._action.destroy()
+        self._goals.close()
+        self._signs.close()
         for entity in self._entities:
             for destroy in (
                 self.destroy_publisher,
@@ -202,7 +189,7 @@ class ExecutorNode(LifecycleNode):
 
     def _accepts(self, sentence: Sentence) -> bool:
         """Whether a sentence is one, as far as that is known without planning it; if not, that is told."""
-        self._refresh_lut()
+        self._signs.refresh()
         try:
             self._checker.check(sentence.tokens, form=sentence.form)
         except PlanError as error:
@@ -210,25 +197,22 @@ class ExecutorNode(LifecycleNode):
             return False
         return True
 
-    def _submit(self, sentence: Sentence, *, attempts: int = 0) -> int:
+    def _submit(self, sentence: Sentence, *, attempts: int = 0, goal: ServerGoalHandle | None = None) -> None:
         ticket, events = self._queue.submit(sentence, self._now(), attempts=attempts)
+        if goal is not None:
+            self._goals.add(ticket, goal)
         self._journal.accepted(ticket, sentence, attempts)
         self._carry_out(events)
         self._step()
-        return ticket
 
     def _take_over_journal(self) -> None:
         """Sign what an executor before this one was killed with, or name it."""
-        for kept in self._journal.left:
-            age = time.time() - kept.accepted
-            if kept.attempts >= self._queue.settings.attempts:
-                error = PlanError("interrupted", "the executor ended while it signed it: send it again")
-            elif age > self._value("journal_age"):
-                error = PlanError("expired", f"it waited for {age:.0f} s: send it again")
-            else:
+        most, age = self._queue.settings.attempts, self._value("journal_age")
+        for kept, error in self._journal.left(attempts=most, age=age):
+            if error is None:
                 self._submit(kept.sentence, attempts=kept.attempts)
-                continue
-            self._carry_out(self._queue.refuse(kept.sentence, error, self._now()))
+            else:
+                self._carry_out(self._queue.refuse(kept.sentence, error, self._now()))
 
     def _on_joint_states(self, message: JointState) -> None:
         problem = self._queue.joint_states(message.name, message.position, message.velocity, self._now())
@@ -240,25 +224,6 @@ class ExecutorNode(LifecycleNode):
 
     def _on_driver_refused(self, number: int, reason: str) -> None:
         self._carry_out(self._queue.driver_refused(number, reason, self._now()))
-
-    def _on_goal_request(self, goal: ExecuteSentence.Goal) -> GoalResponse:
-        accepted = self._accepts(to_sentence(goal.sentence))
-        return GoalResponse.ACCEPT if accepted else GoalResponse.REJECT
-
-    def _on_goal(self, goal: ServerGoalHandle) -> None:
-        sentence = to_sentence(goal.request.sentence)
-        ticket, events = self._queue.submit(sentence, self._now())
-        self._goals.add(ticket, goal)
-        self._journal.accepted(ticket, sentence)
-        self._carry_out(events)
-        self._step()
-
-    def _on_cancel(self, goal: ServerGoalHandle) -> CancelResponse:
-        ticket = self._goals.ticket(goal)
-        if ticket is None:
-            return CancelResponse.REJECT  # it has just ended
-        self._carry_out(self._queue.cancel(ticket, self._now()))
-        return CancelResponse.ACCEPT
 
     def _step(self) -> None:
         self._carry_out(self._queue.step(self._now(), obstacle=self._obstacle()))
@@ -277,7 +242,9 @@ class ExecutorNode(LifecycleNode):
                 case PlanWanted() | ReturnWanted():
                     self._planning.ask(event)
                 case TrajectoryReady():
-                    self._driver.send(event.number, to_trajectory(event.plan, start=event.start))
+                    names = self._queue.limits.names
+                    trajectory = to_trajectory(names, event.samples, start=event.start)
+                    self._driver.send(event.number, trajectory)
                 case StopReady():
                     stop = to_stop(self._queue.limits.names, event.end, event.lead)
                     self._driver.send(event.number, stop)
@@ -334,17 +301,6 @@ class ExecutorNode(LifecycleNode):
             )
         )
 
-    def _on_list_signs(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
-        self._refresh_lut()
-        for problem in list_signs(self._lut, request, response):
-            self.get_logger().warning(problem)
-        return response
-
-    def _on_get_sign(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
-        self._refresh_lut()
-        get_sign(self._lut, request, response)
-        return response
-
     def _on_list_queue(self, _: ListQueue.Request, response: ListQueue.Response) -> ListQueue.Response:
         sentences, response.current = self._queue.sentences()
         response.utterance_ids = [sentence.utterance_id for sentence in sentences]
@@ -357,11 +313,6 @@ class ExecutorNode(LifecycleNode):
         self._carry_out(self._queue.clear(self._now()))
         response.success, response.message = True, f"{before} sentences forgotten"
         return response
-
-    def _refresh_lut(self) -> None:
-        problem = self._lut.refresh()
-        if problem:
-            self.get_logger().error(f"look-up table not read again: {problem}", throttle_duration_sec=5.0)
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         values = self._values() | {item.name: item.value for item in parameters}
@@ -380,27 +331,13 @@ class ExecutorNode(LifecycleNode):
         self._planning.configure(settings)
         self._queue.configure(self._checker.limits, queue_settings_from(self._values()))
 
-    def _values(self) -> dict[str, Any]:
-        return {row.name: self._value(row.name) for row in PARAMETERS}
-
-    def _value(self, name: str) -> Any:
-        return self.get_parameter(name).value
-
     def _now(self) -> float:
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
 
-def _started_node() -> ExecutorNode:
-    node = ExecutorNode()
-    if node.get_parameter("autostart").value and not node.start():
-        node.destroy_node()
-        raise SystemExit(1)  # the log has said why
-    return node
-
-
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_node(_started_node, arguments)
+    run_self_starting(ExecutorNode, arguments)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_common.arrays import Array
 from teo_lut_executor.execution.events import DriverMode, DriverReport, Sentence, Status
-from teo_motion.sentence.plan import Plan, TokenTiming
+from teo_motion.sentence.plan import Samples, TokenTiming
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.sign import Sign
@@ -39,16 +39,16 @@ def to_sentence(message: SignSentence) -> Sentence:
     )
 
 
-def to_trajectory(plan: Plan, *, start: float) -> JointTrajectory:
-    """A plan as the driver takes it.
+def to_trajectory(names: Sequence[str], samples: Samples, *, start: float) -> JointTrajectory:
+    """A motion as the driver takes it.
 
     Args:
-        plan: The motion. Its first sample is where the robot is by then, and is left out: the driver goes on
+        names: Joints.
+        samples: The motion. The first is where the robot is by then, and is left out: the driver goes on
             from its own state.
         start: When the robot is to be there [s], the message's stamp.
     """
-    samples = plan.samples
-    message = JointTrajectory(joint_names=list(plan.names))
+    message = JointTrajectory(joint_names=list(names))
     message.header.stamp = to_time(start)
     message.points = [
         _point(position, velocity, acceleration, time)
@@ -92,6 +92,7 @@ def to_report(message: DriverState) -> DriverReport:
     return DriverReport(
         mode=DriverMode(message.mode),
         speed_scaling=message.speed_scaling,
+        stamp=message.header.stamp.sec + message.header.stamp.nanosec / _NANO,
         remaining=message.path_duration - message.path_time if known else None,
         message=message.message,
     )

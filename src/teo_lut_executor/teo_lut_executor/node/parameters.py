@@ -8,11 +8,12 @@ from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 
-from teo_common.parameters import ParameterRow
+from teo_common.parameters import AUTOSTART, ParameterRow
 from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_lut_executor.planning.settings import PlannerSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
+from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK
 from teo_signs.errors import PlanError
@@ -49,12 +50,7 @@ PARAMETERS = (
         default="right",
         description="Hand that makes one-handed signs (right, left); left mirrors every sign.",
     ),
-    ParameterRow(
-        name="autostart",
-        default=True,  # `ros2 run` without a lifecycle manager must give a node that signs
-        description="Whether the node configures and activates itself when it starts; else a manager does.",
-        read_only=True,
-    ),
+    AUTOSTART,
     ParameterRow(
         name="journal",
         default="~/.ros/teo_lut_executor",  # where ROS keeps its logs
@@ -97,6 +93,13 @@ PARAMETERS = (
         "Distance that parts of the robot keep from each other [m]; a sentence that cannot is refused.",
     ),
     _row("max_duration", DEFAULT_MAX_DURATION, 1.0, 600.0, "Longest sentence that is signed [s]."),
+    ParameterRow(
+        name="rest_posture",
+        default=str(DEFAULT_REST),
+        choices=tuple(str(posture) for posture in RestPosture),
+        description="Where the robot waits: with hanging arms, or ready, hands low before the body. A robot "
+        "that stands in either is at rest.",
+    ),
     # Style.
     _row("transition", _STYLE.transition, 0.0, 5.0, "Least time between two signs [s]."),
     _row("letter_hold", _STYLE.letter_hold, 0.0, 5.0, "Time for which a letter or number stands still [s]."),
@@ -204,11 +207,25 @@ def left_handed_from(values: Mapping[str, Value]) -> bool:
     return hand == "left"
 
 
+def rest_posture_from(values: Mapping[str, Value]) -> RestPosture:
+    """Where the robot waits.
+
+    Raises:
+        PlanError: There is no such posture ("bad_rest").
+    """
+    posture = values["rest_posture"]
+    if posture not in tuple(RestPosture):
+        raise PlanError(
+            "bad_rest", f"rest_posture: expected one of {', '.join(RestPosture)}, got {posture!r}"
+        )
+    return RestPosture(str(posture))
+
+
 def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
     """What the planner is made of.
 
     Raises:
-        PlanError: A value is none that there is ("bad_standing", "bad_hand", "bad_style").
+        PlanError: A value is none that there is ("bad_standing", "bad_hand", "bad_rest", "bad_style").
     """
     directory = str(values["lut_directory"])
     return PlannerSettings(
@@ -222,6 +239,7 @@ def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
         least_clearance=float(values["least_clearance"]),
         period=float(values["period"]),
         max_duration=float(values["max_duration"]),
+        rest_posture=rest_posture_from(values),
     )
 
 

@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 from rclpy.node import Node
 
 from teo_lut_executor.execution.events import Sentence
 from teo_lut_executor.execution.journal import Journal, Kept
+from teo_signs.errors import PlanError
 
 
 class SentenceJournal:
@@ -25,7 +27,7 @@ class SentenceJournal:
             folder: Where it is kept; empty for none.
         """
         self._journal: Journal | None = None
-        self.left: tuple[Kept, ...] = ()
+        self._left: tuple[Kept, ...] = ()
         if not folder:
             return
         name = node.get_fully_qualified_name().strip("/").replace("/", ".")
@@ -36,7 +38,25 @@ class SentenceJournal:
         except OSError as error:
             node.get_logger().warning(f"no journal is kept, a killed executor forgets sentences: {error}")
         else:
-            self.left = self._journal.left
+            self._left = self._journal.left
+
+    def left(self, *, attempts: int, age: float) -> Iterator[tuple[Kept, PlanError | None]]:
+        """What an executor before this one was killed with, and why it is not signed; None where it is.
+
+        Args:
+            attempts: How often a sentence is begun before it is given up [1].
+            age: Up to which it is signed [s].
+        """
+        for kept in self._left:
+            waited = time.time() - kept.accepted
+            if kept.attempts >= attempts:
+                error = PlanError("interrupted", "the executor ended while it signed it: send it again")
+            elif waited > age:
+                error = PlanError("expired", f"it waited for {waited:.0f} s: send it again")
+            else:
+                yield kept, None
+                continue
+            yield kept, error
 
     def accepted(self, ticket: int, sentence: Sentence, attempts: int = 0) -> None:
         """A sentence waits to be signed."""

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from rclpy.node import Node
 from teo_sign_msgs.msg import SignToken
 from teo_sign_msgs.srv import GetSign, ListSigns
 
@@ -15,7 +16,49 @@ from teo_signs.sign import gloss_key
 _KINDS = {"lexical": SignToken.KIND_LEXICAL, "letter": SignToken.KIND_LETTER, "number": SignToken.KIND_NUMBER}
 
 
-def list_signs(lut: Lut, request: ListSigns.Request, response: ListSigns.Response) -> list[str]:
+class SignServices:
+    """Serves `list_signs` and `get_sign` from a table that may change meanwhile."""
+
+    def __init__(self, node: Node, lut: Lut) -> None:
+        """Serve.
+
+        Args:
+            node: Serves.
+            lut: The table.
+        """
+        self._node = node
+        self._lut = lut
+        self._services = (
+            node.create_service(ListSigns, "list_signs", self._on_list),
+            node.create_service(GetSign, "get_sign", self._on_get),
+        )
+
+    def refresh(self) -> None:
+        """Read the table again where it has changed."""
+        problem = self._lut.refresh()
+        if problem:
+            self._node.get_logger().error(
+                f"look-up table not read again: {problem}", throttle_duration_sec=5.0
+            )
+
+    def close(self) -> None:
+        """Serve no more."""
+        for service in self._services:
+            self._node.destroy_service(service)
+
+    def _on_list(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
+        self.refresh()
+        for problem in _list_signs(self._lut, request, response):
+            self._node.get_logger().warning(problem)
+        return response
+
+    def _on_get(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
+        self.refresh()
+        _get_sign(self._lut, request, response)
+        return response
+
+
+def _list_signs(lut: Lut, request: ListSigns.Request, response: ListSigns.Response) -> list[str]:
     """Fill in the glosses that begin with the prefix, and their kinds.
 
     Returns:
@@ -35,7 +78,7 @@ def list_signs(lut: Lut, request: ListSigns.Request, response: ListSigns.Respons
     return problems
 
 
-def get_sign(lut: Lut, request: GetSign.Request, response: GetSign.Response) -> None:
+def _get_sign(lut: Lut, request: GetSign.Request, response: GetSign.Response) -> None:
     """Fill in one sign, or why there is none ("unknown_sign", "invalid_sign")."""
     try:
         sign = lut[request.gloss]

@@ -11,6 +11,7 @@ from pathlib import Path
 from teo_description import DEFAULT_HAND_DRIVE
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD, Planner
+from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_signs.lexicon import DEFAULT_STANDING
@@ -41,6 +42,7 @@ class PlannerSettings:
     least_clearance: float = DEFAULT_CLEARANCE
     period: float = DEFAULT_PERIOD
     max_duration: float = DEFAULT_MAX_DURATION
+    rest_posture: RestPosture = DEFAULT_REST
 
     def planner(self, lut: Mapping[str, Sign], robot: Robot | None) -> Planner:
         """Make the planner.
@@ -64,4 +66,5 @@ class PlannerSettings:
             period=self.period,
             max_duration=self.max_duration,
             least_standing=self.least_standing,
+            rest_posture=self.rest_posture,
         )

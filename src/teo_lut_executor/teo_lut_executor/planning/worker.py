@@ -8,6 +8,7 @@ order, and ends when the socket is closed: also when the process at its other en
 
 from __future__ import annotations
 
+import gc
 import signal
 import sys
 import time
@@ -20,8 +21,8 @@ import numpy as np
 from teo_description.robot import Robot
 from teo_lut_executor.execution.events import PlanWanted, ReturnWanted, Sentence
 from teo_lut_executor.planning.settings import PlannerSettings
-from teo_motion.sentence.composition import REST
 from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
@@ -104,6 +105,9 @@ class _Worker:
         wanted = PlanWanted(number=0, sentence=sentence, start=rest, opening=True)
         for _ in self.answers(wanted):
             pass
+        # What is loaded stays: no collection is to walk it while somebody waits for a plan.
+        gc.collect()
+        gc.freeze()
 
     def answers(self, wanted: PlanWanted | ReturnWanted) -> Iterator[Answer]:
         """Answer a request, as soon as each part of the answer is known."""

@@ -11,7 +11,8 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS
-from teo_motion.sentence.composition import ARMS, LIMBS, REST
+from teo_motion.sentence.composition import ARMS, LIMBS
+from teo_motion.sentence.rest_posture import HANGING
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 
@@ -48,7 +49,7 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
 
     Arms wider, further in front, hands away from the body; then one arm before the other; then hands apart,
     and from there one arm before the other, which takes any two hands out of each other's way; last the same
-    through rest, which every sign can reach.
+    with hanging arms, a posture from which every sign can be reached.
 
     Args:
         first: Positions at the waypoint before [rad]. Shape (28,).
@@ -60,13 +61,13 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
         yield (_changed(middle, angle, directions, limits),)
     for arm in ARMS:
         yield (_with_arm(first, arm, second),)
-    apart, rest = middle.copy(), middle.copy()
+    apart, hanging = middle.copy(), middle.copy()
     for arm in ARMS:
         apart[list(LIMBS[arm])] = 0.0
-        rest[list(LIMBS[arm])] = REST[list(LIMBS[arm])]
+        hanging[list(LIMBS[arm])] = HANGING[list(LIMBS[arm])]
     for name, angle in _APART.items():
         apart[COMMANDED_JOINTS.index(name)] = angle
-    for away in (apart, rest):
+    for away in (apart, hanging):
         yield (away,)
         for arm in ARMS:
             yield away, _with_arm(away, arm, second)

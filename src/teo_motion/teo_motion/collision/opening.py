@@ -8,14 +8,16 @@ plan of the sentence takes over while they do.
 
 from __future__ import annotations
 
+from dataclasses import fields, replace
+
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.sentence.composition import Composition
-from teo_motion.sentence.plan import Plan, Samples, sample_at
-from teo_motion.trajectory.driver_points import driver_points, point_times
-from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, take
+from teo_motion.sentence.plan import Plan, Samples
+from teo_motion.trajectory.driver_points import point_times, spline_points
+from teo_motion.trajectory.joint_motion import JointMotion, Pieces, take
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.relaxed_limits import relaxed_bounds
 from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSegment, RuckigSolver, State
@@ -73,8 +75,9 @@ def opening(
     way = _eased(solver, start, State(position=first, velocity=still, acceleration=still), bounds, 0.0)
     if way is None:
         return None
-    lasting = min(lasting, _MOST_OF_THE_WAY * way.duration)
-    leaves = _state(_motions([(0.0, way)], way.duration), lasting)
+    # A whole number of periods: a motion is continued at one of its points.
+    lasting = period * np.floor(min(lasting, _MOST_OF_THE_WAY * way.duration) / period)
+    leaves = _state_after(way.pieces, lasting)
     end, time = stop(leaves, limits)
     halt = _eased(solver, leaves, end, bounds, time)
     if halt is None:
@@ -82,14 +85,24 @@ def opening(
     # The robot stands still for a period more, as before any motion: see `driver_points`.
     taken_over = period + lasting
     times = point_times(taken_over + halt.duration, period)
-    motions = _motions([(period, way), (taken_over, halt)], float(times[-1]))
+    motion = _in_a_row(
+        _standing(start.position, period),
+        _first_part(way.pieces, lasting),
+        halt.pieces,
+        _standing(end.position, float(times[-1]) - taken_over - halt.duration),
+    )
     looks = np.arange(0.0, times[-1] + _LOOK, _LOOK)
-    if not _keeps_limits(motions, bounds) or _touches(
-        sample_at(motions, looks).positions, motion_clearance, least_clearance + _MARGIN
+    if not _keeps_limits(motion, bounds) or _touches(
+        _positions(motion, looks), motion_clearance, least_clearance + _MARGIN
     ):
         return None
-    samples = Samples(times=times, **driver_points(motions, times)._asdict())
-    return Plan(names=limits.names, motions=motions, samples=samples, timings=(), stretch=1.0), taken_over
+    # Before its beginning and after its end it stands still.
+    controls = _positions(motion, np.concatenate((times[:1] - period, times, times[-1:] + period)))
+    samples = Samples(times=times, **spline_points(controls, period)._asdict())
+    return (
+        Plan(names=limits.names, motions=_of_each(motion), samples=samples, timings=(), stretch=1.0),
+        taken_over,
+    )
 
 
 def _eased(
@@ -107,41 +120,70 @@ def _eased(
     return fastest
 
 
-def _motions(parts: list[tuple[float, RuckigSegment]], duration: float) -> tuple[JointMotion, ...]:
-    """Segments, each from a time on [s], as the motion of every joint, still before and after."""
-    joints = len(parts[0][1].pieces.lengths)
-    builders = [JointMotionBuilder() for _ in range(joints)]
-    for index, (begin, segment) in enumerate(parts):
-        until = parts[index + 1][0] if index + 1 < len(parts) else begin + segment.duration
-        for joint, builder in enumerate(builders):
-            pieces = take(segment.pieces, joint)
-            starts = np.cumsum(pieces.lengths) - pieces.lengths
-            if index == 0 and begin > 0.0:
-                builder.hold(0.0, float(pieces.positions[0]))
-            builder.add(begin, take(pieces, np.flatnonzero(starts < until - begin)))
-            if index == len(parts) - 1:
-                builder.hold(until, float(pieces.after(pieces.lengths)[0][-1]))
-    return tuple(builder.build(duration) for builder in builders)
-
-
-def _state(motions: tuple[JointMotion, ...], time: float) -> State:
-    found = sample_at(motions, np.array([time]))
-    return State(
-        position=found.positions[0].copy(),
-        velocity=found.velocities[0].copy(),
-        acceleration=found.accelerations[0].copy(),
+def _standing(position: Array, duration: float) -> Pieces:
+    """All joints stand still for a time [s]. Shape (m, 1)."""
+    zero = np.zeros((len(position), 1))
+    return Pieces(
+        lengths=np.full_like(zero, duration),
+        positions=position[:, None],
+        velocities=zero,
+        accelerations=zero,
+        jerks=zero,
     )
 
 
-def _keeps_limits(motions: tuple[JointMotion, ...], bounds: Bounds) -> bool:
-    more = 1.0 + ROUNDING
-    return all(
-        reached.least >= bounds.lower[joint] - ROUNDING
-        and reached.greatest <= bounds.upper[joint] + ROUNDING
-        and reached.velocity <= bounds.velocity[joint] * more
-        and reached.acceleration <= bounds.acceleration[joint] * more
-        and reached.jerk <= bounds.jerk[joint] * more
-        for joint, reached in enumerate(motion.extremes() for motion in motions)
+def _first_part(pieces: Pieces, duration: float) -> Pieces:
+    """What of the pieces lies within a first time [s]; the others have no length any more."""
+    begins = np.cumsum(pieces.lengths, axis=1) - pieces.lengths
+    return replace(pieces, lengths=np.clip(duration - begins, 0.0, pieces.lengths))
+
+
+def _in_a_row(*parts: Pieces) -> Pieces:
+    """Pieces that follow one another. Shape (m, k)."""
+    return Pieces(
+        **{
+            field.name: np.concatenate([getattr(part, field.name) for part in parts], axis=1)
+            for field in fields(Pieces)
+        }
+    )
+
+
+def _after(pieces: Pieces, times: Array) -> tuple[Array, Array, Array]:
+    """Position, velocity and acceleration of all joints at given times, of the ends beyond. Shape (m, n)."""
+    ends = np.cumsum(pieces.lengths, axis=1)
+    index = (times[:, None] >= ends[:, None, :-1]).sum(axis=2)
+    row = np.arange(len(ends))[:, None]
+    at = take(pieces, (row, index))
+    return at.after(np.clip(times - (ends[row, index] - at.lengths), 0.0, at.lengths))
+
+
+def _positions(pieces: Pieces, times: Array) -> Array:
+    """Positions at given times. Shape (n, m)."""
+    return np.ascontiguousarray(_after(pieces, times)[0].T)
+
+
+def _state_after(pieces: Pieces, time: float) -> State:
+    position, velocity, acceleration = (values[:, 0] for values in _after(pieces, np.array([time])))
+    return State(position=position, velocity=velocity, acceleration=acceleration)
+
+
+def _of_each(pieces: Pieces) -> tuple[JointMotion, ...]:
+    """The motion of each joint."""
+    begins = np.cumsum(pieces.lengths, axis=1) - pieces.lengths
+    return tuple(
+        JointMotion(starts=begins[joint, lasting], pieces=take(pieces, (joint, lasting)))
+        for joint, lasting in enumerate(pieces.lengths > 0.0)
+    )
+
+
+def _keeps_limits(motion: Pieces, bounds: Bounds) -> bool:
+    reached, more = motion.extremes(), 1.0 + ROUNDING
+    return bool(
+        (reached.least >= bounds.lower - ROUNDING).all()
+        and (reached.greatest <= bounds.upper + ROUNDING).all()
+        and (reached.velocity <= bounds.velocity * more).all()
+        and (reached.acceleration <= bounds.acceleration * more).all()
+        and (reached.jerk <= bounds.jerk * more).all()
     )
 
 

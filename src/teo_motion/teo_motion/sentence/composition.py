@@ -10,7 +10,7 @@ knot of one to the first of the next, hand shape and arm together, and need not 
 Within a sign, a stroke is a run of knots through which it moves without standing still.
 
 A sign fixes whole limbs: where it moves some joints of a head, trunk, arm or hand, the limb's other joints
-are at rest. An arm of which the sign moves the hand only stays where it is.
+are as in the hanging posture. An arm of which the sign moves the hand only stays where it is.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from numpy.typing import NDArray
 from teo_description import (
     COMMANDED_JOINTS,
     HEAD,
-    HOME,
     LEFT_ARM,
     LEFT_HAND,
     RIGHT_ARM,
     RIGHT_HAND,
     TRUNK,
 )
+from teo_motion.sentence.rest_posture import HANGING, REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -50,11 +50,6 @@ LIMBS = tuple(
 ARMS = (2, 3)
 _ARM_OF_HAND = {4: 2, 5: 3}
 _ELBOW = {2: _INDEX["FrontalLeftElbow"], 3: _INDEX["FrontalRightElbow"]}
-
-# Where sentences begin and end [rad]. Shape (28,).
-REST: NDArray[np.float64] = np.array([HOME[name] for name in COMMANDED_JOINTS])
-
-REST.setflags(write=False)
 
 # Postures closer than this look the same [rad]: 3 deg, 2 cm at the hand.
 _SAME_POSTURE = 0.05
@@ -101,6 +96,7 @@ class Composition:
         spans: Where each token is signed, in order.
         idle: Where limbs are not used.
         start: State of the joints at the first waypoint.
+        rest: Where idle limbs go, and all limbs at the end [rad]. Shape (28,).
     """
 
     targets: NDArray[np.float64]
@@ -109,6 +105,7 @@ class Composition:
     spans: tuple[TokenSpan, ...]
     idle: tuple[IdleSpan, ...]
     start: State
+    rest: NDArray[np.float64]
 
 
 def compose(
@@ -117,6 +114,7 @@ def compose(
     start: State,
     limits: MotionLimits,
     style: SigningStyle,
+    rest: NDArray[np.float64] = REST,
     hold: float = 0.0,
 ) -> Composition:
     """Lay a sentence out, from a start to rest.
@@ -126,12 +124,13 @@ def compose(
         start: State of the 28 joints at the beginning.
         limits: Limits of the joints, which every waypoint keeps.
         style: Times of holds and pauses.
+        rest: Where it ends [rad]. Shape (28,).
         hold: Time for which limbs that stand still at the start stay there first [s].
 
     Raises:
         PlanError: A sign has a knot outside the limits ("sign_outside_limits").
     """
-    composer = _Composer(start, limits, style)
+    composer = _Composer(start, limits, style, rest)
     composer.hold_start(hold)
     last_sign = max((index for index, item in enumerate(signed) if item.sign is not None), default=-1)
     for index, item in enumerate(signed):
@@ -163,10 +162,13 @@ def _stands_still(sign: Sign) -> float:
 class _Composer:
     """Adds waypoint after waypoint, and remembers where each limb was last."""
 
-    def __init__(self, start: State, limits: MotionLimits, style: SigningStyle) -> None:
+    def __init__(
+        self, start: State, limits: MotionLimits, style: SigningStyle, rest: NDArray[np.float64]
+    ) -> None:
         self._start = start
         self._limits = limits
         self._style = style
+        self._rest = rest
         self._posture = start.position.copy()
         self._rows: list[NDArray[np.float64]] = [start.position.copy()]
         self._nominal: list[float] = []
@@ -223,7 +225,7 @@ class _Composer:
             self._fix(duration, self._posture, still)
 
     def finish(self) -> Composition:
-        self._fix(self._style.transition, REST, tuple(range(len(LIMBS))))
+        self._fix(self._style.transition, self._rest, tuple(range(len(LIMBS))))
         return Composition(
             targets=np.array(self._rows),
             nominal=np.array(self._nominal),
@@ -231,6 +233,7 @@ class _Composer:
             spans=tuple(self._spans),
             idle=tuple(self._idle),
             start=self._start,
+            rest=self._rest,
         )
 
     def _fix(
@@ -242,7 +245,7 @@ class _Composer:
         same_stroke: bool = False,
     ) -> None:
         """Add a waypoint at which these limbs are at the posture."""
-        row = np.full(REST.size, np.nan)
+        row = np.full(HANGING.size, np.nan)
         waypoint = len(self._rows)
         for limb in limbs:
             columns = list(LIMBS[limb])
@@ -260,7 +263,7 @@ class _Composer:
         columns = [_INDEX[name] for name in sign.joints]
         moved = {limb for limb, members in enumerate(LIMBS) if not set(members).isdisjoint(columns)}
         held = {_ARM_OF_HAND[limb] for limb in moved & _ARM_OF_HAND.keys()} - moved
-        posture = REST.copy()
+        posture = HANGING.copy()
         for limb in held:
             posture[list(LIMBS[limb])] = self._posture[list(LIMBS[limb])]
         rows = np.tile(posture, (len(sign.times), 1))

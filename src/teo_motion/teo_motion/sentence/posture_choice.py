@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS
-from teo_motion.sentence.composition import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
@@ -26,13 +25,14 @@ _COLUMN = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
 
 
 def choose_postures(
-    signed: Sequence[SignedToken], *, start: Array, limits: MotionLimits
+    signed: Sequence[SignedToken], *, start: Array, end: Array, limits: MotionLimits
 ) -> tuple[SignedToken, ...]:
     """Give each sign that has alternatives the posture with which the sentence takes least time.
 
     Args:
         signed: Signs and pauses, in order.
         start: Positions of the 28 commanded joints at the beginning [rad]. Shape (28,).
+        end: The same at the end [rad].
         limits: Limits of the joints, of which velocity, acceleration and jerk count here.
 
     Returns:
@@ -43,19 +43,20 @@ def choose_postures(
     if not any(sign.alternatives for sign in signs):
         return tuple(signed)
     chosen = list(signed)
-    for index, sign, posture in zip(at, signs, shortest_postures(signs, start, limits), strict=True):
+    for index, sign, posture in zip(at, signs, shortest_postures(signs, start, end, limits), strict=True):
         if sign.alternatives:
             one = dataclasses.replace(sign, knots=postures_of(sign)[posture], alternatives=())
             chosen[index] = dataclasses.replace(signed[index], sign=one)
     return tuple(chosen)
 
 
-def shortest_postures(signs: Sequence[Sign], start: Array, limits: MotionLimits) -> list[int]:
+def shortest_postures(signs: Sequence[Sign], start: Array, end: Array, limits: MotionLimits) -> list[int]:
     """Index in `postures_of` of the posture of each sign with which all together take least time.
 
     Args:
         signs: In order.
         start: Positions of the 28 commanded joints at the beginning [rad]. Shape (28,).
+        end: The same at the end [rad].
         limits: Limits of the joints.
     """
     if not signs:
@@ -73,7 +74,7 @@ def shortest_postures(signs: Sequence[Sign], start: Array, limits: MotionLimits)
         origins.append(cost.argmin(axis=0))
         total = cost.min(axis=0) + _strokes(paths, sign, limits)
         ends, joints, before = paths[:, -1], sign.joints, sign
-    total = total + _least_times(ends, joints, REST[None], COMMANDED_JOINTS, limits)[:, 0]
+    total = total + _least_times(ends, joints, end[None], COMMANDED_JOINTS, limits)[:, 0]
     chosen = [int(total.argmin())]
     for origin in reversed(origins[1:]):
         chosen.append(int(origin[chosen[-1]]))

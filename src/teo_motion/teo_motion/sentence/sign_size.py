@@ -73,26 +73,35 @@ class SignSize:
         self._sizes = tuple(np.arange(1.0 - _STEP, least - 1e-9, -_STEP).tolist())
         self._touching: WeakKeyDictionary[Sign, NDArray[np.bool_]] = WeakKeyDictionary()
 
-    def fitted(self, signed: Sequence[SignedToken]) -> tuple[SignedToken, ...]:
-        """Words in the largest size that TEO makes in their time, or in the smallest allowed."""
-        return tuple(self._fitted(item) for item in signed)
+    def fitted(
+        self, signed: Sequence[SignedToken], captured: Sequence[SignedToken]
+    ) -> tuple[SignedToken, ...]:
+        """Words in the largest size that TEO makes in their time, or in the smallest allowed.
 
-    def _fitted(self, item: SignedToken) -> SignedToken:
+        Args:
+            signed: Signs and pauses, each sign in the posture that was chosen for it.
+            captured: The same as their entries have them, from which a smaller sign is not to differ.
+        """
+        return tuple(self._fitted(item, entry.sign) for item, entry in zip(signed, captured, strict=True))
+
+    def _fitted(self, item: SignedToken, captured: Sign | None) -> SignedToken:
         sign = item.sign
-        if not self._sizes or sign is None or item.token.kind != Kind.LEXICAL or item.token.spelled:
+        if sign is None or captured is None or item.token.kind != Kind.LEXICAL or item.token.spelled:
             return item
         scale = item.token.duration_scale
-        if self._fits(sign, scale):
+        if not self._sizes or self._fits(sign, scale):
             return item
-        centre = self._centre(sign)
-        sign = _repeated_less(sign)
+        centre = self._centre(sign, captured)
+        kept, times = _repeated_twice(captured)
+        sign = _with_knots(sign, sign.knots[kept], times)
         if centre is not None:
-            sign = self._smaller(sign, centre, scale)
+            palms = self._palms(_with_knots(captured, captured.knots[kept], times))
+            sign = self._smaller(sign, palms, centre, scale)
         return dataclasses.replace(item, sign=sign)
 
-    def _smaller(self, sign: Sign, centre: Array, scale: float) -> Sign:
-        """The largest size that fits, or the smallest that is taken for the same sign."""
-        found, palms = sign, self._palms(sign)
+    def _smaller(self, sign: Sign, palms: Array, centre: Array, scale: float) -> Sign:
+        """The largest size that fits, or the smallest that is taken for the same sign as those palms show."""
+        found = sign
         for size in self._sizes:
             smaller = _drawn_together(sign, centre, size)
             if not _look_the_same(palms, self._palms(smaller)) or self._touches(smaller, 0.0).any():
@@ -120,11 +129,14 @@ class SignSize:
         asked = np.diff(sign.times) * scale
         return bool(np.maximum(needed, asked).sum() <= asked.sum())
 
-    def _centre(self, sign: Sign) -> Array | None:
-        """The posture around which a sign is drawn together; None where it touches in several."""
-        touching = self._touching.get(sign)
+    def _centre(self, sign: Sign, captured: Sign) -> Array | None:
+        """The posture around which a sign is drawn together; None where it touches in several.
+
+        It touches where its entry does, in whatever posture.
+        """
+        touching = self._touching.get(captured)
         if touching is None:
-            touching = self._touching.setdefault(sign, self._touches(sign, _CONTACT))
+            touching = self._touching.setdefault(captured, self._touches(captured, _CONTACT))
         if not touching.any():
             middle: Array = (sign.knots.min(axis=0) + sign.knots.max(axis=0)) / 2.0
             return middle
@@ -159,28 +171,30 @@ def _drawn_together(sign: Sign, centre: Array, size: float) -> Sign:
         if name in _ARMS_AND_TRUNK or (name in _HANDS and len(_returns(knots[:, [index]], 0)) > 1)
     ]
     knots[:, columns] = centre[columns] + size * (knots[:, columns] - centre[columns])
-    knots.setflags(write=False)
-    return dataclasses.replace(sign, knots=knots, alternatives=())
+    return _with_knots(sign, knots, sign.times)
 
 
-def _repeated_less(sign: Sign) -> Sign:
-    """A sign without what it does a third time and more."""
-    knots, times = sign.knots, sign.times
+def _with_knots(sign: Sign, knots: Array, times: Array) -> Sign:
+    """A sign with other knots, and without alternatives."""
+    for array in (knots, times):
+        array.setflags(write=False)
+    return dataclasses.replace(sign, knots=knots, times=times, alternatives=())
+
+
+def _repeated_twice(sign: Sign) -> tuple[NDArray[np.intp], Array]:
+    """The knots of a sign without what it does a third time and more, and their times [s]."""
+    kept, times = np.arange(len(sign.knots)), sign.times
     first = 0
-    while first < len(knots):
-        returns = _returns(knots, first)
+    while first < len(kept):
+        returns = _returns(sign.knots[kept], first)
         if len(returns) <= _REPETITIONS + 1:
             first += 1
             continue
         begin, end = returns[_REPETITIONS], returns[-1]
-        knots = np.concatenate((knots[: begin + 1], knots[end + 1 :]))
+        kept = np.concatenate((kept[: begin + 1], kept[end + 1 :]))
         times = np.concatenate((times[: begin + 1], times[end + 1 :] - (times[end] - times[begin])))
         first = begin + 1
-    if len(knots) == len(sign.knots):
-        return sign
-    for array in (knots, times):
-        array.setflags(write=False)
-    return dataclasses.replace(sign, knots=knots, times=times, alternatives=())
+    return kept, times
 
 
 def _returns(knots: Array, first: int) -> list[int]:

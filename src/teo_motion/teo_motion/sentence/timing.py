@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_motion.sentence.composition import REST, Composition
+from teo_motion.sentence.composition import Composition
 from teo_motion.sentence.plan import Plan, Samples, TokenTiming
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.driver_points import driver_points, point_times
@@ -89,7 +89,7 @@ class SentenceTiming:
         plan = Plan(
             names=self._limits.names,
             motions=motions,
-            samples=self._sample(motions, sampled),
+            samples=self._sample(motions, sampled, route.targets[-1]),
             timings=timings,
             stretch=sum(timing.duration for timing in timings) / asked if asked > 0.0 else 1.0,
         )
@@ -117,11 +117,11 @@ class SentenceTiming:
                         "outside_limits", f"{name}: expected at most {limit:.4f} of {what}, got {value:.4f}"
                     )
 
-    def _sample(self, motions: tuple[JointMotion, ...], times: Array) -> Samples:
+    def _sample(self, motions: tuple[JointMotion, ...], times: Array, end: Array) -> Samples:
         found = driver_points(motions, times)
-        # No further than the rounding that `_check` allows; controllers want the end at rest to the digit.
+        # No further than the rounding that `_check` allows; controllers want the end to the digit.
         positions = np.clip(found.positions, self._limits.lower, self._limits.upper)
-        positions[-1], found.velocities[-1], found.accelerations[-1] = REST, 0.0, 0.0
+        positions[-1], found.velocities[-1], found.accelerations[-1] = end, 0.0, 0.0
         for array in (times, positions, found.velocities, found.accelerations):
             array.setflags(write=False)
         return Samples(

@@ -50,6 +50,19 @@ def driver_points(motions: Sequence[JointMotion], times: Array) -> DriverPoints:
     for column, motion in enumerate(motions):
         controls[1:, column] = motion.at(later)[0]
         controls[0, column] = take(motion.pieces, 0).after(np.array(-period))[0]
+    return spline_points(controls, period)
+
+
+def spline_points(controls: Array, period: float) -> DriverPoints:
+    """The points of the spline with these control points.
+
+    Args:
+        controls: [rad]. Shape (n + 2, m): one before the first point and one after the last.
+        period: Time between two of them [s].
+
+    Returns:
+        Points of shape (n, m).
+    """
     before, here, after = controls[:-2], controls[1:-1], controls[2:]
     # From differences, which lose fewer digits than the sums, and are exactly 0 at a standstill.
     first, second = here - before, after - here

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,17 +14,17 @@ from teo_common.arrays import Array
 
 
 class Extremes(NamedTuple):
-    """The most that a motion reaches, either way."""
+    """The most that motions reach, either way; each of the shape of the pieces without their last axis."""
 
-    least: float
+    least: Array
     """Position [rad]."""
-    greatest: float
+    greatest: Array
     """Position [rad]."""
-    velocity: float
+    velocity: Array
     """Size [rad/s]."""
-    acceleration: float
+    acceleration: Array
     """Size [rad/s^2]."""
-    jerk: float
+    jerk: Array
     """Size [rad/s^3]."""
 
 
@@ -75,6 +75,22 @@ class Pieces:
             np.maximum(reached.max(axis=(0, -1)), first),
         )
 
+    def extremes(self) -> Extremes:
+        """The most that is reached along the last axis, also between any samples."""
+        least, greatest = self.range()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            peak = -self.accelerations / self.jerks
+        inside = np.isfinite(peak) & (peak > 0.0) & (peak < self.lengths)
+        times = np.stack([np.zeros_like(peak), self.lengths, np.where(inside, peak, 0.0)])
+        _, velocity, acceleration = self.after(times)
+        return Extremes(
+            least=least,
+            greatest=greatest,
+            velocity=np.abs(velocity).max(axis=(0, -1)),
+            acceleration=np.abs(acceleration).max(axis=(0, -1)),
+            jerk=np.abs(self.jerks).max(axis=-1),
+        )
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class JointMotion:
@@ -108,24 +124,11 @@ class JointMotion:
 
     def extremes(self) -> Extremes:
         """The most that the motion reaches, also between any samples."""
-        pieces = self.pieces
-        least, greatest = pieces.range()
-        with np.errstate(divide="ignore", invalid="ignore"):
-            peak = -pieces.accelerations / pieces.jerks
-        inside = np.isfinite(peak) & (peak > 0.0) & (peak < pieces.lengths)
-        times = np.stack([np.zeros_like(peak), pieces.lengths, np.where(inside, peak, 0.0)])
-        _, velocity, acceleration = pieces.after(times)
-        return Extremes(
-            least=float(least),
-            greatest=float(greatest),
-            velocity=float(np.abs(velocity).max()),
-            acceleration=float(np.abs(acceleration).max()),
-            jerk=float(np.abs(pieces.jerks).max()),
-        )
+        return self.pieces.extremes()
 
 
-def take(pieces: Pieces, index: NDArray[np.intp] | int) -> Pieces:
-    """Some of the pieces, by index along the first axis."""
+def take(pieces: Pieces, index: NDArray[np.intp] | int | tuple[Any, ...]) -> Pieces:
+    """Some of the pieces, by an index as arrays take it."""
     return Pieces(
         lengths=pieces.lengths[index],
         positions=pieces.positions[index],

@@ -75,6 +75,10 @@ Picture = Annotated[
 ]
 Draw = Annotated[bool, typer.Option("--draw/--no-draw", help="Draw demonstration and robot side by side.")]
 Film = Annotated[bool, typer.Option("--film", help="Film them as well (MP4).")]
+Trial = Annotated[
+    Path | None,
+    typer.Option(help="Write entry and picture into this directory, to look at; the table stays as it is."),
+]
 Manifest = Annotated[
     Path | None, typer.Option(help="CSV with a row for each take: bag, gloss[, start, end, hands, person].")
 ]
@@ -112,6 +116,7 @@ def capture(
     picture: Picture = None,
     draw: Draw = True,
     film: Film = False,
+    trial: Trial = None,
     manifest: Manifest = None,
     jobs: Workers = None,
     dask: Dask = None,
@@ -140,8 +145,9 @@ def capture(
             topic=topic,
             slop=slop,
             cache=cache or default_cache(),
-            pictures=(picture or table) if draw else None,
+            pictures=(picture or trial or table) if draw else None,
             film=film,
+            trial=trial,
         )
         cut = Cut(start=start, end=end)
         if camera is not None:

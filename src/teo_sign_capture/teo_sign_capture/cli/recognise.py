@@ -40,6 +40,9 @@ def recognise(
     person: Person = None,
     topic: Topic = None,
     cache: Cache = None,
+    meant: Annotated[
+        str | None, typer.Option(help="Gloss that was meant: also say what differs from its sign.")
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Name the signs of the table that look most like a demonstration, with their distances.
@@ -48,7 +51,8 @@ def recognise(
     """
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import Settings, recorded_track
-    from teo_sign_capture.recognition.appearance import recording_appearance
+    from teo_sign_capture.recognition.appearance import recording_appearance, sign_appearance
+    from teo_sign_capture.recognition.comparison import compare
     from teo_sign_capture.recognition.sign_index import SignIndex
     from teo_sign_capture.recordings.recording import default_cache, open_recording
     from teo_signs.look_up_table import Lut, user_lut_directory
@@ -59,6 +63,7 @@ def recognise(
         signs = Lut.open(lut)
         if not signs:
             raise LutError("empty_table", f"expected a table with signs, got none in {signs.place}")
+        wanted = None if meant is None else sign_appearance(robot, signs[meant])  # unknown: say so at once
         settings = Settings(table=user_lut_directory(), topic=topic, cache=cache or default_cache())
         with reporter:
             track, _ = recorded_track(
@@ -72,15 +77,24 @@ def recognise(
             reporter.progress("comparing", 0, len(signs))
             shown = recording_appearance(robot, track, start=start, end=end, handedness=hands)
             matches = SignIndex.of_signs(robot, signs.values()).nearest(shown, count)
+        compared = None if meant is None or wanted is None else compare(meant, shown, wanted)
     except LutError as error:
         reporter.failed(None, error)
         raise typer.Exit(1) from error
     if as_json:
         found = [asdict(match) for match in matches]
-        write_json({"code": "recognised", "recording": recording.name, "matches": found}, sys.stdout)
+        told = {"code": "recognised", "recording": recording.name, "matches": found}
+        if compared is not None:
+            told["compared"] = asdict(compared)
+        write_json(told, sys.stdout)
         return
     table = Table("sign", "distance", box=None)
     for match in matches:
         table.add_row(match.gloss, f"{match.distance:.2f}")
     _output.print(table)
     _output.print("distance: 1 is two differences that are just seen, all through the sign", soft_wrap=True)
+    if compared is not None:
+        parts = ("handshape", "orientation", "place", "movement")
+        differences = ", ".join(f"{part} {getattr(compared, part):.2f}" for part in parts)
+        other = "" if compared.hands else "; another number of hands"
+        _output.print(f"beside {compared.gloss}: {differences}{other}", soft_wrap=True)

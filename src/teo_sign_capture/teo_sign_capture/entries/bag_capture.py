@@ -85,6 +85,7 @@ class Settings:
         cache: Directory of skeletons found in images.
         pictures: Directory of the pictures; None makes none.
         film: Whether a film is made beside each picture.
+        trial: Directory that entries go to instead of the table, which stays as it is: to look at first.
     """
 
     table: Path
@@ -100,6 +101,7 @@ class Settings:
     cache: Path = field(default_factory=default_cache)
     pictures: Path | None = None
     film: bool = False
+    trial: Path | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -237,7 +239,7 @@ def check_free(gloss: str, settings: Settings) -> None:
         taken = held_entry(settings.table, gloss)
     except LutError as error:
         raise LutError("not_written", f"expected a place to write to, got: {error}") from error
-    if taken is not None and not settings.replace:
+    if taken is not None and not settings.replace and settings.trial is None:
         raise LutError(
             "exists",
             f"{taken.name}: expected a gloss that {taken.parent} does not hold, got {gloss!r}: --replace "
@@ -269,11 +271,13 @@ def _named(recording: Recording, cut: Cut) -> str:
 
 def save_captured(captured: Captured, settings: Settings) -> Path:
     """Write the entry, and return where it is."""
+    directory = settings.trial or settings.table
+    replace_there = settings.replace or settings.trial is not None
     try:
-        return save_sign(settings.table, captured.sign, replace=settings.replace)
+        return save_sign(directory, captured.sign, replace=replace_there)
     except OSError as error:
         raise LutError(
-            "not_written", f"{settings.table}: expected a directory to write to, got: {error}"
+            "not_written", f"{directory}: expected a directory to write to, got: {error}"
         ) from error
 
 

@@ -30,7 +30,7 @@ from teo_sign_capture.node.parameters import CAPTURE_PARAMETERS
 from teo_sign_capture.recordings.live_take import LiveTake, Phase
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
-from teo_signs.sign_schema import STANDINGS
+from teo_signs.sign_schema import SOURCE_STANDINGS
 
 _STEP_RATE = 10.0  # [Hz] at which the countdown is looked at
 _CAPTURING, _IDLE = "capturing", "idle"
@@ -171,8 +171,8 @@ class CaptureNode(Node):
 
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         for parameter in parameters:
-            if parameter.name == "standing" and parameter.value not in STANDINGS:
-                reason = f"standing: expected one of {', '.join(STANDINGS)}, got {parameter.value!r}"
+            if parameter.name == "standing" and parameter.value not in SOURCE_STANDINGS:
+                reason = f"standing: expected one of {', '.join(SOURCE_STANDINGS)}, got {parameter.value!r}"
                 return SetParametersResult(successful=False, reason=reason)
             if parameter.name == "licence" and not parameter.value:
                 return SetParametersResult(successful=False, reason="licence: expected a text, got none")

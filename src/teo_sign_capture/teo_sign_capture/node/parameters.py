@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
 from teo_sign_capture.recordings.live_take import LONGEST_WAIT
-from teo_signs.sign_schema import STANDINGS
+from teo_signs.sign_schema import SOURCE_STANDINGS
 
 CAPTURE_PARAMETERS = (
     ParameterRow(
@@ -27,7 +27,7 @@ CAPTURE_PARAMETERS = (
     ParameterRow(
         name="standing",
         default="recorded",
-        description=f"How well founded what is shown is: {', '.join(STANDINGS)}.",
+        description=f"How well founded what is shown is: {', '.join(SOURCE_STANDINGS)}.",
     ),
     ParameterRow(
         name="licence",

@@ -13,7 +13,7 @@ from teo_sign_capture.notation.handshapes import handshape
 from teo_sign_capture.retarget.arm_bounds import Side
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import OTHER_HAND, split_place
-from teo_signs.sign_schema import STANDING_MEANING, Gloss, Standing, Text
+from teo_signs.sign_schema import SOURCE_STANDING_MEANING, Gloss, SourceStanding, Text
 
 # Part of the hand that is at the place.
 Part = Literal["palm", "fingertips", "index", "thumb", "index_side", "little_side", "back", "wrist"]
@@ -131,7 +131,7 @@ class _Heading(BaseModel):
 
     gloss: Gloss = Field(description="Name of the sign; equal to the file's name.")
     kind: Literal["lexical", "number"] = Field("lexical", description="A sign of its own, or a number.")
-    standing: Standing = Field(description=STANDING_MEANING)
+    standing: SourceStanding = Field(description=SOURCE_STANDING_MEANING)
     source: Text = Field(description="What the form was taken from.")
     face: str = Field(
         "", description="What the face does, in words: TEO has none, a viewer of the text does."

@@ -47,7 +47,16 @@ _BEND = 4.0 * SEEN_ANGLE
 # What a hand that takes part differs by from one that does not [units].
 _PRESENT = 4.0
 # Numbers of a hand: presence, place, way of the palm, way of the fingers, six bends.
-_HAND = 1 + 3 + 3 + 3 + 6
+HAND = 1 + 3 + 3 + 3 + 6
+
+
+class PARTS:
+    """Where the parts of a hand are among its numbers."""
+
+    presence = 0
+    place = slice(1, 4)
+    turns = slice(4, 10)
+    bends = slice(10, HAND)
 
 
 def sign_appearance(robot: Robot, sign: Sign) -> Array:
@@ -139,7 +148,7 @@ def _hand(place: Array, palm: Array, fingers: Array, bends: Array) -> Array:
 
 def _both(hands: dict[str, Array]) -> Array:
     """The leading hand and the other; zeros of one that takes no part."""
-    absent = np.zeros((MOMENTS, _HAND))
+    absent = np.zeros((MOMENTS, HAND))
     if "right" not in hands:
         return np.concatenate([hands.get("left", absent), absent], axis=1)
     return np.concatenate([hands["right"], hands.get("left", absent)], axis=1)

@@ -22,7 +22,7 @@ from teo_sign_capture.recognition.appearance import MOMENTS, sign_appearance
 from teo_signs.sign import Sign
 
 # Moments by which one sign may be ahead of another: a quarter of it, as a hold or a beat may be longer.
-_AHEAD = 8
+AHEAD = 8
 # How many signs are named if nobody says otherwise.
 COUNT = 5
 
@@ -53,7 +53,7 @@ class SignIndex:
         """
         self._glosses = tuple(glosses)
         self._shown = np.ascontiguousarray(shown, dtype=np.float64)
-        width = 2 * _AHEAD + 1
+        width = 2 * AHEAD + 1
         self._highest = maximum_filter1d(self._shown, width, axis=1, mode="nearest")
         self._lowest = minimum_filter1d(self._shown, width, axis=1, mode="nearest")
 
@@ -76,7 +76,7 @@ class SignIndex:
         for index in np.argsort(bounds, kind="stable").tolist():
             if len(found) == count and bounds[index] >= found[-1][0]:
                 break
-            found.append((self._distance(shown, index), index))
+            found.append((distance_between(shown, self._shown[index]), index))
             found = sorted(found)[:count]
         return tuple(Match(gloss=self._glosses[index], distance=distance) for distance, index in found)
 
@@ -87,7 +87,9 @@ class SignIndex:
         bounds: Array = np.sqrt(np.einsum("nmd,nmd->n", outside, outside) / MOMENTS)
         return bounds
 
-    def _distance(self, shown: Array, index: int) -> float:
-        # The library counts the diagonal as one.
-        warped = dtw_ndim.distance_fast(shown, self._shown[index], window=_AHEAD + 1)
-        return float(warped) / float(np.sqrt(MOMENTS))
+
+def distance_between(shown: Array, sign: Array) -> float:
+    """`Match.distance` of two signs, each of shape (MOMENTS, d), contiguous."""
+    # The library counts the diagonal as one.
+    warped = dtw_ndim.distance_fast(shown, sign, window=AHEAD + 1)
+    return float(warped) / float(np.sqrt(MOMENTS))

@@ -99,6 +99,19 @@ def test_a_program_reads_what_became_of_a_sign_and_how_it_stands_at_each_gate(
     assert "drawing" in [line["what"] for line in said]
 
 
+def test_a_trial_leaves_the_table_alone_and_knows_what_it_holds(
+    bag: Path, tmp_path: Path, data_home: Path
+) -> None:
+    own, trial = data_home / "teo" / "lut", tmp_path / "trial"
+    assert run("capture", bag, "--gloss", "SIGNO", "--no-draw").exit_code == 0
+    (outcome,) = lines(run("capture", bag, "--gloss", "SEÑA", "--trial", trial, "--json").stdout)
+    assert outcome["files"] == [str(trial / "SEÑA.json"), str(trial / "SEÑA.png")]
+    assert outcome["similar"][0] == {"gloss": "SIGNO", "seen": 0.0}
+    assert [path.name for path in own.iterdir()] == ["SIGNO.json"]
+    # A sign that is there already may be tried again.
+    assert run("capture", bag, "--gloss", "SIGNO", "--trial", trial, "--no-draw").exit_code == 0
+
+
 def test_a_program_reads_why_a_sign_is_refused(tmp_path: Path) -> None:
     # Between two places before the body: the recording begins and ends within the sign.
     moves = [(-1.0, -0.5, OUT), (0.3, 0.9, (0.28, -0.06, 0.02)), (1.1, 1.7, OUT)]

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from teo_common.parameters import ParameterRow
+from teo_common.parameters import AUTOSTART, ParameterRow
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE, DEFAULT_MODEL
@@ -63,10 +63,5 @@ PARAMETERS = (
         description="What may be signed for a word without a sign, before it is spelled: none, synonym, "
         "paraphrase or hypernym; each allows those before it too.",
     ),
-    ParameterRow(
-        name="autostart",
-        default=True,  # `ros2 run` without a lifecycle manager must give a node that translates
-        description="Whether the node configures and activates itself when it starts; else a manager does.",
-        read_only=True,
-    ),
+    AUTOSTART,
 )

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
-from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
@@ -21,8 +21,7 @@ from teo_sign_msgs.msg import SignSentence, TranslationStatus
 from teo_sign_msgs.srv import Translate
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
-from teo_common.node_process import run_node
-from teo_common.parameters import declare_parameters
+from teo_common.self_starting_node import SelfStartingNode, run_self_starting
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.node.diagnostics import Statistics, diagnose, quoted, short
 from teo_sign_translator.node.messages import to_messages
@@ -31,6 +30,7 @@ from teo_sign_translator.node.sign_inventory import SignInventory
 from teo_sign_translator.node.text_worker import TextWorker
 from teo_sign_translator.output.known_signs import listed_signs
 from teo_sign_translator.output.substitutes import Substitutes
+from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.translator import Translator
 
 #: Outcomes that DDS keeps for a reader that is slow; a text in a flood of them is refused in a tenth of a
@@ -56,7 +56,7 @@ class _Text(NamedTuple):
     utterance_id: str
 
 
-class TranslatorNode(LifecycleNode):
+class TranslatorNode(SelfStartingNode):
     """Answers texts in the order in which they come. Owns no language logic: see `translator.Translator`.
 
     Unconfigured: no model. Inactive: the model is loaded and the `translate` service answers. Active: texts
@@ -72,8 +72,7 @@ class TranslatorNode(LifecycleNode):
             context: The ROS context; the default one if None.
             parameter_overrides: Values in place of the defaults of `parameters.PARAMETERS`.
         """
-        super().__init__("translator", context=context, parameter_overrides=list(parameter_overrides))
-        declare_parameters(self, PARAMETERS)
+        super().__init__("translator", PARAMETERS, context=context, parameter_overrides=parameter_overrides)
         self._translator: Translator | None = None
         self._next_translator: Translator | None = None
         self._inventory: SignInventory | None = None
@@ -83,11 +82,6 @@ class TranslatorNode(LifecycleNode):
         self._diagnostics = DiagnosticsPublisher(self, "texts")
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
-
-    def start(self) -> bool:
-        """Configure and activate without a manager; tell whether both succeeded."""
-        success = TransitionCallbackReturn.SUCCESS
-        return bool(self.trigger_configure() == success and self.trigger_activate() == success)
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:  # noqa: ARG002 - the API's
         """Load the model; serve `translate` and publish diagnostics."""
@@ -175,7 +169,7 @@ class TranslatorNode(LifecycleNode):
     def _answer_text(self, item: _Text) -> None:
         """Translate and publish a text of the topic; in the worker's thread."""
         try:
-            sentences = self._translate(item)
+            translation = self._translate(item)
         except TranslationError as error:
             self._refuse(item, error)
             return
@@ -183,16 +177,20 @@ class TranslatorNode(LifecycleNode):
             self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
             self._refuse(item, TranslationError("internal_error", f"{error!r}; the log says more"))
             return
-        for sentence in sentences:
+        for sentence in self._messages(item, translation):
             self._tokens.publish(sentence)
-        self._tell(item, sentences=len(sentences))
+        self._tell(item, sentences=len(translation.sentences))
+        self._note(item, translation)
         if self._tokens.get_subscription_count() == 0:
             self.get_logger().warning("nobody listens to sign_tokens: this text will not be signed")
 
     def _on_translate(self, request: Translate.Request, response: Translate.Response) -> Translate.Response:
+        item = self._received(request.text)
         try:
-            response.sentences = self._translate(self._received(request.text))
+            translation = self._translate(item)
+            response.sentences = self._messages(item, translation)
             response.success = True
+            self._note(item, translation)
         except TranslationError as error:
             self._statistics.add_refused(f"[{error.code}] {error}")
             response.code = error.code
@@ -204,8 +202,8 @@ class TranslatorNode(LifecycleNode):
             response.message = f"the translator failed on this text: {error!r}; its log says more"
         return response
 
-    def _translate(self, item: _Text) -> list[SignSentence]:
-        """A text as messages.
+    def _translate(self, item: _Text) -> Translation:
+        """Translate a text.
 
         Raises:
             TranslationError: If it cannot be translated, or has more than `max_sentences`.
@@ -222,6 +220,13 @@ class TranslatorNode(LifecycleNode):
                 f"expected at most {most} sentences in one text (parameter max_sentences), got "
                 f"{len(translation.sentences)}: send it in parts",
             )
+        return translation
+
+    def _messages(self, item: _Text, translation: Translation) -> list[SignSentence]:
+        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=item.utterance_id)
+
+    def _note(self, item: _Text, translation: Translation) -> None:
+        """Count a text that was answered, and log it: after the answer, which somebody waits for."""
         elapsed = (self.get_clock().now() - item.received).nanoseconds * 1e-9
         self._statistics.add_done(elapsed)
         self.get_logger().info(f"{quoted(item.text)}: {short(str(translation))} ({elapsed * 1000:.1f} ms)")
@@ -229,7 +234,6 @@ class TranslatorNode(LifecycleNode):
             self.get_logger().warning(
                 f"nothing stands for {short(' '.join(map(ascii, translation.ignored)))}"
             )
-        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=item.utterance_id)
 
     def _refuse(self, item: _Text, error: TranslationError) -> None:
         self._statistics.add_refused(f"[{error.code}] {error}")
@@ -306,21 +310,10 @@ class TranslatorNode(LifecycleNode):
             substitutes=Substitutes.named(values["substitutes"]),
         )
 
-    def _value(self, name: str) -> Any:
-        return self.get_parameter(name).value
-
-
-def _started_node() -> TranslatorNode:
-    node = TranslatorNode()
-    if node.get_parameter("autostart").value and not node.start():
-        node.destroy_node()
-        raise SystemExit(1)  # the log has said why
-    return node
-
 
 def main(arguments: list[str] | None = None) -> None:
     """Run the node until it is told to end."""
-    run_node(_started_node, arguments)
+    run_self_starting(TranslatorNode, arguments)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.substitutes import SIGN_NAME
 
 #: How well founded a sign may be, the best first, as the entries of a table name it.
-STANDINGS = ("recorded", "measured", "described", "sketched")
+STANDINGS = ("reviewed", "recorded", "measured", "described", "sketched")
 #: The executor's default: what is only sketched is spelled.
 LEAST_STANDING = "described"
 

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What the console costs, and how soon its page is there: `python -m nodes.console_page` in `bench`."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import statistics
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
+import rclpy
+from playwright.sync_api import Browser, Page, WebSocket, sync_playwright
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from report import Figure
+from trajectory_msgs.msg import JointTrajectory
+
+from nodes.driver_rate import as_message, cpu_seconds, wave
+from teo_bringup.graph import CONSOLE, NODES, Graph, executable_of
+
+WATCHED = 15.0  # [s] of the robot in motion, with and without a page
+VISITS = 7  # of a page, each by a browser that has not been there
+T = TypeVar("T")
+_TIMEOUT = 60.0  # [s] for the nodes to start
+_OPTIONS = (
+    "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+)  # fmt: skip
+_FIRST_PAINT = "performance.getEntriesByName('first-contentful-paint')[0]?.startTime"
+_BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
+
+
+def measure() -> list[Figure]:
+    """Figures of the node without and with a page, and of the page."""
+    os.environ.setdefault("ROS_DOMAIN_ID", "19")
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    if _BROWSER is None:
+        raise RuntimeError("expected chromium or google-chrome on the path")
+    with Graph(log_folder=Path(tempfile.mkdtemp())) as graph, sync_playwright() as playwright:
+        graph.start("driver", str(executable_of(*NODES["driver"])))
+        graph.start("console", str(executable_of(*CONSOLE["console"])), "--ros-args", "-p", "port:=0")
+        address = _wait(lambda: re.search(r"http://\S+", graph.tail("console"))).group()
+        browser = playwright.chromium.launch(executable_path=_BROWSER, args=list(_OPTIONS))
+        # In turn with a page of a few words from the same server: what is not the page's is in both.
+        paints, plain = [], []
+        for _ in range(VISITS):
+            paints.append(_first_paint(browser, address))
+            plain.append(_first_paint(browser, f"{address}i18n/es.json"))
+        console = graph.process_id("console")
+        _move()
+        alone = _busy(console, None)
+        page = browser.new_context().new_page()
+        poses: list[float] = []
+        page.on("websocket", lambda socket: _count(socket, poses))
+        page.goto(address)
+        page.wait_for_timeout(2000)
+        poses.clear()
+        _move()
+        begin = time.monotonic()
+        watched = _busy(console, page)
+        rate = len(poses) / (time.monotonic() - begin)
+        browser.close()
+    return [
+        Figure("console while the robot moves, no page open, of one core", f"{alone * 100.0:.1f} %"),
+        Figure(f"the same with a page open, which gets {rate:.1f} poses/s", f"{watched * 100.0:.1f} %"),
+        Figure(
+            f"first paint of the page ({VISITS} new browsers)",
+            f"median {statistics.median(paints):.2f} s, longest {max(paints):.2f} s",
+        ),
+        Figure(
+            "baseline, in turn: of a file of text from the same server",
+            f"median {statistics.median(plain):.2f} s, longest {max(plain):.2f} s",
+        ),
+    ]
+
+
+def _first_paint(browser: Browser, address: str) -> float:
+    """From asking for a page to its first words, in a browser that has not been there [s]."""
+    page = browser.new_context().new_page()
+    page.goto(address)
+    paint: float = _wait(lambda: page.evaluate(_FIRST_PAINT)) * 1e-3
+    page.context.close()
+    return paint
+
+
+def _move() -> None:
+    """Have the robot move for twice as long as is watched."""
+    rclpy.init()
+    node = Node("bench")
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    commands = node.create_publisher(JointTrajectory, "joint_trajectory", 10)
+    try:
+        while not commands.get_subscription_count():
+            executor.spin_once(timeout_sec=0.1)
+        commands.publish(as_message(wave(2 * WATCHED)))
+        executor.spin_once(timeout_sec=0.5)
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+def _busy(process: int, page: Page | None) -> float:
+    """Share of a core that a process uses while it is watched."""
+    begin, used = time.monotonic(), cpu_seconds(process)
+    if page is None:
+        time.sleep(WATCHED)
+    else:
+        page.wait_for_timeout(WATCHED * 1e3)  # the browser's messages are taken meanwhile
+    return (cpu_seconds(process) - used) / (time.monotonic() - begin)
+
+
+def _count(socket: WebSocket, poses: list[float]) -> None:
+    socket.on("framereceived", lambda frame: poses.append(0.0) if isinstance(frame, bytes) else None)
+
+
+def _wait(condition: Callable[[], T | None]) -> T:
+    deadline = time.monotonic() + _TIMEOUT
+    while not (result := condition()):
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"the console or its page were not there within {_TIMEOUT:.0f} s")
+        time.sleep(0.05)
+    return result
+
+
+if __name__ == "__main__":
+    for figure in measure():
+        print(f"{figure.what}: {figure.value}")

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The dictionary: the list of signs, films of them, and what of a text has signs."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any
+
+from aiohttp import web
+from msgspec import Meta, Struct
+
+from teo_console.api.requests import answering, body
+from teo_console.api.workbench import Workbench
+from teo_console.errors import ConsoleError
+from teo_console.jobs import project_commands
+from teo_console.protocol.from_page import Gloss
+
+# A page of a book [characters]: it is translated sentence by sentence, some 50 ms each.
+_TEXT_LENGTH = 5000
+_FILM_NAME = re.compile(r"[0-9a-f]{64}\.mp4")
+
+
+class _WantFilm(Struct, frozen=True, forbid_unknown_fields=True):
+    gloss: Gloss
+
+
+class _WantCoverage(Struct, frozen=True, forbid_unknown_fields=True):
+    text: Annotated[str, Meta(min_length=1, max_length=_TEXT_LENGTH)]
+
+
+def routes(workbench: Workbench) -> list[web.RouteDef]:
+    """GET /api/signs; POST /api/films, GET /api/films/HASH.mp4; POST /api/coverage."""
+    films = workbench.folders.cache / "films"
+
+    async def signs(_: web.Request) -> Any:
+        return list((await workbench.signs.signs()).values())
+
+    async def want_film(request: web.Request) -> Any:
+        sign = await workbench.signs.get((await body(request, _WantFilm)).gloss)
+        path = films / f"{sign.motion_hash}.mp4"
+        told: dict[str, Any] = {"film": f"/api/films/{path.name}", "job": None}
+        if not path.exists():
+            films.mkdir(parents=True, exist_ok=True)
+            told["job"] = workbench.jobs.submit(project_commands.film(sign.gloss, path)).told()
+        return told
+
+    async def film(request: web.Request) -> Any:
+        name = request.match_info["name"]
+        path = films / name
+        if not _FILM_NAME.fullmatch(name) or not path.is_file():
+            raise ConsoleError(
+                "unknown_sign", "expected a film that was made before, there is none of that name"
+            )
+        return web.FileResponse(path)
+
+    async def coverage(request: web.Request) -> Any:
+        wanted = await body(request, _WantCoverage)
+        return workbench.jobs.submit(project_commands.coverage(wanted.text)).told()
+
+    return [
+        web.get("/api/signs", answering(signs)),
+        web.post("/api/films", answering(want_film)),
+        web.get("/api/films/{name}", answering(film)),
+        web.post("/api/coverage", answering(coverage)),
+    ]

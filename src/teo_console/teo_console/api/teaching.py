@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Teaching and practising: a recording comes in, is tried as a sign or recognised, accepted or discarded."""
+
+from __future__ import annotations
+
+import datetime
+import json
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from aiohttp import web
+from msgspec import Meta, Struct
+
+from teo_console.api.requests import answering, body
+from teo_console.api.workbench import Workbench
+from teo_console.errors import ConsoleError
+from teo_console.jobs import project_commands
+from teo_console.jobs.project_commands import Hands, Teaching
+from teo_console.jobs.recordings import Recording
+from teo_console.protocol.from_page import Gloss
+
+# Terms that a person can give a movement; the last keeps it in the house.
+Licence = Literal["CC0-1.0", "CC-BY-4.0", "CC-BY-SA-4.0", "for this laboratory alone"]
+
+
+class _Try(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    gloss: Gloss
+    hands: Hands | None = None
+
+
+class _Accept(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    gloss: Gloss
+    licence: Licence
+    consent: bool
+    """Whether the person in the film agrees that the movement is kept under these terms."""
+    person: Annotated[str, Meta(max_length=60)] = ""
+    hands: Hands | None = None
+    despite_gates: bool = False
+    replace: bool = False
+
+
+class _Keep(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    gloss: Gloss
+
+
+class _Recognise(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    gloss: Gloss
+
+
+def routes(workbench: Workbench) -> list[web.RouteDef]:
+    """POST /api/recordings; DELETE ID; below ID: POST try, accept, keep, recognise; GET trial, picture."""
+
+    async def receive(request: web.Request) -> Any:
+        recording = await workbench.recordings.receive(
+            request.content.iter_chunked(64 * 1024), workbench.now()
+        )
+        return {"recording": recording.id, "figures": recording.figures}
+
+    async def discard(request: web.Request) -> Any:
+        workbench.recordings.discard(request.match_info["id"])
+        return {}
+
+    async def attempt(request: web.Request) -> Any:
+        recording, wanted = _of(request), await body(request, _Try)
+        teaching = Teaching(
+            gloss=_gloss_key(wanted.gloss),
+            hands=wanted.hands,
+            licence="on trial",
+            notes="",
+            accept=True,  # a trial shows what a gate speaks against, too
+            replace=True,
+        )
+        command = project_commands.capture(
+            recording.path, _cache(recording), teaching, trial=_trial(recording)
+        )
+        return workbench.jobs.submit(command).told()
+
+    async def trial(request: web.Request) -> Any:
+        entry = _entry(_of(request))
+        content = json.loads(entry.read_text("utf-8"))
+        return {
+            "gloss": content["gloss"],
+            "exists": content["gloss"] in await workbench.signs.signs(),
+            "motion": {"joints": content["joints"], "times": content["times"], "positions": content["knots"]},
+        }
+
+    async def picture(request: web.Request) -> Any:
+        path = _entry(_of(request)).with_suffix(".png")
+        if not path.is_file():
+            raise ConsoleError("not_ready", "expected a picture of the trial, none was drawn")
+        return web.FileResponse(path)
+
+    async def accept(request: web.Request) -> Any:
+        recording, wanted = _of(request), await body(request, _Accept)
+        if not wanted.consent:
+            raise ConsoleError(
+                "no_consent",
+                "expected that the person in the film agrees to the terms: without it nothing is kept",
+            )
+        teaching = Teaching(
+            gloss=_gloss_key(wanted.gloss),
+            hands=wanted.hands,
+            licence=wanted.licence,
+            notes=_consent(wanted),
+            accept=wanted.despite_gates,
+            replace=wanted.replace,
+        )
+        job = workbench.jobs.submit(
+            project_commands.capture(recording.path, _cache(recording), teaching, trial=None)
+        )
+        workbench.signs.changed()
+        return job.told()
+
+    async def keep(request: web.Request) -> Any:
+        name = _gloss_key((await body(request, _Keep)).gloss)
+        kept = workbench.recordings.keep(request.match_info["id"], workbench.folders.kept, _file_name(name))
+        return {"kept": str(kept)}
+
+    async def recognise(request: web.Request) -> Any:
+        recording, wanted = _of(request), await body(request, _Recognise)
+        command = project_commands.recognise(recording.path, _cache(recording), _gloss_key(wanted.gloss))
+        return workbench.jobs.submit(command).told()
+
+    def _of(request: web.Request) -> Recording:
+        return workbench.recordings.get(request.match_info["id"])
+
+    one = "/api/recordings/{id}"
+    return [
+        web.post("/api/recordings", answering(receive)),
+        web.delete(one, answering(discard)),
+        web.post(f"{one}/try", answering(attempt)),
+        web.get(f"{one}/trial", answering(trial)),
+        web.get(f"{one}/picture", answering(picture)),
+        web.post(f"{one}/accept", answering(accept)),
+        web.post(f"{one}/keep", answering(keep)),
+        web.post(f"{one}/recognise", answering(recognise)),
+    ]
+
+
+def _cache(recording: Recording) -> Path:
+    return recording.folder / "points"
+
+
+def _trial(recording: Recording) -> Path:
+    return recording.folder / "trial"
+
+
+def _entry(recording: Recording) -> Path:
+    """The entry that the last trial left.
+
+    Raises:
+        ConsoleError: "not_ready": none did.
+    """
+    entries = sorted(_trial(recording).glob("*.json"), key=lambda path: path.stat().st_mtime)
+    if not entries:
+        raise ConsoleError("not_ready", "expected a trial that came to a sign, there is none yet")
+    return entries[-1]
+
+
+def _gloss_key(gloss: str) -> str:
+    """As people type it, to as the table has it: capitals, "_" for blanks."""
+    return "_".join(gloss.upper().split())
+
+
+def _file_name(gloss: str) -> str:
+    return "".join(char if char.isalnum() or char in "_-" else "_" for char in gloss)
+
+
+def _consent(wanted: _Accept) -> str:
+    who = " ".join(wanted.person.split()) or "The person in the film"
+    day = datetime.date.today().isoformat()
+    return f"{who} agreed on {day} that the movement is kept under: {wanted.licence}."

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What all of /api works with: jobs, recordings, reviews, and where files are kept."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import shutil
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from teo_console.api.sign_list import SignList
+from teo_console.errors import ConsoleError
+from teo_console.jobs.queue import JobQueue
+from teo_console.jobs.recordings import Recordings
+from teo_console.review.store import ReviewStore
+
+# Begins the name of a console's folder of recordings; the number of its process ends it.
+_RECORDINGS = "recordings-"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Folders:
+    """Where files are kept.
+
+    Attributes:
+        kept: Recordings that were kept on purpose.
+        reviews: The file of the reviews.
+        cache: What can be made again: films of signs, recordings while they are looked at.
+    """
+
+    kept: Path
+    reviews: Path
+    cache: Path
+
+    @classmethod
+    def of_user(cls) -> Folders:
+        """In the user's folders (XDG base directories)."""
+        data = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "teo"
+        cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "teo_console"
+        return cls(kept=data / "recordings", reviews=data / "reviews.sqlite", cache=cache)
+
+
+class Preparation:
+    """Something that takes several commands, one after the other: pages ask how far it is."""
+
+    def __init__(self, total: int) -> None:
+        """Begin.
+
+        Args:
+            total: How many steps there are.
+        """
+        self.done = 0
+        self.total = total
+        self.result = ""
+        self.code = ""
+        self.message = ""
+
+
+class Workbench:
+    """Made and used in the server's event loop."""
+
+    def __init__(self, folders: Folders) -> None:
+        """Open what is kept.
+
+        Raises:
+            ConsoleError: "bad_reviews".
+            OSError: A folder cannot be made.
+        """
+        self.folders = folders
+        self.jobs = JobQueue()
+        _delete_what_was_left(folders.cache)
+        # One console of a user each: several do not delete each other's recordings.
+        self.recordings = Recordings(folders.cache / f"{_RECORDINGS}{os.getpid()}", self.jobs)
+        self.reviews = ReviewStore(folders.reviews)
+        self.signs = SignList(self.jobs)
+        self.preparations: dict[str, Preparation] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def now(self) -> float:
+        """The time by which ages are told [s]."""
+        return time.monotonic()
+
+    def prepare(self, name: str, total: int, work: Callable[[Preparation], Awaitable[str]]) -> Preparation:
+        """Begin something that takes a while; its result is what the work returns.
+
+        Raises:
+            ConsoleError: "busy": something is being prepared already.
+        """
+        if self._tasks:
+            raise ConsoleError("busy", "expected one series to be prepared at a time: wait for the other")
+        preparation = self.preparations[name] = Preparation(total)
+
+        async def go() -> None:
+            try:
+                preparation.result = await work(preparation)
+            except ConsoleError as error:
+                preparation.code, preparation.message = error.code, str(error)
+
+        task = asyncio.create_task(go())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+        return preparation
+
+    async def close(self) -> None:
+        """End whatever runs and delete what nobody kept."""
+        for task in self._tasks:
+            task.cancel()
+        await self.jobs.close()
+        self.recordings.close()
+        self.reviews.close()
+
+
+def _delete_what_was_left(cache: Path) -> None:
+    """Delete recordings of consoles that were killed before they could."""
+    for folder in cache.glob(f"{_RECORDINGS}*"):
+        number = folder.name.removeprefix(_RECORDINGS)
+        if not Path(f"/proc/{number}").exists():
+            shutil.rmtree(folder, ignore_errors=True)

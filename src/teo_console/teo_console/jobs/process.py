@@ -1,0 +1,164 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""One command as a process: started within limits, listened to, and ended with all that it started."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+import os
+import signal
+import sys
+from collections import deque
+from pathlib import Path
+from typing import Any
+
+from teo_console.jobs import limited
+from teo_console.jobs.job import Job, Progress
+
+# Bytes of standard output that are kept: a hundred times the longest answer of a command.
+_OUTPUT_BYTES = 16 * 1024**2
+# Lines of standard error that are kept to say why it failed.
+_LAST_LINES = 20
+# Bytes of a line of standard error; a longer one is cut.
+_LINE_BYTES = 64 * 1024
+# From the request to end to the end by force [s]: time to remove temporary files.
+_GRACE = 3.0
+
+
+async def run(job: Job, folder: Path) -> None:
+    """Run a job's command to its end and enter how it ended.
+
+    Args:
+        job: What to run; gets state, progress, output, result and reason.
+        folder: For its temporary files, and where it runs.
+
+    Raises:
+        OSError: It cannot be started.
+        asyncio.CancelledError: The task was cancelled; the process and all that it started have ended.
+    """
+    command, limits = job.command, job.command.limits
+    launcher = (sys.executable, "-I", limited.__file__)  # as a file: it needs nothing of this package
+    numbers = (2 * math.ceil(limits.seconds), limits.memory, limits.file)
+    process = await asyncio.create_subprocess_exec(
+        *launcher,
+        *map(str, numbers),
+        *command.arguments,
+        stdin=asyncio.subprocess.DEVNULL,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.PIPE,
+        cwd=folder,
+        env={**os.environ, "TMPDIR": str(folder)},
+        start_new_session=True,  # a group of its own, which is ended as one
+        limit=_LINE_BYTES,
+    )
+    assert process.stdout is not None and process.stderr is not None
+    job.state = "running"
+    said: deque[str] = deque(maxlen=_LAST_LINES)
+    try:
+        async with asyncio.timeout(limits.seconds):
+            output, _ = await asyncio.gather(_read_output(process.stdout), _listen(process.stderr, job, said))
+            status = await process.wait()
+    except TimeoutError:
+        _fail(job, "too_slow", f"expected {command.name} to end within {limits.seconds:g} s, it did not")
+        return
+    except _TooMuchError:
+        _fail(job, "too_much_output", f"expected at most {_OUTPUT_BYTES} bytes from {command.name}, got more")
+        return
+    finally:
+        await _end(process)
+    job.output = output.decode("utf-8", errors="replace")
+    job.result = _last_json(job.output)
+    if status == 0 or isinstance(job.result, dict):
+        job.state = "done"
+    else:
+        _fail(job, *_reason(command.name, status, said))
+
+
+class _TooMuchError(Exception):
+    """A command printed more than is kept."""
+
+
+async def _read_output(stream: asyncio.StreamReader) -> bytes:
+    """All that is printed."""
+    output = bytearray()
+    while piece := await stream.read(_LINE_BYTES):
+        output += piece
+        if len(output) > _OUTPUT_BYTES:
+            raise _TooMuchError
+    return bytes(output)
+
+
+async def _listen(stream: asyncio.StreamReader, job: Job, said: deque[str]) -> None:
+    """Enter what the command says of its progress, and keep its other words."""
+    while True:
+        try:
+            line = await stream.readuntil()
+        except asyncio.IncompleteReadError as error:
+            line = error.partial
+        except asyncio.LimitOverrunError as error:
+            line = await stream.readexactly(error.consumed)
+        if not line:
+            return
+        text = line.decode("utf-8", errors="replace").strip()
+        event = _object(text)
+        if event.get("event") == "progress":
+            job.progress = Progress(
+                what=str(event.get("what", "")),
+                done=int(event.get("done") or 0),
+                total=int(event.get("total") or 0),
+            )
+        elif text:
+            said.append(text)
+
+
+async def _end(process: asyncio.subprocess.Process) -> None:
+    """See to it that nothing is left of the process's group."""
+    for number, wait in ((signal.SIGTERM, _GRACE), (signal.SIGKILL, None)):
+        try:
+            os.killpg(process.pid, number)
+        except (ProcessLookupError, PermissionError):  # nobody is left
+            break
+        try:
+            async with asyncio.timeout(wait):
+                await process.wait()
+        except TimeoutError:
+            continue
+    await process.wait()
+
+
+def _last_json(output: str) -> Any:
+    for line in reversed(output.splitlines()):
+        if line.strip():
+            try:
+                return json.loads(line)
+            except ValueError:
+                return None
+    return None
+
+
+def _object(text: str) -> dict[str, Any]:
+    if not text.startswith("{"):
+        return {}
+    try:
+        found = json.loads(text)
+    except ValueError:
+        return {}
+    return found if isinstance(found, dict) else {}
+
+
+def _reason(name: str, status: int, said: deque[str]) -> tuple[str, str]:
+    """Code and sentence: as the project's commands print them, "code: sentence", or the last words."""
+    if status < 0 or status == 128 + signal.SIGKILL:
+        return "killed", f"{name} was ended by signal {abs(status)}, probably at a limit of time or memory"
+    last = said[-1] if said else f"exit status {status}"
+    for line in reversed(said):
+        code, colon, sentence = line.partition(": ")
+        if colon and code.isidentifier() and code.islower():
+            return code, sentence
+    return "failed", f"{name}: {last}"
+
+
+def _fail(job: Job, code: str, message: str) -> None:
+    job.state, job.code, job.message = "failed", code, message

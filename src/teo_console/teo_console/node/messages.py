@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""ROS messages as the protocol's types."""
+
+from __future__ import annotations
+
+from msgspec.structs import replace
+from teo_sign_msgs.msg import (
+    DriverState,
+    ExecutorStatus,
+    SignSentence,
+    SignToken,
+    TokenTiming,
+    TranslationStatus,
+)
+from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
+
+from teo_console.protocol.to_page import (
+    Caption,
+    ExecutorState,
+    Listed,
+    Motion,
+    Origin,
+    Queued,
+    Refusal,
+    RobotMode,
+    Sentence,
+    SentenceType,
+    Sign,
+    TokenKind,
+)
+from teo_console.situation.progress import PathReport
+from teo_console.situation.sentences import SigningReport
+
+KINDS: dict[int, TokenKind] = {
+    SignToken.KIND_LEXICAL: "sign",
+    SignToken.KIND_LETTER: "letter",
+    SignToken.KIND_NUMBER: "number",
+    SignToken.KIND_PAUSE: "pause",
+}
+_ORIGINS: dict[int, Origin] = {
+    SignToken.ORIGIN_UNKNOWN: "unknown",
+    SignToken.ORIGIN_MODEL: "model",
+    SignToken.ORIGIN_LEMMA: "lemma",
+    SignToken.ORIGIN_SYNONYM: "synonym",
+    SignToken.ORIGIN_SPELLED: "spelled",
+    SignToken.ORIGIN_NUMBER: "number",
+    SignToken.ORIGIN_REPAIRED: "repaired",
+    SignToken.ORIGIN_WORD_LIST: "word_list",
+    SignToken.ORIGIN_PAUSE: "pause",
+    SignToken.ORIGIN_PARAPHRASE: "paraphrase",
+    SignToken.ORIGIN_HYPERNYM: "hypernym",
+    SignToken.ORIGIN_DRAFT: "draft",
+}
+_TYPES: dict[int, SentenceType] = {
+    SignSentence.TYPE_STATEMENT: "statement",
+    SignSentence.TYPE_YES_NO_QUESTION: "yes_no_question",
+    SignSentence.TYPE_WH_QUESTION: "wh_question",
+    SignSentence.TYPE_EXCLAMATION: "exclamation",
+}
+_EXECUTOR: dict[int, ExecutorState] = {
+    ExecutorStatus.STATE_IDLE: "idle",
+    ExecutorStatus.STATE_SIGNING: "signing",
+    ExecutorStatus.STATE_WAITING: "waiting",
+    ExecutorStatus.STATE_REFUSED: "refused",
+    ExecutorStatus.STATE_PAUSED: "paused",
+    ExecutorStatus.STATE_STOPPED: "stopped",
+    ExecutorStatus.STATE_FAULT: "fault",
+}
+_MODES: dict[int, RobotMode] = {
+    DriverState.MODE_HOLDING: "holding",
+    DriverState.MODE_MOVING: "moving",
+    DriverState.MODE_PAUSED: "paused",
+    DriverState.MODE_STOPPED: "stopped",
+    DriverState.MODE_INACTIVE: "inactive",
+    DriverState.MODE_FAULT: "fault",
+}
+
+
+def seconds(stamp: object) -> float:
+    """Give a builtin_interfaces Time or Duration in seconds."""
+    return float(stamp.sec) + float(stamp.nanosec) * 1e-9  # type: ignore[attr-defined]  # generated, untyped
+
+
+def to_sentence(message: SignSentence) -> Sentence:
+    """A sentence as announced."""
+    return Sentence(
+        utterance=message.utterance_id,
+        index=message.sentence_index,
+        count=message.sentence_count,
+        text=message.text,
+        form=_TYPES.get(message.type, "statement"),
+        negated=message.negated,
+        uncertain=message.uncertain,
+        dropped=tuple(message.dropped),
+        captions=tuple(_to_caption(token) for token in message.tokens),
+        state="waiting",
+    )
+
+
+def to_signing_report(message: ExecutorStatus) -> SigningReport:
+    """What the executor says."""
+    return SigningReport(
+        stamp=seconds(message.header.stamp),
+        state=_EXECUTOR.get(message.state, "unknown"),
+        key=(message.utterance_id, message.sentence_index) if message.utterance_id else None,
+        duration=message.duration,
+        captions=tuple(_to_timed_caption(timing) for timing in message.timings),
+        code=message.code,
+        message=message.message,
+    )
+
+
+def to_path_report(message: DriverState) -> PathReport:
+    """What the driver says of its path."""
+    under_way = message.mode in (DriverState.MODE_MOVING, DriverState.MODE_PAUSED)
+    known = under_way and message.path_duration > 0.0
+    return PathReport(
+        stamp=seconds(message.header.stamp),
+        speed=message.speed_scaling,
+        remaining=message.path_duration - message.path_time if known else None,
+    )
+
+
+def to_mode(message: DriverState) -> RobotMode:
+    """What the driver does."""
+    return _MODES.get(message.mode, "unknown")
+
+
+def to_refusal(message: TranslationStatus) -> Refusal | None:
+    """A text that was refused; None if it was translated."""
+    if not message.code:
+        return None
+    return Refusal(
+        stamp=seconds(message.header.stamp), text=message.text, code=message.code, message=message.message
+    )
+
+
+def to_queue(response: ListQueue.Response) -> tuple[Queued, ...]:
+    """The executor's queue."""
+    rows = zip(response.utterance_ids, response.sentence_indices, response.texts, strict=True)
+    return tuple(
+        Queued(utterance=utterance, index=index, text=text, current=row == response.current)
+        for row, (utterance, index, text) in enumerate(rows)
+    )
+
+
+def to_sign(gloss: str, response: GetSign.Response) -> Sign:
+    """One sign of the table."""
+    points = response.trajectory.points
+    return Sign(
+        gloss=gloss,
+        handedness=response.handedness,
+        entry=response.entry,
+        motion=Motion(
+            joints=tuple(response.trajectory.joint_names),
+            times=tuple(seconds(point.time_from_start) for point in points),
+            positions=tuple(tuple(point.positions) for point in points),
+        ),
+    )
+
+
+def to_listed(response: ListSigns.Response) -> tuple[Listed, ...]:
+    """Signs of the table by name."""
+    return tuple(
+        Listed(gloss=gloss, kind=KINDS[kind])
+        for gloss, kind in zip(response.glosses, response.kinds, strict=True)
+    )
+
+
+def _to_caption(token: SignToken) -> Caption:
+    return Caption(
+        gloss=token.gloss,
+        kind=KINDS.get(token.kind, "sign"),
+        origin=_ORIGINS.get(token.origin, "unknown"),
+        words=tuple(token.source_words),
+        word_index=token.word_index,
+        inflection=token.inflection,
+        confidence=token.confidence,
+    )
+
+
+def _to_timed_caption(timing: TokenTiming) -> Caption:
+    return replace(_to_caption(timing.token), start=timing.start, duration=timing.duration)

@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Carries out what pages ask for: publishes, and calls the services of executor and driver."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable
+from typing import Any
+
+from control_msgs.msg import SpeedScalingFactor
+from rclpy.node import Node
+from rclpy.task import Future
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+from teo_sign_msgs.msg import SignSentence, SignToken
+from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
+
+from teo_console.errors import ConsoleError
+from teo_console.node import messages
+from teo_console.protocol.from_page import (
+    Command,
+    ConfirmSpoken,
+    DiscardSpoken,
+    FromPage,
+    Order,
+    SetSpeed,
+    SignGlosses,
+    SignText,
+)
+from teo_console.protocol.from_page import (
+    GetSign as AskedSign,
+)
+from teo_console.protocol.from_page import (
+    ListSigns as AskedSigns,
+)
+from teo_console.protocol.to_page import Answer
+from teo_console.situation.shared_situation import SharedSituation
+
+Reply = Callable[[Answer], None]
+
+
+class RobotClient:
+    """Answers requests of pages. A service's answer comes when it comes: `reply` is called then."""
+
+    def __init__(self, node: Node, situation: SharedSituation) -> None:
+        """Connect.
+
+        Args:
+            node: Owns publishers and clients.
+            situation: Whose speech and speed the requests change.
+        """
+        self._node = node
+        self._situation = situation
+        self._texts = node.create_publisher(String, "text", 10)
+        self._sentences = node.create_publisher(SignSentence, "sign_tokens", 10)
+        self._speeds = node.create_publisher(SpeedScalingFactor, "speed_scaling_input", 10)
+        self._orders = {order: node.create_client(Trigger, order.value) for order in Order}
+        self._get_sign = node.create_client(GetSign, "get_sign")
+        self._list_signs = node.create_client(ListSigns, "list_signs")
+        self._list_queue = node.create_client(ListQueue, "list_queue")
+
+    def serve(self, asked: FromPage, reply: Reply) -> None:
+        """Carry out a request, and reply once."""
+        try:
+            self._serve(asked, reply)
+        except ConsoleError as error:
+            reply(Answer(id=asked.id, success=False, code=error.code, message=str(error)))
+
+    def look_at_queue(self) -> None:
+        """Ask the executor for its queue."""
+        if self._list_queue.service_is_ready():
+            called = self._list_queue.call_async(ListQueue.Request())
+            called.add_done_callback(self._on_queue)
+
+    def _serve(self, asked: FromPage, reply: Reply) -> None:
+        match asked:
+            case SignText():
+                self._sign(asked.text)
+                reply(Answer(id=asked.id, success=True))
+            case ConfirmSpoken():
+                self._expect_listener(self._texts, "translator")
+                self._situation.spoken.take(asked.spoken)
+                self._sign(asked.text)
+                reply(Answer(id=asked.id, success=True))
+            case DiscardSpoken():
+                self._situation.spoken.take(asked.spoken)
+                reply(Answer(id=asked.id, success=True))
+            case SignGlosses():
+                self._sign_glosses(asked.glosses)
+                reply(Answer(id=asked.id, success=True))
+            case SetSpeed():
+                self._expect_listener(self._speeds, "driver")
+                self._speeds.publish(SpeedScalingFactor(factor=asked.factor))
+                self._situation.speed_wanted(asked.factor)
+                reply(Answer(id=asked.id, success=True))
+            case Command():
+                client = self._orders[asked.order]
+                self._call(client, Trigger.Request(), reply, lambda done: _of_trigger(asked.id, done))
+            case AskedSign():
+                request = GetSign.Request(gloss=asked.gloss)
+                self._call(self._get_sign, request, reply, lambda done: _of_sign(asked, done))
+            case AskedSigns():
+                request = ListSigns.Request(prefix=asked.prefix)
+                self._call(self._list_signs, request, reply, lambda done: _of_signs(asked, done))
+
+    def _sign(self, text: str) -> None:
+        self._expect_listener(self._texts, "translator")
+        self._texts.publish(String(data=text))
+
+    def _sign_glosses(self, glosses: tuple[str, ...]) -> None:
+        self._expect_listener(self._sentences, "executor")
+        message = SignSentence(
+            utterance_id=f"console-{uuid.uuid4().hex}",
+            sentence_count=1,
+            text=" ".join(glosses),
+            confidence=1.0,
+        )
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.tokens = [
+            SignToken(
+                gloss=gloss, kind=SignToken.KIND_LEXICAL, confidence=1.0, duration_scale=1.0, word_index=place
+            )
+            for place, gloss in enumerate(glosses)
+        ]
+        self._sentences.publish(message)
+
+    def _expect_listener(self, publisher: Any, node: str) -> None:
+        # The console itself listens to sign_tokens: to that topic one more is wanted.
+        own = 1 if publisher is self._sentences else 0
+        if publisher.get_subscription_count() <= own:
+            raise ConsoleError(
+                f"no_{node}",
+                f"expected the {node} to listen on {publisher.topic_name}, nobody does: start it",
+            )
+
+    def _call(self, client: Any, request: Any, reply: Reply, answer: Callable[[Any], Answer]) -> None:
+        if not client.service_is_ready():
+            raise ConsoleError(
+                "no_service", f"expected a node that serves {client.srv_name}, there is none: start it"
+            )
+        called = client.call_async(request)
+        called.add_done_callback(lambda done: reply(answer(done.result())))
+
+    def _on_queue(self, done: Future) -> None:
+        response = done.result()
+        if response is not None:
+            self._situation.queue(messages.to_queue(response))
+
+
+def _of_trigger(number: int, response: Trigger.Response) -> Answer:
+    code = "" if response.success else "not_done"
+    return Answer(id=number, success=response.success, code=code, message=response.message)
+
+
+def _of_sign(asked: AskedSign, response: GetSign.Response) -> Answer:
+    if not response.success:
+        return Answer(id=asked.id, success=False, code=response.code, message=response.message)
+    return Answer(id=asked.id, success=True, sign=messages.to_sign(asked.gloss, response))
+
+
+def _of_signs(asked: AskedSigns, response: ListSigns.Response) -> Answer:
+    return Answer(id=asked.id, success=True, signs=messages.to_listed(response))

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The server in a thread of its own, with its own event loop, beside the node's."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable
+
+from aiohttp import web
+
+from teo_console.errors import ConsoleError
+
+# Longest that starting and ending may take [s]: both take a fraction of a second.
+_PATIENCE = 10.0
+
+
+class ServerThread:
+    """Runs a web application until it is closed."""
+
+    def __init__(self, make_app: Callable[[], web.Application], address: str, port: int) -> None:
+        """Start.
+
+        Args:
+            make_app: Makes the application, in the server's thread.
+            address: IP address to listen at.
+            port: TCP port; 0 for any that is free.
+
+        Raises:
+            ConsoleError: "port_taken": nothing can listen there.
+        """
+        self.loop = asyncio.new_event_loop()
+        self._runner: web.AppRunner | None = None
+        self._thread = threading.Thread(target=self._run, name="console server", daemon=True)
+        self._thread.start()
+        starting = asyncio.run_coroutine_threadsafe(self._start(make_app, address, port), self.loop)
+        try:
+            self.port = starting.result(_PATIENCE)
+        except OSError as error:
+            self.close()
+            raise ConsoleError(
+                "port_taken",
+                f"expected to listen at {address} port {port}, got: {error}; "
+                "end what listens there or set the parameter port",
+            ) from error
+
+    def call(self, function: Callable[..., object], *arguments: object) -> None:
+        """Have a function called in the server's thread; nothing happens once it has ended."""
+        if not self.loop.is_closed():
+            self.loop.call_soon_threadsafe(function, *arguments)
+
+    def close(self) -> None:
+        """End, and wait for it."""
+        if self.loop.is_closed():
+            return
+        if self._runner is not None:
+            asyncio.run_coroutine_threadsafe(self._runner.cleanup(), self.loop).result(_PATIENCE)
+        self.loop.call_soon_threadsafe(self.loop.stop)
+        self._thread.join(_PATIENCE)
+        self.loop.close()
+
+    async def _start(self, make_app: Callable[[], web.Application], address: str, port: int) -> int:
+        # A page that hangs must not keep the node from ending.
+        self._runner = web.AppRunner(make_app(), access_log=None, shutdown_timeout=1.0)
+        await self._runner.setup()
+        site = web.TCPSite(self._runner, address, port)
+        await site.start()
+        return int(self._runner.addresses[0][1])
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self.loop)
+        self.loop.run_forever()

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Sentences on their way: announced by the translator, signed or refused by the executor, then history."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+from msgspec.structs import replace
+
+from teo_console.protocol.to_page import Caption, ExecutorState, Sentence
+from teo_console.situation.progress import PathReport, SentenceProgress
+
+# Sentences that can be looked back at: a lesson's worth, and few enough to be sent whole.
+HISTORY = 30
+# Sentences that the translator announced and that nobody has taken up: a text's worth of them.
+ANNOUNCED = 200
+
+Key = tuple[str, int]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SigningReport:
+    """What the executor says."""
+
+    stamp: float
+    state: ExecutorState
+    key: Key | None
+    """Utterance and index of the sentence that it is about; None if none."""
+    duration: float
+    captions: tuple[Caption, ...]
+    """Planned signs with their times, while a sentence is signed."""
+    code: str
+    message: str
+
+
+class Sentences:
+    """What is announced, what is signed now, and what was before."""
+
+    def __init__(self) -> None:
+        """Begin without a sentence."""
+        self._announced: dict[Key, Sentence] = {}
+        self._current: Sentence | None = None
+        self._progress: SentenceProgress | None = None
+        self._history: deque[Sentence] = deque(maxlen=HISTORY)
+        self._speed = 1.0
+
+    @property
+    def current(self) -> Sentence | None:
+        """What is signed now."""
+        return self._current
+
+    @property
+    def progress(self) -> SentenceProgress | None:
+        """How far that is."""
+        return self._progress
+
+    @property
+    def history(self) -> tuple[Sentence, ...]:
+        """What was signed or refused, the newest first."""
+        return tuple(self._history)
+
+    def announce(self, sentence: Sentence) -> None:
+        """Take a sentence of the translator's."""
+        self._announced[_key(sentence)] = sentence
+        while len(self._announced) > ANNOUNCED:
+            del self._announced[next(iter(self._announced))]
+
+    def report(self, report: SigningReport) -> None:
+        """Take what the executor says."""
+        match report.state:
+            case "signing":
+                self._sign(report)
+            case "refused" if report.key is not None:
+                self._refuse(report, report.key)
+            case "idle":
+                self._end_current()
+            case (
+                _
+            ):  # it waits, is paused, stopped or at fault: what is signed now stays so until more is said
+                pass
+
+    def path(self, report: PathReport) -> None:
+        """Take what the driver says of its path."""
+        self._speed = report.speed
+        if self._progress is not None:
+            self._progress.path(report)
+
+    def _sign(self, report: SigningReport) -> None:
+        if report.key is None:
+            return
+        if self._current is not None and _key(self._current) != report.key:
+            self._end_current()
+        known = self._current or self._take(report.key)
+        if self._current is None or self._progress is None:
+            self._progress = SentenceProgress(report.duration, report.stamp, self._speed)
+        self._current = replace(
+            known, state="signing", captions=report.captions, duration=report.duration, code="", message=""
+        )
+
+    def _refuse(self, report: SigningReport, key: Key) -> None:
+        if self._current is not None and _key(self._current) == key:
+            sentence, self._current, self._progress = self._current, None, None
+        else:
+            sentence = self._take(key)
+        self._history.appendleft(replace(sentence, state="refused", code=report.code, message=report.message))
+
+    def _take(self, key: Key) -> Sentence:
+        return self._announced.pop(key) if key in self._announced else _unannounced(key)
+
+    def _end_current(self) -> None:
+        if self._current is not None:
+            self._history.appendleft(replace(self._current, state="signed"))
+        self._current = self._progress = None
+
+
+def _key(sentence: Sentence) -> Key:
+    return sentence.utterance, sentence.index
+
+
+def _unannounced(key: Key) -> Sentence:
+    """A sentence that was announced before the console listened, or that came as a goal of the action."""
+    return Sentence(
+        utterance=key[0],
+        index=key[1],
+        count=1,
+        text="",
+        form="statement",
+        negated=False,
+        uncertain=False,
+        dropped=(),
+        captions=(),
+        state="waiting",
+    )

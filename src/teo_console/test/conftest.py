@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What tests of the page share: the nodes with the console, a browser, pages that fail on their errors."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from teo_bringup.graph import CONSOLE, Graph, executable_of
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+# WebGL 2 by the processor, and nothing that a browser does for itself in the background.
+OPTIONS = (
+    "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
+)  # fmt: skip
+START_TIMEOUT = 60.0  # [s] for four processes on a loaded machine
+PATIENCE = 45_000  # [ms] for what a page waits for, likewise
+
+NewPage = Callable[..., Page]
+
+
+@pytest.fixture(scope="module")
+def graph(module_domain_id: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Graph]:  # noqa: ARG001
+    """Translator, executor, driver and console, on a port that is free."""
+    with Graph(log_folder=tmp_path_factory.mktemp("log")) as graph:
+        graph.start_nodes()
+        graph.start("console", str(executable_of(*CONSOLE["console"])), "--ros-args", "-p", "port:=0")
+        deadline = time.monotonic() + START_TIMEOUT
+        while "http://" not in graph.tail("console") or "ready" not in graph.tail("translator"):
+            graph.check()
+            assert time.monotonic() < deadline, graph.tail("console") + graph.tail("translator")
+            time.sleep(0.05)
+        yield graph
+
+
+@pytest.fixture(scope="module")
+def address(graph: Graph) -> str:
+    """Where the page is."""
+    found = re.search(r"http://\S+", graph.tail("console"))
+    assert found is not None
+    return found.group()
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """A browser without a window; without one there is nothing to test with."""
+    path = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if path is None:
+        pytest.skip(f"no browser: install one of {', '.join(BROWSERS)}")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=list(OPTIONS))
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def new_page(browser: Browser, address: str) -> Iterator[NewPage]:
+    """Opens the page, as often as asked, each in a profile of its own; an error in any fails the test."""
+    wrong: list[str] = []
+    contexts = []
+
+    def open_page(*, tab: str = "", width: int = 1100, height: int = 760, script: str = "") -> Page:
+        context = browser.new_context(viewport={"width": width, "height": height}, locale="es-ES")
+        contexts.append(context)
+        context.set_default_timeout(PATIENCE)
+        page = context.new_page()
+        page.on("pageerror", lambda error: wrong.append(str(error)))
+        page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+        page.on("dialog", lambda dialog: wrong.append(dialog.message))
+        if script:
+            page.add_init_script(script)
+        page.goto(f"{address}#{tab}")
+        page.wait_for_selector("#status[data-tone]:not(:empty)")
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+    assert not wrong, wrong
+
+
+@pytest.fixture(scope="session")
+def pictures() -> Path:
+    """Where screenshots go, for people to look at."""
+    folder = Path(__file__).parents[3] / "out" / "console"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder

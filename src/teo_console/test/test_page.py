@@ -1,0 +1,261 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The page in a browser, before the real nodes: what a visitor sees and does."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import rclpy
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, WebSocket, expect
+from rclpy.context import Context
+from rclpy.node import Node
+from std_msgs.msg import String
+
+from teo_bringup.graph import Graph
+from teo_console.protocol.poses import decode_pose
+
+WEB = Path(__file__).parents[1] / "web"
+TABS = ("watch", "dictionary", "teach", "review", "practise")
+NewPage = Callable[..., Page]
+
+expect.set_options(timeout=45_000)  # [ms], on a loaded machine
+
+# Notes every caption as it is lit.
+NOTE_LIT = """
+() => {
+  window.lit = [];
+  new MutationObserver(() => {
+    const now = document.querySelector(".token.lit");
+    if (now && now !== window.last) window.lit.push(now.dataset.gloss);
+    window.last = now;
+  }).observe(document.querySelector(".captions"), { subtree: true, attributes: true, childList: true });
+}
+"""
+
+
+class Poses:
+    """The poses that a page receives."""
+
+    def __init__(self) -> None:
+        self.heard: list[tuple[float, tuple[float, ...]]] = []
+
+    def listen(self, socket: WebSocket) -> None:
+        socket.on("framereceived", self._take)
+
+    def _take(self, payload: str | bytes) -> None:
+        if isinstance(payload, bytes):
+            self.heard.append(decode_pose(payload))
+
+    def farthest(self, since: float = 0.0) -> float:
+        """How far any joint has moved since a time of the node's [rad]."""
+        positions = [pose for stamp, pose in self.heard if stamp >= since]
+        return max((max(joint) - min(joint) for joint in zip(*positions, strict=True)), default=0.0)
+
+
+def sign(page: Page, text: str) -> None:
+    page.fill("#text", text)
+    page.press("#text", "Enter")
+
+
+def wait_until_ready(page: Page) -> None:
+    expect(page.locator("#status")).to_have_text(re.compile("^(Listo|Ready)"))
+
+
+def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
+    new_page: NewPage, pictures: Path
+) -> None:
+    page = new_page()
+    poses = Poses()
+    page.on("websocket", poses.listen)
+    page.reload()
+    wait_until_ready(page)
+    page.evaluate(NOTE_LIT)
+    sign(page, "¿Soy Al?")
+    expect(page.locator(".token.lit")).to_be_visible()
+    assert page.inner_text("#status").startswith("Signando: ¿Soy Al?")
+    assert page.locator(".token").evaluate_all("items => items.map((item) => item.dataset.gloss)") == [
+        "YO",
+        "A",
+        "L",
+    ]
+    assert page.locator(".pill").all_inner_texts() == ["Pregunta: la cabeza se adelanta"]
+    page.click('.token[data-gloss="A"] button')
+    expect(page.locator(".explanation")).to_contain_text("«Al» se deletrea")
+    page.screenshot(path=pictures / "watch_desktop.png")
+    wait_until_ready(page)
+    assert page.evaluate("window.lit") == ["YO", "A", "L"]
+    assert poses.farthest() > 0.5
+    expect(page.locator(".history li").first).to_contain_text("¿Soy Al?")
+    assert page.locator(".stage canvas").count() == 1
+
+
+def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage) -> None:
+    page = new_page()
+    poses = Poses()
+    page.on("websocket", poses.listen)
+    page.reload()
+    wait_until_ready(page)
+    sign(page, "Hola.")
+    expect(page.locator(".token.lit")).to_be_visible()
+    page.click("#stop")
+    expect(page.locator("#status")).to_have_text("Parado: no se mueve hasta rearmarlo.")
+    expect(page.locator(".history li").first).to_contain_text("Se paró el robot.")
+    sign(page, "Adiós.")  # waits
+    expect(page.locator("#queue-title ~ ol li")).to_have_text("Adiós.")
+    stopped = poses.heard[-1][0]
+    page.wait_for_function(
+        "stamp => performance.now() > stamp", arg=page.evaluate("performance.now() + 1500")
+    )
+    assert poses.heard[-1][0] > stopped
+    assert poses.farthest(since=stopped) == 0.0
+    page.click("#clear")
+    expect(page.locator("#queue-title ~ ol li")).to_have_count(0)
+    page.click("#rearm")
+    wait_until_ready(page)
+
+
+def test_two_pages_see_one_robot_and_closing_one_changes_nothing(new_page: NewPage) -> None:
+    one, other = new_page(), new_page(width=390, height=844)
+    wait_until_ready(one)
+    sign(one, "Hola.")
+    expect(other.locator(".token.lit")).to_be_visible()
+    other.click("#pause")
+    expect(one.locator("#status")).to_have_text("En pausa.")
+    other.locator("#speed").fill("50")
+    other.locator("#speed").dispatch_event("change")
+    expect(one.locator("output[for=speed]")).to_have_text("50 %")
+    one.click("#pause")
+    expect(other.locator("#status")).to_have_text(re.compile("^Signando: Hola."))
+    other.close()
+    expect(one.locator("#status")).to_have_text(re.compile("^Signando: Hola."))
+    one.locator("#speed").fill("100")
+    one.locator("#speed").dispatch_event("change")
+    wait_until_ready(one)
+    expect(one.locator(".history li").first).to_contain_text("HOLA")
+
+
+def test_what_is_heard_on_speech_is_signed_only_when_it_is_confirmed(
+    new_page: NewPage, module_domain_id: int
+) -> None:
+    page = new_page()
+    context = Context()
+    rclpy.init(context=context, domain_id=module_domain_id)
+    recogniser = Node("recogniser", context=context)
+    speech = recogniser.create_publisher(String, "speech", 10)
+    signed_before = page.locator(".history li").count()
+    try:
+        while not speech.get_subscription_count():
+            page.wait_for_timeout(20)
+        speech.publish(String(data="<b>ola</b>"))
+        speech.publish(String(data="no"))
+        expect(page.locator(".spoken li")).to_have_count(2)
+    finally:
+        recogniser.destroy_node()
+        rclpy.shutdown(context=context)
+    page.locator(".spoken li").nth(1).get_by_role("button", name="Descartar").click()
+    expect(page.locator(".spoken li")).to_have_count(1)
+    assert page.input_value(".spoken input") == "<b>ola</b>"
+    assert page.locator(".history li").count() == signed_before
+    page.fill(".spoken input", "Hola.")
+    page.locator(".spoken").get_by_role("button", name="Signar").click()
+    expect(page.locator(".token.lit")).to_be_visible()
+    expect(page.locator(".spoken li")).to_have_count(0)
+    wait_until_ready(page)
+
+
+def test_what_the_browser_recognises_is_shown_before_it_is_signed(new_page: NewPage) -> None:
+    page = new_page(
+        script="""
+        window.SpeechRecognition = class extends EventTarget {
+          start() {
+            const results = [[{ transcript: "buenos días" }]];
+            this.dispatchEvent(Object.assign(new Event("result"), { results }));
+            this.dispatchEvent(new Event("end"));
+          }
+        };"""
+    )
+    wait_until_ready(page)
+    page.get_by_role("button", name="Hablar").click()
+    expect(page.locator("#text")).to_have_value("buenos días")
+    expect(page.locator("#status")).to_have_text(re.compile("^Listo"))
+
+
+def test_typed_markup_stays_text(new_page: NewPage) -> None:
+    page = new_page()
+    wait_until_ready(page)
+    sign(page, "<img src=x onerror=alert(1)>你好")  # no letters of the alphabet: refused
+    expect(page.locator(".history li").first).to_contain_text("<img src=x onerror=alert(1)>")
+    assert page.locator("main img").count() == 0
+
+
+def test_both_languages_say_everything_and_the_choice_is_remembered(
+    new_page: NewPage, pictures: Path
+) -> None:
+    page = new_page(width=390, height=844)
+    wait_until_ready(page)
+    page.wait_for_selector(".stage .empty", state="hidden")
+    page.screenshot(path=pictures / "watch_phone.png", full_page=True)
+    keys = set(json.loads((WEB / "i18n" / "en.json").read_text(encoding="utf-8")))
+    for language, other, word in (("en", "English", "Watch"), ("es", "Español", "Ver")):
+        page.click("#language")
+        expect(page.locator("html")).to_have_attribute("lang", language)
+        for tab in TABS:
+            page.goto(f"{page.url.partition('#')[0]}#{tab}")
+            expect(page.locator("#content")).to_have_attribute("data-tab", tab)
+            shown = set(re.findall(r"[a-z_0-9]+(?:\.[a-z_0-9]+)+", page.inner_text("body")))
+            assert not shown & {key for key in keys if "." in key}
+        page.reload()
+        expect(page.locator("nav a").first).to_have_text(word)
+        assert other
+    # No part of the page is wider than a telephone.
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_the_languages_have_the_same_words() -> None:
+    spanish, english = (
+        json.loads((WEB / "i18n" / f"{language}.json").read_text(encoding="utf-8"))
+        for language in ("es", "en")
+    )
+    assert spanish.keys() == english.keys()
+    for key, words in spanish.items():
+        assert re.findall(r"\{\w+\}", words).sort() == re.findall(r"\{\w+\}", english[key]).sort(), key
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_no_tab_bars_anybody(new_page: NewPage, scheme: str) -> None:
+    page = new_page()
+    page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
+    for tab in TABS:
+        page.goto(f"{page.url.partition('#')[0]}#{tab}")
+        expect(page.locator("#content")).to_have_attribute("data-tab", tab)
+        results = Axe().run(page)
+        assert results.violations_count == 0, f"{tab}: {results.generate_report()}"
+
+
+def test_everything_is_reached_by_keyboard(new_page: NewPage) -> None:
+    page = new_page()
+    wait_until_ready(page)
+    page.wait_for_selector("#mirror")
+    reached = set()
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.textContent.trim()"))
+    assert {"stop", "language", "text", "pause", "speed", "mirror", "rate", "caption-size"} <= reached
+    assert {"Ver", "Diccionario", "Enseñar", "Revisar", "Practicar", "La mano"} <= reached
+
+
+def test_a_node_that_dies_is_named_at_once(new_page: NewPage, graph: Graph) -> None:
+    page = new_page()
+    wait_until_ready(page)
+    graph.stop("translator")
+    expect(page.locator("#status")).to_have_text("El traductor no está en marcha.", timeout=5000)
+    sign(page, "Hola.")
+    expect(page.locator("#notice")).to_have_text("Nadie traduce: el traductor no está en marcha.")
+    graph.stop("console")
+    expect(page.locator("#status")).to_have_text("La consola no responde. ¿Sigue en marcha?", timeout=10000)

@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The web server against what the network may send it: other sites, other hosts, nonsense, floods, crowds."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable, Coroutine
+from contextlib import asynccontextmanager
+from functools import wraps
+from pathlib import Path
+from typing import Any
+
+import aiohttp
+import pytest
+from aiohttp import WSMsgType
+
+from teo_console.errors import ConsoleError
+from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage
+from teo_console.protocol.to_page import Answer
+from teo_console.server.access import Access
+from teo_console.server.app import make_app
+from teo_console.server.hub import Hub
+from teo_console.server.rate_limit import RateLimit
+from teo_console.server.thread import ServerThread
+
+WEB = Path(__file__).parents[1] / "web"
+PATIENCE = 20.0  # [s] for an answer on a loaded machine
+CROWD = 50
+
+
+async def done(asked: FromPage) -> Answer:
+    return Answer(id=asked.id, success=True)
+
+
+class Server:
+    """A server on a free port, with a hub that says yes to everything."""
+
+    def __init__(self, access: Access, serve: Callable[[FromPage], Any] = done) -> None:
+        self.pages: list[int] = []
+        self.hub = Hub(serve, self.pages.append)
+        self.access = access
+        self.thread = ServerThread(
+            lambda: make_app(web_folder=WEB, access=access, hub=self.hub, urdf=lambda: "<robot/>"),
+            "127.0.0.1",
+            0,
+        )
+        self.url = f"http://127.0.0.1:{self.thread.port}"
+
+    @asynccontextmanager
+    async def page(self, session: aiohttp.ClientSession) -> AsyncIterator[aiohttp.ClientWebSocketResponse]:
+        async with session.ws_connect(f"{self.url}/ws", origin=self.url) as socket:
+            yield socket
+
+
+def with_server(
+    test: Callable[[Server, aiohttp.ClientSession], Coroutine[Any, Any, None]],
+) -> Callable[[], None]:
+    """Run a coroutine against a server that only this machine reaches."""
+
+    @wraps(test)
+    def run() -> None:
+        server = Server(Access.for_address("127.0.0.1", frozenset()))
+
+        async def with_session() -> None:
+            async with aiohttp.ClientSession() as session:
+                await asyncio.wait_for(test(server, session), PATIENCE)
+
+        try:
+            asyncio.run(with_session())
+        finally:
+            server.thread.close()
+
+    del run.__wrapped__  # type: ignore[attr-defined]  # pytest would ask for fixtures of its arguments' names
+    return run
+
+
+async def answer_of(socket: aiohttp.ClientWebSocketResponse) -> dict[str, Any]:
+    while True:
+        message = await socket.receive(PATIENCE)
+        assert message.type is WSMsgType.TEXT, message
+        told: dict[str, Any] = json.loads(message.data)
+        if told["type"] == "answer":
+            return told
+
+
+@with_server
+async def test_the_page_comes_with_headers_that_let_it_load_nothing_from_elsewhere(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    for path in ("/", "/js/main.js", "/api/robot.urdf", "/nothing/here"):
+        async with session.get(server.url + path) as response:
+            policy = response.headers["Content-Security-Policy"]
+            assert "default-src 'self'" in policy
+            assert "unsafe" not in policy
+            assert "*" not in policy
+            assert response.headers["X-Content-Type-Options"] == "nosniff"
+
+
+@with_server
+async def test_no_file_outside_the_page_is_given_out(server: Server, session: aiohttp.ClientSession) -> None:
+    for path in ("/../setup.py", "/%2e%2e/setup.py", "/js/..%2f..%2fsetup.py", "//etc/passwd", "/js/"):
+        url = aiohttp.client.URL(server.url + path, encoded=True)
+        async with session.get(url) as response:
+            assert response.status in (403, 404), path
+
+
+@with_server
+async def test_another_host_name_is_refused(server: Server, session: aiohttp.ClientSession) -> None:
+    for host in ("evil.example", f"evil.example:{server.thread.port}", "127.0.0.1.evil.example", "", "[::1"):
+        async with session.get(server.url, headers={"Host": host}) as response:
+            assert response.status == 403, host
+            assert (await response.json())["code"] == "bad_host"
+
+
+@with_server
+async def test_a_page_of_another_site_reaches_nothing(server: Server, session: aiohttp.ClientSession) -> None:
+    origins = ("http://evil.example", "null", f"http://localhost:{server.thread.port}", "http://127.0.0.1:1")
+    for origin in origins:
+        with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+            await session.ws_connect(f"{server.url}/ws", origin=origin)
+        assert refused.value.status == 403, origin
+        async with session.post(f"{server.url}/api/any", headers={"Origin": origin}) as response:
+            assert (await response.json())["code"] == "bad_origin"
+    with pytest.raises(aiohttp.WSServerHandshakeError):
+        await session.ws_connect(f"{server.url}/ws")  # no browser, or one that hides where it is
+
+
+@with_server
+async def test_what_makes_no_sense_is_answered_and_at_last_shut_out(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    async with server.page(session) as page:
+        for message in ("", "{", "[1]", '{"type":"sign_text"}', '{"type":"x","id":1}'):
+            await page.send_str(message)
+            assert (await answer_of(page))["code"] == "malformed"
+        await page.send_bytes(b"\x00\xff")
+        assert (await answer_of(page))["code"] == "malformed"
+        await page.send_str('{"type":"command","id":7,"order":"stop"}')
+        assert await answer_of(page) == {"type": "answer", "id": 7, "success": True} | {
+            "code": "", "message": "", "sign": None, "signs": None
+        }  # fmt: skip
+        for _ in range(4):
+            await page.send_str("nonsense")
+        while (message := await page.receive(PATIENCE)).type is WSMsgType.TEXT:
+            pass
+        assert message.type in (WSMsgType.CLOSE, WSMsgType.CLOSING, WSMsgType.CLOSED)
+
+
+@with_server
+async def test_a_message_that_is_too_large_ends_the_connection_and_nothing_else(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    async with server.page(session) as page:
+        await page.send_str("a" * (MESSAGE_BYTES + 1))
+        message = await page.receive(PATIENCE)
+        assert message.type in (WSMsgType.CLOSE, WSMsgType.CLOSED)
+    async with session.get(server.url) as response:
+        assert response.status == 200
+    async with server.page(session) as page:
+        await page.send_str('{"type":"command","id":1,"order":"pause"}')
+        assert (await answer_of(page))["success"]
+
+
+@with_server
+async def test_a_flood_is_slowed_down_with_a_reason(server: Server, session: aiohttp.ClientSession) -> None:
+    async with server.page(session) as page:
+        for number in range(100):
+            await page.send_str(json.dumps({"type": "command", "id": number, "order": "pause"}))
+        answers = [await answer_of(page) for _ in range(100)]
+    assert sum(answer["success"] for answer in answers) >= 30  # what a person does at once
+    assert sum(answer["code"] == "too_fast" for answer in answers) >= 30
+
+
+@with_server
+async def test_fifty_pages_get_the_same_and_one_that_does_not_read_holds_nobody_up(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    server.thread.call(server.hub.welcome, '{"type":"welcome"}')
+    pages = [await session.ws_connect(f"{server.url}/ws", origin=server.url) for _ in range(CROWD)]
+    heard = [(await page.receive(PATIENCE)).data for page in pages]
+    assert heard == ['{"type":"welcome"}'] * CROWD
+    for number in range(20):
+        server.thread.call(server.hub.pose, bytes([number]) * 4000)
+        server.thread.call(server.hub.situation, json.dumps({"type": "situation", "number": number}))
+    for page in pages[1:]:  # the first reads nothing
+        while True:
+            message = await page.receive(PATIENCE)
+            if message.type is WSMsgType.TEXT and json.loads(message.data).get("number") == 19:
+                break
+    assert server.pages[-1] == CROWD
+    for page in pages:
+        await page.close()
+    while server.pages[-1]:
+        await asyncio.sleep(0.01)
+
+
+@with_server
+async def test_an_order_does_not_wait_for_what_was_asked_before(
+    server: Server, session: aiohttp.ClientSession
+) -> None:
+    never = asyncio.Event()
+
+    async def serve(asked: FromPage) -> Answer:
+        if asked.id == 1:
+            await never.wait()
+        return await done(asked)
+
+    server.hub._serve = serve
+    async with server.page(session) as page:
+        await page.send_str('{"type":"get_sign","id":1,"gloss":"HOLA"}')
+        await page.send_str('{"type":"command","id":2,"order":"stop"}')
+        assert (await answer_of(page))["id"] == 2
+
+
+def test_listening_wider_takes_the_token_of_the_link() -> None:
+    access = Access.for_address("0.0.0.0", frozenset({"127.0.0.1", "lab.example"}))
+    assert access.token is not None
+    server = Server(access)
+
+    async def visit() -> None:
+        async with aiohttp.ClientSession() as stranger:
+            async with stranger.get(server.url) as response:
+                assert response.status == 401
+                assert (await response.json())["code"] == "no_token"
+            async with stranger.get(f"{server.url}/?token=wrong") as response:
+                assert response.status == 401
+            with pytest.raises(aiohttp.WSServerHandshakeError):
+                await stranger.ws_connect(f"{server.url}/ws", origin=server.url)
+        async with aiohttp.ClientSession(cookie_jar=aiohttp.CookieJar(unsafe=True)) as guest:
+            link = access.link("127.0.0.1", server.thread.port)
+            async with guest.get(link) as response:
+                assert response.status == 200
+                assert "token" not in str(response.url)  # it is not left in the history or in what is copied
+            async with server.page(guest) as page:
+                await page.send_str('{"type":"command","id":1,"order":"pause"}')
+                assert (await answer_of(page))["success"]
+
+    try:
+        asyncio.run(asyncio.wait_for(visit(), PATIENCE))
+    finally:
+        server.thread.close()
+
+
+def test_this_machine_alone_takes_no_token_and_tokens_differ() -> None:
+    assert Access.for_address("127.0.0.1", frozenset()).token is None
+    assert Access.for_address("::1", frozenset()).token is None
+    tokens = {Access.for_address("0.0.0.0", frozenset()).token for _ in range(20)}
+    assert len(tokens) == 20
+
+
+def test_an_address_that_is_none_is_refused() -> None:
+    with pytest.raises(ConsoleError) as refused:
+        Access.for_address("everywhere", frozenset())
+    assert refused.value.code == "bad_address"
+
+
+def test_a_port_that_is_taken_is_named() -> None:
+    server = Server(Access.for_address("127.0.0.1", frozenset()))
+    try:
+        with pytest.raises(ConsoleError, match=str(server.thread.port)) as refused:
+            ServerThread(aiohttp.web.Application, "127.0.0.1", server.thread.port)
+        assert refused.value.code == "port_taken"
+    finally:
+        server.thread.close()
+
+
+def test_a_burst_passes_and_then_the_rate() -> None:
+    limit = RateLimit(rate=2.0, burst=3)
+    assert [limit.take(0.0) for _ in range(4)] == [True, True, True, False]
+    assert not limit.take(0.4)
+    assert limit.take(0.5)
+    assert [limit.take(100.0) for _ in range(4)] == [
+        True,
+        True,
+        True,
+        False,
+    ]  # no more than a burst is saved up

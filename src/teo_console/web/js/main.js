@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// The page: header, tabs by the address's hash, and what every tab is given.
+
+import { api } from "./api.js";
+import { h } from "./dom.js";
+import { speak, t } from "./i18n.js";
+import { Live } from "./live.js";
+import { settings } from "./settings.js";
+import { Socket } from "./socket.js";
+import { refusalText, statusOf } from "./status.js";
+
+// Each tab is a module with `mount(element, context)`, which returns what is to be done when it is left.
+const TABS = {
+  watch: () => import("./tabs/watch.js"),
+  dictionary: () => import("./tabs/dictionary.js"),
+  teach: () => import("./tabs/teach.js"),
+  review: () => import("./tabs/review.js"),
+  practise: () => import("./tabs/practise.js"),
+};
+const NOTICE_TIME = 6000; // [ms], long enough to read two lines
+
+const element = (id) => document.getElementById(id);
+const socket = new Socket();
+const live = new Live(socket);
+let leave = () => {};
+let noticed = 0;
+
+/** Says something once, for everybody: seen and read aloud. */
+function notify(text) {
+  element("notice").textContent = text;
+  element("notice").hidden = false;
+  clearTimeout(noticed);
+  noticed = setTimeout(() => (element("notice").hidden = true), NOTICE_TIME);
+}
+
+/** Does something, and says what went wrong. */
+async function attempt(action) {
+  try {
+    return await action();
+  } catch (error) {
+    notify(refusalText(error.code, error.message));
+    return null;
+  }
+}
+
+const context = {
+  socket,
+  live,
+  api,
+  t,
+  settings,
+  notify,
+  attempt,
+  /** Places the robot in an element: see robot_view.js, which is loaded when it is first wanted. */
+  robotView: async (place, options) => (await import("./robot_view.js")).robotView(place, { socket, live, t, ...options }),
+};
+
+function tabNow() {
+  const name = location.hash.slice(1).split("/")[0];
+  return name in TABS ? name : "watch";
+}
+
+let mounting = 0;
+async function show() {
+  const name = tabNow();
+  const turn = ++mounting;
+  const { mount } = await TABS[name]();
+  if (turn !== mounting) return; // another tab was chosen meanwhile
+  leave();
+  const content = element("content");
+  content.replaceChildren();
+  content.dataset.tab = name;
+  const items = Object.keys(TABS).map((tab) => {
+    const link = h("a", { href: `#${tab}` }, t(`tab.${tab}`));
+    if (tab === name) link.setAttribute("aria-current", "page");
+    return h("li", {}, link);
+  });
+  element("tabs").replaceChildren(...items);
+  leave = (await mount(content, context)) ?? (() => {});
+}
+
+function showStatus() {
+  const { text, tone } = statusOf(socket.connected, socket.situation);
+  const status = element("status");
+  if (status.textContent !== text) status.textContent = text; // else it would be read aloud again
+  status.dataset.tone = tone;
+  const mode = socket.situation?.robot.mode;
+  element("rearm").disabled = !socket.connected || (mode !== "stopped" && mode !== "fault");
+}
+
+async function setLanguage(language) {
+  await speak(language);
+  const other = language === "es" ? "en" : "es";
+  element("language").textContent = other === "en" ? "English" : "Español";
+  element("language").lang = other;
+  element("language").onclick = () => setLanguage(other);
+  showStatus();
+  await show();
+}
+
+element("stop").addEventListener("click", () => attempt(() => socket.ask("command", { order: "stop" })));
+element("rearm").addEventListener("click", () => attempt(() => socket.ask("command", { order: "rearm" })));
+document.querySelector(".skip").addEventListener("click", (event) => {
+  event.preventDefault(); // the hash is the tab's
+  element("content").focus();
+});
+window.addEventListener("hashchange", show);
+for (const name of ["situation", "connection"]) socket.addEventListener(name, showStatus);
+socket.addEventListener("refused", ({ detail }) => notify(refusalText(detail.code, detail.message)));
+
+socket.connect();
+await setLanguage(settings.get("language"));

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// A field for a word of the table, which offers those that there are.
+
+import { h } from "../dom.js";
+
+let fields = 0;
+
+/**
+ * Makes the field.
+ * @param {string} label
+ * @param {Object[]} signs Of the table; only words are offered.
+ * @returns {{element: HTMLElement, value: function(): string}} `value` is the gloss as the table writes it.
+ */
+export function wordField(label, signs) {
+  const id = `word-${++fields}`;
+  const options = signs.filter(({ kind }) => kind === "lexical").map(({ gloss }) => h("option", { value: gloss.replaceAll("_", " ") }));
+  const input = h("input", { type: "text", id, list: `${id}-words`, autocomplete: "off", maxlength: "60", spellcheck: "false" });
+  const element = h("div", { class: "field" }, h("label", { for: id }, label), input, h("datalist", { id: `${id}-words` }, ...options));
+  return { element, input, value: () => input.value.trim().toUpperCase().replaceAll(/\s+/g, "_") };
+}

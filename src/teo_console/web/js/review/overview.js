@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// The series that there are, a form for a new one, and exports of all that was said.
+
+import { h } from "../dom.js";
+import { JobProgress } from "../parts/jobs.js";
+
+export async function overview(element, context) {
+  const { api, t, attempt } = context;
+  const list = h("ul", { class: "series" });
+  async function refresh() {
+    const series = (await attempt(() => api.get("/api/series"))) ?? [];
+    list.replaceChildren(...series.map((each) => row(context, each)));
+    if (!series.length) list.append(h("li", { class: "faint" }, t("review.no_series")));
+  }
+  await refresh();
+  element.append(
+    h("div", { class: "two" },
+      h("section", { class: "card stack", "aria-labelledby": "series-title" }, h("h2", { id: "series-title" }, t("review.series")), h("p", {}, t("review.invitation")), list, exports(context)),
+      newSeries(context, refresh)),
+  );
+}
+
+function row({ t, notify }, { id, kind, title, items, reviewers, created }) {
+  const address = `#review/${id}`;
+  const link = new URL(address, location.href).href;
+  const copy = () => navigator.clipboard.writeText(link).then(() => notify(t("review.copied")), () => notify(link));
+  const name = title || `${t(`review.${kind}`)} · ${created.slice(0, 10)}`;
+  return h("li", { dataset: { series: id } },
+    h("div", {}, h("strong", {}, name), h("p", { class: "faint" }, `${t(`review.${kind}`)} · ${t("review.count", { items, reviewers })}`)),
+    h("div", { class: "row" },
+      h("a", { class: "button primary", href: address, "aria-label": t("review.open_label", { name }) }, t("review.open")),
+      h("a", { class: "button", href: `${address}/report`, "aria-label": t("review.report_label", { name }) }, t("review.report")),
+      h("button", { type: "button", "aria-label": t("review.copy_label", { name }), on: { click: copy } }, t("review.copy"))));
+}
+
+function exports({ api, t, attempt, notify }) {
+  const said = h("pre", { hidden: true, tabindex: "0", "aria-label": t("review.entered") });
+  const enter = () => attempt(async () => {
+    const { output } = await api.post("/api/reviews/enter");
+    said.textContent = output;
+    said.hidden = false;
+    notify(t("review.entered"));
+  });
+  return h("div", { class: "stack" },
+    h("h3", {}, t("review.exports")),
+    h("div", { class: "row" },
+      h("a", { class: "button", href: "/api/reviews.json", download: "reviews.json" }, "JSON"),
+      h("a", { class: "button", href: "/api/reviews.csv", download: "reviews.csv" }, "CSV"),
+      h("button", { type: "button", on: { click: enter } }, t("review.enter"))),
+    h("p", { class: "faint" }, t("review.rule")), said);
+}
+
+function newSeries({ api, t, attempt, notify }, refresh) {
+  const progress = new JobProgress(api);
+  const kind = h("select", { id: "new-kind" }, ...["review", "comprehension"].map((name) => h("option", { value: name }, t(`review.${name}`))));
+  const title = h("input", { type: "text", id: "new-title", maxlength: "100", autocomplete: "off" });
+  const glosses = h("textarea", { id: "new-glosses", rows: "3" });
+  const sentences = h("textarea", { id: "new-sentences", rows: "3" });
+  const choices = h("select", { id: "new-choices" }, h("option", { value: "yes" }, t("review.choices")), h("option", { value: "" }, t("review.free")));
+  const field = (input, key) => h("div", { class: "field" }, h("label", { for: input.id }, t(key)), input);
+  async function submit(event) {
+    event.preventDefault();
+    await attempt(async () => {
+      const { preparation } = await api.post("/api/series", {
+        kind: kind.value, title: title.value, choices: Boolean(choices.value),
+        glosses: glosses.value.split(/[\n,;]+/).map((each) => each.trim()).filter(Boolean),
+        sentences: sentences.value.split("\n").map((each) => each.trim()).filter(Boolean),
+      });
+      await progress.prepared(preparation);
+      notify(t("review.made"));
+      await refresh();
+    });
+  }
+  return h("form", { class: "card stack", "aria-labelledby": "new-title-words", on: { submit } },
+    h("h2", { id: "new-title-words" }, t("review.new")),
+    field(kind, "review.kind"), field(title, "review.title"), field(glosses, "review.glosses"), field(sentences, "review.sentences"), field(choices, "review.how"),
+    h("div", { class: "row" }, h("button", { type: "submit" }, t("review.make"))), progress.element);
+}

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// The robot in 3D, placed in any element: it follows the live poses, or plays a motion of its own.
+
+import {
+  DirectionalLight, HemisphereLight, OrbitControls, PerspectiveCamera, Scene, SphereGeometry, URDFLoader, Vector3, WebGLRenderer,
+} from "../vendor/robot_drawing.js";
+import { h } from "./dom.js";
+
+// Presets in the robot's axes [m]: x forward, y to its left, z up, from the base; `view` is the vertical opening [deg].
+// `follow` names links: the camera keeps its place relative to the one that moves. The signer's view is from the eyes.
+const CAMERAS = {
+  front: { from: [1.85, 0.0, 0.55], at: [0.0, 0.0, 0.47], view: 36 },
+  hand: {
+    from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36,
+    follow: { right: "RightMiddleFinger_link", left: "LeftMiddleFinger_link" },
+  },
+  signer: { from: [0.1, 0.0, 0.76], at: [0.5, 0.0, 0.64], view: 85 },
+};
+const WIDEST_VIEW = 90; // [deg], to which a narrow picture may open
+// A hand that moved this much more than the other is the one that signs [m], within about a second of frames.
+const HAND_LEAD = 0.02;
+const FORGET = 0.97;
+// Time in which the camera goes two thirds of the way after the hand [s].
+const CHASE = 0.3;
+const PIXEL_RATIO = 2; // finer than that nobody sees, and a telephone would draw nine times the pixels
+// A picture that takes longer than this, so many times in a row, is drawn with fewer pixels from then on: a computer
+// without a graphics card draws with its processor.
+const SLOW = 60; // [ms]
+const SLOW_FRAMES = 5;
+const COARSER = 0.7; // times the pixels of a row
+const COARSEST = 0.35; // of the page's
+
+let description = null; // one download for all views
+
+/**
+ * Places the robot.
+ * @param {HTMLElement} place Gets the picture as its child; its size is the picture's.
+ * @param {Object} options `socket`, `live`, `t`.
+ * @returns {Promise<Object>} `camera(name)`, `mirrored(on)`, `play(motion)`, `follow()`, `remove()`, and `frames`, how
+ *   many pictures have been drawn.
+ */
+export async function robotView(place, { socket, live, t }) {
+  const view = new RobotView(place, live, t);
+  view.begin(socket);
+  return view;
+}
+
+class RobotView {
+  frames = 0;
+  #robot = null;
+  #motion = null;
+  #hand = new HandThatSigns();
+  #preset = "front";
+  #shown = null;
+  #dirty = true;
+  #ratio = Math.min(devicePixelRatio, PIXEL_RATIO);
+  #drawnAt = null; // when the picture before was drawn [ms]; null after a rest
+  #slow = 0;
+  #removed = new AbortController();
+
+  constructor(place, live, t) {
+    this.live = live;
+    this.place = place;
+    place.classList.add("stage");
+    this.empty = h("p", { class: "empty" }, t("view.waiting"));
+    place.append(this.empty);
+    this.renderer = renderer();
+    if (!this.renderer) {
+      this.empty.textContent = t("view.no_webgl");
+      return;
+    }
+    this.canvas = this.renderer.domElement;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", t("view.label"));
+    place.prepend(this.canvas);
+    this.scene = new Scene();
+    this.scene.add(new HemisphereLight(0xffffff, 0x8a96a3, 2.2));
+    const sun = new DirectionalLight(0xffffff, 1.8);
+    sun.position.set(2, 1.2, 3);
+    this.scene.add(sun);
+    this.eye = new PerspectiveCamera(CAMERAS.front.view, 1, 0.02, 20);
+    this.eye.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.eye, this.canvas);
+    this.controls.addEventListener("change", () => (this.#dirty = true));
+    this.camera("front");
+    this.resizing = new ResizeObserver(() => this.#resize());
+    this.resizing.observe(place);
+  }
+
+  /** Loads the robot as soon as the node knows it, and draws. */
+  begin(socket) {
+    if (!this.renderer) return;
+    const load = async () => {
+      if (this.#robot || !socket.welcome.robot) return;
+      description ??= fetch("/api/robot.urdf").then((response) => (response.ok ? response.text() : Promise.reject(response)));
+      try {
+        this.#robot ??= new URDFLoader().parse(await description);
+      } catch {
+        description = null; // it was not there yet: the next welcome tells
+        return;
+      }
+      lighten(this.#robot);
+      this.scene.add(this.#robot);
+      this.empty.hidden = true;
+      this.#dirty = true;
+    };
+    socket.addEventListener("welcome", load, { signal: this.#removed.signal });
+    load();
+    this.#draw();
+  }
+
+  /** Looks from a preset: "front", "hand" or "signer". */
+  camera(name) {
+    this.#preset = name;
+    if (!this.eye) return;
+    const { from, at, follow } = CAMERAS[name];
+    if (!follow) {
+      this.eye.position.set(...from);
+      this.controls.target.set(...at);
+    } else {
+      this.#chase(1);
+    }
+    this.controls.update();
+    this.#resize();
+  }
+
+  /** Shows the picture as in a mirror. */
+  mirrored(on) {
+    this.place.classList.toggle("mirrored", on);
+  }
+
+  /**
+   * Plays a motion instead of following the robot, again and again.
+   * @param {{joints: string[], times: number[], positions: number[][]}} motion Times from 0 [s], positions [rad].
+   */
+  play(motion) {
+    this.#motion = { ...motion, began: performance.now() / 1000 };
+  }
+
+  /** Follows the robot again. */
+  follow() {
+    this.#motion = null;
+  }
+
+  /** Lets go of everything. */
+  remove() {
+    this.#removed.abort();
+    this.resizing?.disconnect();
+    this.controls?.dispose();
+    this.renderer?.dispose();
+    this.place.replaceChildren();
+  }
+
+  #draw(before = performance.now()) {
+    if (this.#removed.signal.aborted) return;
+    const now = performance.now();
+    const passed = (now - before) / 1000;
+    requestAnimationFrame(() => this.#draw(now));
+    const time = this.live.clock.now();
+    const [joints, positions] = this.#motion ? this.#played() : [this.live.track.joints, this.live.track.at(time)];
+    if (this.#robot && positions && !same(positions, this.#shown)) {
+      joints.forEach((name, i) => this.#robot.setJointValue(name, positions[i]));
+      this.#shown = positions;
+      this.#dirty = true;
+      this.#hand.look(this.#robot);
+    }
+    if (CAMERAS[this.#preset].follow) this.#chase(1 - Math.exp(-passed / CHASE));
+    if (!this.#dirty) {
+      this.#drawnAt = null;
+      return;
+    }
+    this.#dirty = false;
+    this.renderer.render(this.scene, this.eye);
+    this.frames += 1;
+    this.#adapt(performance.now());
+  }
+
+  #adapt(now) {
+    const took = this.#drawnAt === null ? 0 : now - this.#drawnAt;
+    this.#drawnAt = now;
+    this.#slow = took > SLOW ? this.#slow + 1 : 0;
+    if (this.#slow < SLOW_FRAMES || this.#ratio <= COARSEST) return;
+    this.#slow = 0;
+    this.#ratio *= COARSER;
+    this.#resize();
+  }
+
+  #played() {
+    const { joints, times, positions, began } = this.#motion;
+    const last = times.at(-1);
+    const pause = 1; // [s] before it begins again
+    const time = Math.min((performance.now() / 1000 - began) % (last + pause), last);
+    const after = Math.max(times.findIndex((each) => each >= time), 0);
+    const before = Math.max(after - 1, 0);
+    const share = after === before ? 0 : (time - times[before]) / (times[after] - times[before] || 1);
+    return [joints, positions[before].map((value, i) => value + share * (positions[after][i] - value))];
+  }
+
+  #chase(share) {
+    if (!this.#robot) return;
+    const { from, follow } = CAMERAS.hand;
+    const link = this.#robot.links[follow[this.#hand.side]];
+    const at = link.getWorldPosition(new Vector3());
+    const side = this.#hand.side === "right" ? 1 : -1;
+    const eye = at.clone().add(new Vector3(from[0], from[1] * side, from[2]));
+    if (this.controls.target.distanceTo(at) < 1e-3 && this.eye.position.distanceTo(eye) < 1e-3) return;
+    this.controls.target.lerp(at, share);
+    this.eye.position.lerp(eye, share);
+    this.controls.update();
+    this.#dirty = true;
+  }
+
+  #resize() {
+    const { clientWidth, clientHeight } = this.place;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setPixelRatio(this.#ratio);
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.eye.aspect = clientWidth / clientHeight;
+    // A narrow picture shows as much of the arms' span as a wide one.
+    const { view } = CAMERAS[this.#preset];
+    this.eye.fov = this.eye.aspect < 1 ? Math.min(view / this.eye.aspect, WIDEST_VIEW) : view;
+    this.eye.updateProjectionMatrix();
+    this.#dirty = true;
+  }
+}
+
+/** Rounds balls with fewer triangles: the loader's have 1,740 each, nine tenths of the whole robot's. */
+function lighten(robot) {
+  const ball = new SphereGeometry(1, 20, 14);
+  robot.traverse((part) => {
+    if (part.geometry?.type === "SphereGeometry") part.geometry = ball;
+  });
+}
+
+/** What draws; smooth edges only where a graphics card makes them. Null where there is no WebGL 2. */
+function renderer() {
+  const options = { alpha: true, powerPreference: "low-power" };
+  try {
+    return new WebGLRenderer({ ...options, antialias: true, failIfMajorPerformanceCaveat: true });
+  } catch {
+    // by its processor, or not at all
+  }
+  try {
+    return new WebGLRenderer(options);
+  } catch {
+    return null;
+  }
+}
+
+/** Which hand signs: the one that has moved farther lately. */
+class HandThatSigns {
+  side = "right";
+  #way = { right: 0, left: 0 };
+  #last = {};
+
+  look(robot) {
+    for (const [side, name] of Object.entries(CAMERAS.hand.follow)) {
+      const at = robot.links[name].getWorldPosition(new Vector3());
+      this.#way[side] = this.#way[side] * FORGET + (this.#last[side]?.distanceTo(at) ?? 0);
+      this.#last[side] = at;
+    }
+    const other = this.side === "right" ? "left" : "right";
+    if (this.#way[other] > this.#way[this.side] + HAND_LEAD) this.side = other;
+  }
+}
+
+function same(a, b) {
+  return b !== null && a.length === b.length && a.every((value, i) => value === b[i]);
+}

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// Dictionary: every sign of the table, what it is founded on, and how it looks; what of a text has signs.
+
+import { h } from "../dom.js";
+import { has } from "../i18n.js";
+import { JobProgress } from "../parts/jobs.js";
+
+const MOST_SHOWN = 120; // more names than that nobody reads: the search is for them
+const MOST_WANTED = 20; // an afternoon before the camera
+
+export async function mount(element, context) {
+  const { api, t, attempt } = context;
+  element.append(h("h1", {}, t("tab.dictionary")));
+  const loading = h("p", { role: "status" }, t("dictionary.loading"));
+  element.append(loading);
+  const signs = (await attempt(() => api.get("/api/signs"))) ?? [];
+  loading.remove();
+  const chosen = card(context);
+  element.append(
+    h("div", { class: "two dictionary" }, search(context, signs, chosen.show), chosen.element, coverage(context)),
+  );
+  return chosen.close;
+}
+
+function search({ t }, signs, show) {
+  const word = h("input", { type: "text", id: "search-word", autocomplete: "off", spellcheck: "false" });
+  const hand = select("search-hand", [["", t("dictionary.any")], ...[...new Set(signs.flatMap(({ handshapes }) => handshapes))].sort().map((name) => [name, name])]);
+  const standing = select("search-standing", [["", t("dictionary.any")], ...["reviewed", "recorded", "measured", "described", "sketched"].map((name) => [name, t(`standing.${name}`)])]);
+  const kind = select("search-kind", [["", t("dictionary.any")], ...["lexical", "letter", "number"].map((name) => [name, t(`kind.${name}`)])]);
+  const count = h("p", { role: "status", class: "faint" });
+  const list = h("ul", { class: "words", "aria-label": t("dictionary.results") });
+  function find() {
+    const wanted = plain(word.value);
+    const found = signs.filter((sign) => plain(sign.gloss).includes(wanted) && (!hand.value || sign.handshapes.includes(hand.value)) && (!standing.value || sign.standing === standing.value) && (!kind.value || sign.kind === kind.value));
+    found.sort((a, b) => plain(b.gloss).startsWith(wanted) - plain(a.gloss).startsWith(wanted));
+    const shown = found.slice(0, MOST_SHOWN);
+    const more = found.length - shown.length;
+    count.textContent = t("dictionary.found", { count: found.length }) + (more > 0 ? ` ${t("dictionary.more", { more })}` : "");
+    list.replaceChildren(...shown.map((sign) => h("li", {}, h("button", { type: "button", dataset: { gloss: sign.gloss }, on: { click: () => show(sign) } }, sign.gloss.replaceAll("_", " ")))));
+  }
+  for (const each of [word, hand, standing, kind]) each.addEventListener("input", find);
+  find();
+  return h(
+    "section", { class: "card stack", "aria-labelledby": "search-title" },
+    h("h2", { id: "search-title" }, t("dictionary.search")),
+    h("div", { class: "fields" }, field(t("dictionary.word"), word), field(t("dictionary.handshape"), hand), field(t("dictionary.standing"), standing), field(t("dictionary.kind"), kind)),
+    count, list,
+  );
+}
+
+function card({ socket, api, t, attempt, robotView }) {
+  const element = h("section", { class: "card stack", "aria-label": t("dictionary.sign") }, h("p", { class: "faint" }, t("dictionary.choose")));
+  const progress = new JobProgress(api);
+  let view = null;
+  async function show(sign) {
+    view?.remove();
+    const stage = h("div", { class: "small-stage" });
+    const film = h("div", {});
+    const name = sign.gloss.replaceAll("_", " ");
+    const facts = [
+      ["dictionary.standing", t(`standing.${sign.standing}`)], ["dictionary.source", sign.source], ["dictionary.licence", sign.licence],
+      ["dictionary.hands", t(`hands.${sign.handedness}`)], ["dictionary.handshapes", sign.handshapes.join(", ") || "–"],
+      ["dictionary.duration", t("dictionary.seconds", { seconds: sign.duration.toFixed(1) })],
+    ];
+    const makeFilm = () => attempt(async () => {
+      const made = await api.post("/api/films", { gloss: sign.gloss });
+      if (made.job) await progress.finish(made.job);
+      film.replaceChildren(h("video", { src: made.film, controls: true, loop: true, muted: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("dictionary.film_of", { name }) }));
+    });
+    element.replaceChildren(
+      h("h2", { tabindex: "-1" }, name),
+      stage,
+      h("div", { class: "row" },
+        h("button", { type: "button", class: "primary", on: { click: () => attempt(() => socket.ask("sign_glosses", { glosses: [sign.gloss] })) } }, t("dictionary.robot")),
+        h("button", { type: "button", on: { click: makeFilm } }, t("dictionary.film")),
+        h("a", { class: "button", href: `#practise/${encodeURIComponent(sign.gloss)}` }, t("dictionary.practise"))),
+      progress.element, film,
+      h("dl", {}, ...facts.flatMap(([key, value]) => [h("dt", {}, t(key)), h("dd", {}, value)])),
+      h("p", { class: "faint" }, t(`standing.${sign.standing}.means`)),
+    );
+    element.querySelector("h2").focus();
+    view = await robotView(stage);
+    const answer = await attempt(() => socket.ask("get_sign", { gloss: sign.gloss }));
+    if (answer) view.play(answer.sign.motion);
+  }
+  return { element, show, close: () => view?.remove() };
+}
+
+function coverage({ api, t, attempt }) {
+  const text = h("textarea", { id: "coverage-text", rows: "4", maxlength: "5000" });
+  const progress = new JobProgress(api);
+  const result = h("div", { "aria-live": "polite" });
+  async function look(event) {
+    event.preventDefault();
+    await attempt(async () => {
+      const told = await progress.finish(await api.post("/api/coverage", { text: text.value }));
+      const words = Object.entries(told.showings).map(([how, count]) => h("li", {}, `${has(`coverage.${how}`) ? t(`coverage.${how}`) : how}: ${count}`));
+      const missing = Object.entries(told.missing).sort(([, a], [, b]) => b - a).slice(0, MOST_WANTED);
+      const wanted = missing.map(([gloss, count]) => h("li", {}, h("a", { href: `#teach/${encodeURIComponent(gloss)}` }, gloss), ` · ${count}`));
+      result.replaceChildren(
+        h("h3", {}, t("coverage.words")), h("ul", { class: "plain" }, ...words),
+        h("h3", {}, t("coverage.next")), wanted.length ? h("ol", { class: "plain" }, ...wanted) : h("p", {}, t("coverage.nothing")),
+      );
+    });
+  }
+  return h(
+    "form", { class: "card stack", "aria-labelledby": "coverage-title", on: { submit: look } },
+    h("h2", { id: "coverage-title" }, t("coverage.title")),
+    field(t("coverage.text"), text),
+    h("div", { class: "row" }, h("button", { type: "submit" }, t("coverage.look"))),
+    progress.element, result,
+  );
+}
+
+function select(id, options) {
+  return h("select", { id }, ...options.map(([value, words]) => h("option", { value }, words)));
+}
+
+function field(label, input) {
+  return h("div", { class: "field" }, h("label", { for: input.id }, label), input);
+}
+
+/** As words are compared: "Qué" is "que". */
+function plain(text) {
+  return text.normalize("NFD").replaceAll(/\p{Mn}/gu, "").toLowerCase().replaceAll("_", " ").trim();
+}

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// Teach: film a sign, look at what TEO makes of it, and keep it or try again.
+
+import { h } from "../dom.js";
+import { camera } from "../parts/camera.js";
+import { JobProgress } from "../parts/jobs.js";
+import { gateList, GATES } from "../teach/gates.js";
+import { outcome } from "../teach/outcome.js";
+
+export async function mount(element, context) {
+  const { api, t, attempt, notify } = context;
+  const gloss = h("input", { type: "text", id: "teach-gloss", maxlength: "60", autocomplete: "off", spellcheck: "false" });
+  gloss.value = decodeURIComponent(location.hash.split("/")[1] ?? "").replaceAll("_", " ");
+  const hands = h("select", { id: "teach-hands" }, ...["", "right", "left", "both"].map((name) => h("option", { value: name }, t(`teach.hands.${name || "seen"}`))));
+  const progress = new JobProgress(api);
+  const result = h("div", {}, explained(t));
+  const filming = camera(context, { onFilm: (film) => attempt(() => look(film)), bags: true });
+  let recording = null;
+  let shown = { close() {} };
+
+  const name = () => gloss.value.trim().toUpperCase().replaceAll(/\s+/g, "_");
+
+  /** Brings a film onto TEO and shows both; nothing is kept yet. */
+  async function look(film) {
+    if (!name()) {
+      gloss.focus();
+      return notify(t("teach.name_first"));
+    }
+    await discard();
+    progress.begin("upload");
+    try {
+      ({ recording } = await api.post("/api/recordings", film));
+    } finally {
+      progress.end();
+    }
+    const wanted = { gloss: name(), hands: hands.value || null };
+    const told = await progress.finish(await api.post(`/api/recordings/${recording}/try`, wanted));
+    shown = await outcome(context, { told, wanted, film, recording, progress, again: discard });
+    result.replaceChildren(shown.element);
+    shown.element.querySelector("h2").focus();
+    return null;
+  }
+
+  /** Deletes the film, here and on this machine. */
+  async function discard() {
+    shown.close();
+    shown = { close() {} };
+    result.replaceChildren(explained(t));
+    if (recording) await api.delete(`/api/recordings/${recording}`).catch(() => {}); // it may be gone already
+    recording = null;
+  }
+
+  element.append(
+    h("h1", {}, t("tab.teach")),
+    h("div", { class: "two" },
+      h("section", { class: "card stack", "aria-labelledby": "teach-title" },
+        h("h2", { id: "teach-title" }, t("teach.show")),
+        h("div", { class: "fields" },
+          h("div", { class: "field" }, h("label", { for: "teach-gloss" }, t("teach.word")), gloss),
+          h("div", { class: "field" }, h("label", { for: "teach-hands" }, t("teach.hands")), hands)),
+        filming.element, progress.element),
+      result),
+  );
+  return () => {
+    filming.close();
+    discard();
+  };
+}
+
+/** What will be looked at, before there is anything to look at. */
+function explained(t) {
+  return h("section", { class: "card stack", "aria-labelledby": "explained-title" },
+    h("h2", { id: "explained-title" }, t("teach.explained")),
+    h("p", {}, t("teach.explained.why")),
+    gateList(GATES.map((code) => ({ code, passed: null }))));
+}

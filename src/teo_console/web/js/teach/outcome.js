@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 TEO signing project
+// SPDX-License-Identifier: Apache-2.0
+// What became of a film: demonstration and robot side by side, gates, signs that look like it, and what to do with it.
+
+import { h } from "../dom.js";
+import { refusalText } from "../status.js";
+import { acceptForm } from "./accept_form.js";
+import { gateList } from "./gates.js";
+
+/**
+ * Shows a trial.
+ * @param {Object} context The tab's.
+ * @param {Object} trial `told` by the capture, what was `wanted`, the `film`, the `recording` on this machine, the
+ *   `progress` of jobs, and `again()`, which discards it.
+ * @returns {Promise<{element: HTMLElement, close: Function}>}
+ */
+export async function outcome(context, { told, wanted, film, recording, progress, again }) {
+  const { api, t, robotView } = context;
+  const address = URL.createObjectURL(film);
+  const video = h("video", { src: address, controls: true, loop: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("teach.demonstration") });
+  video.muted = true;
+  const isFilm = !film.name?.endsWith(".mcap");
+  const redo = h("button", { type: "button", on: { click: again } }, t("teach.again"));
+  const close = () => URL.revokeObjectURL(address);
+  if (told.code !== "captured") {
+    const element = h(
+      "section", { class: "card stack", "aria-labelledby": "outcome-title" },
+      h("h2", { id: "outcome-title", tabindex: "-1" }, t("teach.refused")),
+      h("p", {}, refusalText(told.code, told.message)),
+      isFilm ? video : null,
+      told.gates.length ? gateList(told.gates) : null,
+      h("div", { class: "row" }, redo),
+    );
+    return { element, close };
+  }
+  const { motion, exists } = await api.get(`/api/recordings/${recording}/trial`);
+  const stage = h("div", { class: "small-stage" });
+  const failed = told.gates.filter(({ passed }) => !passed);
+  const element = h(
+    "section", { class: "card stack", "aria-labelledby": "outcome-title" },
+    h("h2", { id: "outcome-title", tabindex: "-1" }, t(failed.length ? "teach.doubtful" : "teach.good", { name: told.gloss.replaceAll("_", " ") })),
+    h("div", { class: "side-by-side" }, isFilm ? video : h("p", { class: "faint" }, t("teach.a_bag")), stage),
+    h("p", {}, t("teach.compare")),
+    h("h3", {}, t("teach.gates")), gateList(told.gates),
+    h("h3", {}, t("teach.similar")), similar(t, told.similar),
+    acceptForm(context, { gloss: told.gloss, hands: wanted.hands, exists, failed, recording, progress, redo }),
+  );
+  const view = await robotView(stage);
+  view.play(motion);
+  return {
+    element,
+    close() {
+      close();
+      view.remove();
+    },
+  };
+}
+
+// Differences that are just seen: below two, both are taken for each other.
+const ALIKE = 2;
+
+function similar(t, signs) {
+  if (!signs.length) return h("p", {}, t("teach.similar.none"));
+  return h("ul", { class: "plain" }, ...signs.map(({ gloss, seen }) => h("li", {}, h("strong", {}, gloss.replaceAll("_", " ")), ` · ${t(seen < ALIKE ? "teach.similar.alike" : "teach.similar.apart", { seen: seen.toFixed(1) })}`)));
+}

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""`lut list`: a line for every sign of a table, for people or as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from teo_lut_executor.cli.options import AsJson, TableDirectory, open_table
+from teo_signs.errors import LutError
+from teo_signs.handshapes import Handshapes
+from teo_signs.look_up_table import Lut
+from teo_signs.motion_hash import motion_hash
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import STANDINGS
+
+_output = Console(highlight=False)
+# Narrowest column of sources [characters]: their names are not cut on a screen of 80.
+_SOURCE_WIDTH = 17
+
+
+def list_signs(
+    lut: TableDirectory = None,
+    kind: Annotated[str | None, typer.Option(help="lexical, letter or number.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """One line a sign: gloss, kind, hands, duration, knots, standing, source; and how many of each."""
+    table = open_table(lut)
+    signs, unreadable = _read(table)
+    chosen = [sign for sign in signs if kind is None or sign.kind == kind]
+    if as_json:
+        print(json.dumps(_as_json(table, signs, chosen, unreadable), ensure_ascii=False))
+    else:
+        _print(table, chosen, unreadable)
+
+
+def _read(table: Lut) -> tuple[list[Sign], dict[str, LutError]]:
+    """The signs of a table, and why others cannot be read."""
+    signs, unreadable = [], {}
+    for gloss in table.glosses():
+        try:
+            signs.append(table[gloss])
+        except LutError as error:
+            unreadable[gloss] = error
+    return signs, unreadable
+
+
+def _as_json(
+    table: Lut, signs: list[Sign], chosen: list[Sign], unreadable: dict[str, LutError]
+) -> dict[str, Any]:
+    handshapes = Handshapes(signs)
+    return {
+        "place": table.place,
+        "signs": [
+            {
+                "gloss": sign.gloss,
+                "kind": sign.kind,
+                "handedness": sign.handedness,
+                "duration": sign.duration,
+                "standing": sign.provenance.standing,
+                "source": sign.provenance.source,
+                "licence": sign.provenance.licence,
+                "handshapes": handshapes.of(sign),
+                "motion_hash": motion_hash(sign),
+            }
+            for sign in chosen
+        ],
+        "unreadable": [
+            {"gloss": gloss, "code": error.code, "message": str(error)} for gloss, error in unreadable.items()
+        ],
+    }
+
+
+def _print(table: Lut, chosen: list[Sign], unreadable: dict[str, LutError]) -> None:
+    rows = Table(box=None)
+    for name in ("gloss", "kind", "hands", "duration [s]", "knots", "standing"):
+        rows.add_column(name, no_wrap=True)
+    rows.add_column("source", min_width=_SOURCE_WIDTH)
+    lines: dict[str, tuple[str, ...]] = {
+        gloss: ("[red]not valid[/red]", "", "", "", "", error.code) for gloss, error in unreadable.items()
+    }
+    for sign in chosen:
+        standing, source = sign.provenance.standing, sign.provenance.source.partition(",")[0]
+        figures = (f"{sign.duration:.2f}", str(len(sign.times)))
+        lines[sign.gloss] = (sign.kind, sign.handedness, *figures, standing, source)
+    for gloss in sorted(lines):
+        rows.add_row(gloss, *lines[gloss])
+    _output.print(rows)
+    standings = Counter(sign.provenance.standing for sign in chosen)
+    counts = ", ".join(f"{standings[standing]} {standing}" for standing in STANDINGS if standings[standing])
+    _output.print(
+        f"{len(chosen)} signs in {table.place}: {counts}"
+        + (f"; {len(unreadable)} entries not valid" if unreadable else ""),
+        soft_wrap=True,
+    )
