@@ -5,6 +5,7 @@
 - held out: other people, lights and cameras (1 to 2.5 m, rolled) than those that anything was calibrated or
   looked at on. Joints are the centres about which limbs turn, fingertips lie in the finger (the README of
   teo_synthetic_signer says where); of the body shoulders, elbows and wrists count.
+- known: the same of takes that were held out before, and were looked at since.
 - occluded faces: forearms and hands before head and shoulders; these takes were looked at while that was
   built.
 - several people: two or three, the signer the nearest; likewise.
@@ -20,7 +21,7 @@ import numpy as np
 from accuracy.errors import Errors, body_errors, hand_errors, head_errors
 from accuracy.methods import Estimate, detected, estimate_of, nothing, one_pixel, ours
 from accuracy.takes import TakeFrame, TakeSettings, default_cache, take
-from accuracy.unseen import HELD_OUT_TAKES, OCCLUDED_TAKES, SEVERAL_TAKES
+from accuracy.unseen import HELD_OUT_TAKES, KNOWN_TAKES, OCCLUDED_TAKES, SEVERAL_TAKES
 from report import Figure
 from rich.console import Console
 from rich.table import Table
@@ -60,19 +61,21 @@ def _joined(parts: Sequence[Errors]) -> Errors:
     return parts[0].joined(parts[1:])
 
 
-def held_out(takes: Sequence[TakeSettings], cache: Path) -> list[Figure]:
-    """Body, fingertips and both hands on takes that nothing was looked at on."""
+def other_people(what: str, takes: Sequence[TakeSettings], cache: Path) -> list[Figure]:
+    """Body, its hidden elbows, fingertips and both hands."""
     figures = []
     frames = [take(settings, cache) for settings in takes]
     for name, method in (("ours", ours), ("one pixel", one_pixel)):
-        estimates = [method(images, detected) for images in frames]
-        pairs = list(zip(frames, estimates, strict=True))
+        pairs = [(images, method(images, detected)) for images in frames]
         body = _joined([body_errors(*pair) for pair in pairs])
         hands = _joined([hand_errors(*pair) for pair in pairs])
+        elbows = body.of("Elbow")
         figures += [
-            Figure(f"held out, body: {name}", _told(body)),
-            Figure(f"held out, fingertips: {name}", _told(hands.of("Tip"))),
-            Figure(f"held out, both hands: {name}", _told(hands)),
+            Figure(f"{what}, body: {name}", _told(body)),
+            Figure(f"{what}, elbows that are seen: {name}", _told(elbows, elbows.visible)),
+            Figure(f"{what}, elbows that are hidden: {name}", _told(elbows, ~elbows.visible)),
+            Figure(f"{what}, fingertips: {name}", _told(hands.of("Tip"))),
+            Figure(f"{what}, both hands: {name}", _told(hands)),
         ]
     return figures
 
@@ -158,7 +161,8 @@ def measure() -> list[Figure]:
     return [
         *several(SEVERAL_TAKES, cache),
         *occluded(OCCLUDED_TAKES, cache),
-        *held_out(HELD_OUT_TAKES, cache),
+        *other_people("known", KNOWN_TAKES, cache),
+        *other_people("held out", HELD_OUT_TAKES, cache),
     ]
 
 

@@ -3,7 +3,8 @@
 """Takes beside those that anything is calibrated on: held out, with faces behind arms, with several people.
 
 The held-out takes are of other people, lights and cameras than all others, and are for a last look: whoever
-changes a constant of the retriever looks at the others meanwhile.
+changes a constant of the retriever looks at the others meanwhile. Once what was seen there has led to a
+change they are known, move to `KNOWN_TAKES`, and others are held out in their place.
 """
 
 from __future__ import annotations
@@ -17,21 +18,29 @@ from accuracy.takes import TakeSettings
 from teo_synthetic_signer import Companion
 from teo_synthetic_signer.body.body_shapes import BODIES
 
-BODIES |= random_people(12, 7_301, "held_out")
+BODIES |= random_people(12, 7_301, "known")
+BODIES |= random_people(18, 52_817, "held_out")
 BODIES |= random_people(8, 5_517, "beside")
 
 _SCENES = ("office", "studio", "living_room", "near_wall")
 _LIGHTS = ("room", "window", "ceiling", "evening")
+_SCRIPTS = ("signing", "face", "two_hands", "crossing", "turning", "spelling")
 
 
-def _held_out() -> tuple[TakeSettings, ...]:
-    """Cameras at 1 to 2.5 m, rolled by up to 12 degrees, as on a tripod that nobody levelled."""
-    random = np.random.default_rng(40_961)
-    scripts = ("signing", "face", "two_hands", "crossing", "turning", "spelling")
+def _other_people(name: str, *, count: int, cameras: int, seed: int) -> tuple[TakeSettings, ...]:
+    """Cameras at 1 to 2.5 m, rolled by up to 12 degrees, as on a tripod that nobody levelled.
+
+    Args:
+        name: What the people's names begin with.
+        count: Of takes, one for each of them.
+        cameras: Seed of where the cameras are.
+        seed: Of the first take's noise.
+    """
+    random = np.random.default_rng(cameras)
     return tuple(
         TakeSettings(
-            script=scripts[i % 6],
-            body=f"held_out_{i}",
+            script=_SCRIPTS[i % 6],
+            body=f"{name}_{i}",
             scene=_SCENES[int(random.integers(4))],
             light=_LIGHTS[i % 4],
             distance=round(float(random.uniform(1.0, 2.5)), 2),
@@ -40,13 +49,14 @@ def _held_out() -> tuple[TakeSettings, ...]:
             start=round(float(random.uniform(0.4, 3.0)), 1),
             seconds=1.7,
             rate=10.0,
-            seed=70_000 + i,
+            seed=seed + i,
         )
-        for i in range(12)
+        for i in range(count)
     )
 
 
-HELD_OUT_TAKES = _held_out()
+KNOWN_TAKES = _other_people("known", count=12, cameras=40_961, seed=70_000)
+HELD_OUT_TAKES = _other_people("held_out", count=18, cameras=91_153, seed=80_000)
 OCCLUDED_TAKES: tuple[TakeSettings, ...] = tuple(
     TakeSettings(
         script="before_face",

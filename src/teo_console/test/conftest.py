@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
+import io
 import re
 import shutil
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import av
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Page, sync_playwright
 
@@ -22,6 +24,11 @@ OPTIONS = (
     "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
 )  # fmt: skip
+# A greeting of the synthetic signer: synthesize --script greeting --body man_average --rate 30.
+GREETING = Path(__file__).parent / "data" / "greeting.mp4"
+CAMERA_RATE = 30.0  # [Hz] at which Chromium plays such a film, from when the camera is switched on
+# The sign comes after the countdown of 3 s, in the midst of the 6 s that are recorded then, and once [s].
+REST_BEFORE, REST_AFTER = 4.5, 20.0
 START_TIMEOUT = 60.0  # [s] for four processes on a loaded machine
 PATIENCE = 45_000  # [ms] for what a page waits for, likewise
 
@@ -51,13 +58,31 @@ def address(graph: Graph) -> str:
 
 
 @pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
+def camera_film(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What the browser's camera sees, over and over: a person at rest, who greets, and is at rest again."""
+    with av.open(str(GREETING)) as film:
+        images = [image.to_image() for image in film.decode(video=0)]
+    pictures = []
+    for image in images:
+        encoded = io.BytesIO()
+        image.save(encoded, "JPEG", quality=85)
+        pictures.append(encoded.getvalue())
+    path = tmp_path_factory.mktemp("camera") / "greeting.mjpeg"
+    rest_before, rest_after = (round(seconds * CAMERA_RATE) for seconds in (REST_BEFORE, REST_AFTER))
+    path.write_bytes(pictures[0] * rest_before + b"".join(pictures) + pictures[-1] * rest_after)
+    return path
+
+
+@pytest.fixture(scope="session")
+def browser(camera_film: Path) -> Iterator[Browser]:
     """A browser without a window; without one there is nothing to test with."""
     path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         pytest.skip(f"no browser: install one of {', '.join(BROWSERS)}")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=list(OPTIONS))
+        browser = playwright.chromium.launch(
+            executable_path=path, args=[*OPTIONS, f"--use-file-for-fake-video-capture={camera_film}"]
+        )
         yield browser
         browser.close()
 

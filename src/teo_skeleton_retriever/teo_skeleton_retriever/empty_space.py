@@ -12,18 +12,20 @@ from teo_skeleton_retriever.arrays import DepthArray
 # 0.1 m or farther than 20 m. A thousand times too near or too far is the wrong unit, whatever the room.
 _NEAREST = 0.05
 _FARTHEST = 50.0
-_EVERY = 8  # [px] Every eighth of every eighth row says where the middle lies, in 0.1 ms.
+_EVERY = (
+    8  # [px] Every eighth of every eighth row says how much is known and where the middle lies, in 0.1 ms.
+)
 
 
-def median_depth(depth: DepthArray) -> float:
-    """Give the median of an image's depths [m]; NaN if it has none.
+def depth_summary(depth: DepthArray) -> tuple[float, float]:
+    """Give the part of an image's pixels that have a depth, 0 to 1, and their median [m]; NaN if none has.
 
     Args:
         depth: [m], NaN where unknown. Shape (height, width).
     """
-    known = depth[::_EVERY, ::_EVERY]
-    known = known[np.isfinite(known)]
-    return float(np.median(known)) if len(known) else float("nan")
+    some = depth[::_EVERY, ::_EVERY]
+    known = some[some > 0.0]  # of NaN nothing is true
+    return len(known) / some.size, float(np.median(known)) if len(known) else float("nan")
 
 
 def depth_fault(share: float, median: float) -> str:

@@ -9,14 +9,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-import numpy as np
-
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
 from teo_skeleton_retriever.compat.original_parameters import original_parameters_from
 from teo_skeleton_retriever.detectors import Detector
 from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
-from teo_skeleton_retriever.empty_space import median_depth
+from teo_skeleton_retriever.detectors.detector import people_left_out
+from teo_skeleton_retriever.empty_space import depth_summary
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
@@ -38,6 +37,7 @@ class Retrieved:
         depth_median: Of the depths [m]; NaN if there is none.
         detector_time: What the detector took [s].
         own_time: What all after it took [s].
+        people_left_out: How many more people the detector sees than it follows.
     """
 
     people: tuple[Person2D, ...]
@@ -46,6 +46,7 @@ class Retrieved:
     depth_median: float
     detector_time: float
     own_time: float
+    people_left_out: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +57,13 @@ class Detection:
         image: In which it looked.
         people: Whom it saw, in pixels.
         time: What it took [s].
+        people_left_out: How many more it sees than it follows.
     """
 
     image: RgbdImage
     people: tuple[Person2D, ...]
     time: float
+    people_left_out: int = 0
 
 
 class FrameRetriever(Protocol):
@@ -138,7 +141,8 @@ class ImageRetriever:
         """Take one image, the first half; see `process`."""
         began = time.perf_counter()
         people = self._detector.detect(image.color, image.stamp)
-        return Detection(image, people, time.perf_counter() - began)
+        took = time.perf_counter() - began
+        return Detection(image, people, took, people_left_out(self._detector))
 
     def follow(self, detected: Detection) -> Retrieved:
         """Take one image, the second half; see `process`."""
@@ -148,9 +152,16 @@ class ImageRetriever:
             DetectionFrame(stamp=image.stamp, people=people, depth=image.depth, camera=image.camera)
         )
         self.known_ids = frozenset(skeleton.track_id for skeleton in skeletons)
-        share = float(np.count_nonzero(image.depth > 0.0) / image.depth.size)  # of NaN nothing is true
-        median = median_depth(image.depth)
-        return Retrieved(people, skeletons, share, median, detected.time, time.perf_counter() - began)
+        share, median = depth_summary(image.depth)
+        return Retrieved(
+            people,
+            skeletons,
+            share,
+            median,
+            detected.time,
+            time.perf_counter() - began,
+            detected.people_left_out,
+        )
 
     def close(self) -> None:
         """Release what the detector holds."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.arrays import FloatArray, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.depth.face_depth import face_depths
@@ -62,8 +62,9 @@ _SHOULDERS = [ROW["RShoulder"], ROW["LShoulder"]]
 _HAND_SHARE = 0.6  # of the greatest sigma: a finger that may be half a hand away tells nothing of its shape
 _SURE = 0.02  # [m] standard deviation across the ray of a joint that is plainly seen, which `BIAS` stands for
 _CARRIED = 0.05  # [m] standard deviation of a hand that is not seen and goes with its wrist: it turns
-_GUESSED = 0.02  # [m] standard deviation that is added to a keypoint that an arm hides
-# Elbows at which the own forearm lies, wrists at which the own hand does as well: these hide nothing there.
+_GUESSED = 0.025  # [m] standard deviation that is added to a keypoint that an arm hides
+# Elbows at which the own forearm lies, wrists at which the own hand does as well: only from farther before
+# them than their own skin do these hide them.
 _OWN_LIMBS = {row: rows[1 : i + 1] for rows in ARMS.values() for i, row in enumerate(rows) if i}
 _HEAD_AND_FACE = [*HEAD, *range(FACE.start, FACE.stop)]
 _OF_HEAD, _OF_FACE = slice(0, len(HEAD)), slice(len(HEAD), None)
@@ -152,7 +153,7 @@ class PersonEstimator:
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
         )
-        self._size.step(body.measured)
+        self._size.step(np.where(hidden[BODY, None], np.nan, body.measured))
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
         away = np.minimum(output.age, self._parameters.hold_time)
         carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
@@ -279,4 +280,4 @@ def _in_space(rays: FloatArray, depths: FloatArray) -> FloatArray:
 
 def _middle(values: FloatArray) -> float:
     known = values[np.isfinite(values)]
-    return float(np.median(known)) if len(known) else float("nan")
+    return median(known) if len(known) else float("nan")

@@ -18,6 +18,7 @@ from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import Topics, choose_topics
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 from teo_skeleton_retriever.detectors import make_detector
+from teo_skeleton_retriever.detectors.detector import left_out_sentence
 from teo_skeleton_retriever.empty_space import nobody_in_space
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import ImageRetriever, Retrieved
@@ -44,6 +45,7 @@ class RetrievalReport:
         reasons: A sentence for the first image of a reason code. Where only few images are without a depth
             image, as at the ends of recordings, these are in `left_out` alone.
         nobody: Why nobody is in space although the detector saw people; empty if somebody is, or nobody was.
+        people_left_out: How many more people the detector saw at once than it followed, at most.
         damage: What is wrong with the bag, of which the rest was used; empty if nothing is.
     """
 
@@ -58,6 +60,7 @@ class RetrievalReport:
     left_out: Mapping[str, int]
     reasons: Mapping[str, str]
     nobody: str
+    people_left_out: int
     damage: str
 
     @property
@@ -71,6 +74,8 @@ class RetrievalReport:
             said.append(f"{self.recording}: {self.damage}")
         if self.nobody:
             said.append(self.nobody)
+        if told := left_out_sentence(self.people_left_out):
+            said.append(told)
         if not self.images:
             left_out = dict(self.left_out) or "there is none"
             said.append(f"no image of {self.topics.color} could be used: {left_out}")
@@ -157,6 +162,7 @@ class _Tally:
         self._ids: set[int] = set()
         self._times: list[tuple[float, float]] = []
         self._most_people = 0
+        self._people_left_out = 0
         self._depths: list[tuple[float, float]] = []
         self._statuses: dict[str, Counter[int]] = {"body": Counter(), "hands": Counter(), "face": Counter()}
 
@@ -165,6 +171,7 @@ class _Tally:
         self._with_people += bool(retrieved.skeletons)
         self._times.append((retrieved.detector_time, retrieved.own_time))
         self._most_people = max(self._most_people, len(retrieved.people))
+        self._people_left_out = max(self._people_left_out, retrieved.people_left_out)
         self._depths.append((retrieved.depth_share, retrieved.depth_median))
         for skeleton in retrieved.skeletons:
             self._ids.add(skeleton.track_id)
@@ -204,5 +211,6 @@ class _Tally:
             left_out=dict(reader.dropped),
             reasons=dict(reader.reasons),
             nobody=self._nobody(least_images),
+            people_left_out=self._people_left_out,
             damage=bag.problem,
         )

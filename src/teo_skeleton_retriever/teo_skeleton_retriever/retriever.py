@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import FloatArray
+from teo_skeleton_retriever.arrays import FloatArray, median
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
 from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
 from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
@@ -129,10 +129,10 @@ def _middles(depths: FloatArray) -> list[float]:
 
     Of a person who walks by behind another, some keypoints have the depth of the one in front.
     """
-    middles = [float(np.median(depths))]
+    middles = [median(depths)]
     between = float(depths.min() + depths.max()) / 2.0
     if depths.max() - depths.min() > _TORN:
-        middles += [float(np.median(depths[depths > between])), float(np.median(depths[depths <= between]))]
+        middles += [median(depths[depths > between]), median(depths[depths <= between])]
     return middles
 
 

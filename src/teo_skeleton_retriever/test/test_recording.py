@@ -97,6 +97,20 @@ def test_images_that_are_refused_are_counted_with_the_reason(bag):
     assert nothing.startswith(f"no image of {bag_take.COLOR} could be used")
 
 
+def test_people_whom_the_detector_has_no_place_for_are_told(bag, keypoints):
+    class Crowded:
+        people_left_out = 1
+
+        def detect(self, *image):
+            return detector.detect(*image)
+
+    detector = make_detector("replay", folder=str(keypoints))
+    report = retrieve_recording(bag, ImageRetriever(Crowded(), Retriever(RetrieverParameters())))
+    assert (report.images, report.people_left_out) == (IMAGES, 1)
+    (complaint,) = report.complaints
+    assert complaint.startswith("1 more person is seen than the detector follows")
+
+
 def test_a_missing_topic_is_named_by_the_argument_that_would_name_it(tmp_path, keypoints):
     stored = [one for one in bag_take.messages(IMAGES) if one[0] != bag_take.DEPTH]
     with pytest.raises(TopicError, match="expected a topic of depth") as caught:

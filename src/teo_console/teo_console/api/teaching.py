@@ -109,7 +109,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         job = workbench.jobs.submit(
             project_commands.capture(recording.path, _cache(recording), teaching, trial=None)
         )
-        workbench.signs.changed()
+        workbench.signs.changed()  # jobs run in their order: a list that is asked for now is made after this
         return job.told()
 
     async def keep(request: web.Request) -> Any:

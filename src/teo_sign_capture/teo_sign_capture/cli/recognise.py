@@ -83,7 +83,7 @@ def recognise(
         raise typer.Exit(1) from error
     if as_json:
         found = [asdict(match) for match in matches]
-        told = {"code": "recognised", "recording": recording.name, "matches": found}
+        told: dict[str, object] = {"code": "recognised", "recording": recording.name, "matches": found}
         if compared is not None:
             told["compared"] = asdict(compared)
         write_json(told, sys.stdout)

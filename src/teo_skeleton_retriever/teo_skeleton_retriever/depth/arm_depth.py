@@ -10,6 +10,7 @@ balanced, and the likeliest is taken, among those that an elbow can bend to.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple
 
@@ -29,9 +30,9 @@ _HIDING = 6.0  # what it costs to suppose that a joint is hidden: as much as len
 _BEHIND_SIGMA = 0.12  # [m] and how far behind what hides it: a hand or an arm lies on what it hides
 _FREE = 9.0  # beyond it an expectation does not speak against a depth any more: arms move fast
 _ACCEPTED = 6.0  # a cost below it is no reason to suppose anything: 95 % of unhidden arms (chi-squared, 2)
-_STEPS = 3  # of Gauss-Newton from a good start
-_GUESSED = 1.5  # errors over sigma of hidden joints, on rendered people: the lengths are estimates, too
-_HIDDEN_ACROSS = 5.0  # a detector guesses hidden joints so many times worse: 5 cm for elbows behind hands
+_STEPS = 2  # of Gauss-Newton from a good start; more changed no figure
+_GUESSED = 2.0  # errors over sigma of hidden joints, on rendered people: the lengths are estimates, too
+_HIDDEN_ACROSS = 2.5  # a detector guesses hidden joints so many times worse
 
 
 class Arm(NamedTuple):
@@ -41,6 +42,8 @@ class Arm(NamedTuple):
     """x/z, y/z. Shape (3, 2)"""
     across: FloatArray
     """standard deviations of the joints across the ray [m]. Shape (3,)"""
+    elbow_along: float | FloatArray
+    """standard deviation of the elbow along the upper arm, in the image [m]; as far as `across` or more"""
     measured: FloatArray
     """depths if nothing hides the joints [m]; NaN where nothing was measured. Shape (3,)"""
     sigma: FloatArray
@@ -71,6 +74,7 @@ class ArmSolution(NamedTuple):
 
 
 class _Candidate(NamedTuple):
+    arm: Arm
     depths: FloatArray
     hidden: BoolArray
 
@@ -82,24 +86,32 @@ class ArmSolver:
         self._solver = FastLimbSolver()
         self._solver.prepare(3)
 
-    def solve(self, arm: Arm) -> ArmSolution | None:
-        """Find the solution of least cost; None if the shoulder has no depth or no solution converges."""
-        shoulder = float(arm.measured[0] if np.isfinite(arm.measured[0]) else arm.expected[0])
-        if not (math.isfinite(shoulder) and np.isfinite(arm.rays).all()):
-            return None
+    def solve(self, arms: Sequence[Arm]) -> list[ArmSolution | None]:
+        """Find each arm's solution of least cost; None if its shoulder has no depth or none converges.
+
+        All arms together, as most of the time goes into calls, not into numbers.
+        """
+        known = [
+            i for i, arm in enumerate(arms) if math.isfinite(_shoulder(arm)) and np.isfinite(arm.rays).all()
+        ]
+        plain = [i for i in known if np.isfinite(arms[i].measured).all()]
+        seen = _balanced([_Candidate(arms[i], arms[i].measured, np.zeros(3, dtype=bool)) for i in plain])
+        found = {i: solution for i, solution in zip(plain, seen, strict=True) if solution.cost <= _ACCEPTED}
+        others = [(i, candidate) for i in known if i not in found for candidate in self._candidates(arms[i])]
+        for (i, _), solution in zip(others, _balanced([candidate for _, candidate in others]), strict=True):
+            if i not in found or solution.cost < found[i].cost:
+                found[i] = solution
+        return [found.get(i) for i in range(len(arms))]
+
+    def _candidates(self, arm: Arm) -> list[_Candidate]:
         seen = np.isfinite(arm.measured)
-        if seen.all():
-            plain = _balanced(arm, [_Candidate(arm.measured, np.zeros(3, dtype=bool))])
-            if plain.cost <= _ACCEPTED:
-                return plain
         candidates = []
         for elbow_hidden, wrist_hidden in product((False, True), repeat=2):
             hidden = np.array([not seen[0], elbow_hidden, wrist_hidden])
             if (seen | hidden).all() and not (hidden & arm.certain).any():
-                candidates += [
-                    _Candidate(depths, hidden) for depths in self._solutions(arm, hidden, shoulder)
-                ]
-        return _balanced(arm, candidates) if candidates else None
+                solutions = self._solutions(arm, hidden, _shoulder(arm))
+                candidates += [_Candidate(arm, depths, hidden) for depths in solutions]
+        return candidates
 
     def _solutions(self, arm: Arm, hidden: BoolArray, shoulder: float) -> list[FloatArray]:
         """Solve for each combination of the bounds of hidden joints. Shapes (3,) [m]."""
@@ -147,23 +159,30 @@ def _halves(arm: Arm, i: int, hidden: BoolArray, shoulder: float) -> list[tuple[
     return [(nearest, closest), (closest, farthest)]
 
 
-def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
-    """Refine each candidate by least squares over lengths, rays and depths; give the one of the least cost.
+def _shoulder(arm: Arm) -> float:
+    return float(arm.measured[0] if np.isfinite(arm.measured[0]) else arm.expected[0])
+
+
+def _balanced(candidates: Sequence[_Candidate]) -> list[ArmSolution]:
+    """Refine each candidate by least squares over lengths, rays and depths.
 
     Gauss-Newton steps on the misfits over their sigmas, of all candidates at once. Unknown are the places in
     space: a keypoint is off its joint across the ray, too, and known lengths put that right.
     """
+    if not candidates:
+        return []
     k = len(candidates)
     hidden = np.stack([candidate.hidden for candidate in candidates])
-    rays = np.column_stack([arm.rays, np.ones(3)])
-    points = rays * np.stack([candidate.depths for candidate in candidates])[..., None]
+    arm = Arm(*(np.array(values) for values in zip(*(c.arm for c in candidates), strict=True)))
+    points = np.concatenate([arm.rays, np.ones((k, 3, 1))], axis=2)
+    points *= np.stack([candidate.depths for candidate in candidates])[..., None]
     target = np.where(hidden, points[..., 2], arm.measured)
     depth_weight = np.where(hidden, 1.0 / _BEHIND_SIGMA, 1.0 / arm.sigma)
-    across = 1.0 / (arm.across * np.where(hidden, _HIDDEN_ACROSS, 1.0))
+    across = _across_weights(arm, hidden)
     slope = np.zeros((k, 11, 9))
     for i in range(3):
-        slope[:, 3 * i, 3 * i] = slope[:, 3 * i + 1, 3 * i + 1] = across[:, i]
-        slope[:, 3 * i : 3 * i + 2, 3 * i + 2] = -across[:, i, None] * arm.rays[i]
+        slope[:, 3 * i : 3 * i + 2, 3 * i : 3 * i + 2] = across[:, i]
+        slope[:, 3 * i : 3 * i + 2, 3 * i + 2] = -(across[:, i] @ arm.rays[:, i, :, None])[..., 0]
         slope[:, 3 * i + 2, 3 * i + 2] = depth_weight[:, i]
     missed = np.zeros((k, 11))
     for step in range(_STEPS + 1):
@@ -173,7 +192,7 @@ def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
         slope[:, 9, 0:3], slope[:, 9, 3:6] = -unit[:, 0], unit[:, 0]
         slope[:, 10, 3:6], slope[:, 10, 6:9] = -unit[:, 1], unit[:, 1]
         off = points[..., :2] - arm.rays * points[..., 2:]
-        missed[:, :9].reshape(k, 3, 3)[..., :2] = off * across[..., None]
+        missed[:, :9].reshape(k, 3, 3)[..., :2] = (across @ off[..., None])[..., 0]
         missed[:, 2:9:3] = (points[..., 2] - target) * depth_weight
         missed[:, 9:] = (lengths - arm.lengths) / arm.length_sigma
         turned = slope.transpose(0, 2, 1)
@@ -181,15 +200,32 @@ def _balanced(arm: Arm, candidates: list[_Candidate]) -> ArmSolution:
         if step < _STEPS:
             points = points - np.linalg.solve(normal, turned @ missed[..., None]).reshape(k, 3, 3)
     cost = (missed**2).sum(axis=1) + _penalties(arm, points, hidden, limbs, lengths)
-    best = int(np.argmin(cost))
-    spread = np.sqrt(np.diag(np.linalg.inv(normal[best]))).reshape(3, 3)
-    sigma = np.column_stack([spread[:, :2].mean(axis=1), spread[:, 2]])
-    sigma[hidden[best]] *= _GUESSED
-    return ArmSolution(points[best], sigma, hidden[best], float(cost[best]))
+    spread = np.sqrt(np.linalg.inv(normal)[:, np.arange(9), np.arange(9)]).reshape(k, 3, 3)
+    sigma = np.stack([spread[..., :2].mean(axis=2), spread[..., 2]], axis=2)
+    sigma[hidden] *= _GUESSED
+    return [ArmSolution(points[i], sigma[i], hidden[i], float(cost[i])) for i in range(k)]
+
+
+def _across_weights(arms: Arm, hidden: BoolArray) -> FloatArray:
+    """Inverse standard deviations across the ray, by which x and y are weighed [1/m]. Shape (k, 3, 2, 2).
+
+    The elbow's differ along the upper arm, as the image shows it, and beside it.
+
+    Args:
+        arms: Of k candidates, each field with one axis more.
+        hidden: Shape (k, 3).
+    """
+    plain = 1.0 / (arms.across * np.where(hidden, _HIDDEN_ACROSS, 1.0))
+    weights = np.eye(2) * plain[..., None, None]
+    upper_arm = arms.rays[:, 1] - arms.rays[:, 0]
+    squared = np.maximum((upper_arm**2).sum(axis=1), 1e-12)
+    lessened = plain[:, 1] * (1.0 - np.minimum(1.0, arms.across[:, 1] / arms.elbow_along)) / squared
+    weights[:, 1] -= lessened[:, None, None] * upper_arm[:, :, None] * upper_arm[:, None, :]
+    return weights
 
 
 def _penalties(
-    arm: Arm, points: FloatArray, hidden: BoolArray, limbs: FloatArray, lengths: FloatArray
+    arms: Arm, points: FloatArray, hidden: BoolArray, limbs: FloatArray, lengths: FloatArray
 ) -> FloatArray:
     """Cost of each candidate beside its misfits: priors on elbow and movement. Shape (k,)."""
     folded = -(limbs[:, 0] * limbs[:, 1]).sum(axis=1) / np.maximum(lengths[:, 0] * lengths[:, 1], 1e-9)
@@ -197,8 +233,8 @@ def _penalties(
     cost = (beyond / _FLEXION_SIGMA) ** 2
     cost += _HIDING * hidden[:, 1:].sum(axis=1)
     with np.errstate(invalid="ignore"):
-        behind = ((points[..., 2] - arm.measured) / _BEHIND_SIGMA) ** 2
-        surprise = ((points[..., 2] - arm.expected) / arm.expected_sigma) ** 2
+        behind = ((points[..., 2] - arms.measured) / _BEHIND_SIGMA) ** 2
+        surprise = ((points[..., 2] - arms.expected) / arms.expected_sigma) ** 2
     behind[np.isnan(behind)] = 0.0
     surprise[np.isnan(surprise)] = 0.0
     cost += np.where(hidden, behind, 0.0).sum(axis=1)

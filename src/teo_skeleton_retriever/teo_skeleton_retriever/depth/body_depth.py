@@ -4,18 +4,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.depth.filtered_keypoints import points_of
 from teo_skeleton_retriever.depth.skin import BODY_CAPS, BODY_DEPTHS, along_ray
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
-from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma
+from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_sigma
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_layout import ARMS, ROW
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
@@ -50,6 +51,7 @@ _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
 _ACROSS[[ROW[f"{side}Ear"] for side in "LR"]] = 0.035  # seen at the cheek, 2 cm beside and below
 _SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
+_ELBOWS = [rows[1] for rows in ARMS.values()]
 _HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
 
 
@@ -110,14 +112,20 @@ class BodyDepth:
         """
         depth, sigma = self._measure(surfaces, before, size)
         rays, across = seen.rays.copy(), _ACROSS.copy()
+        elbows = {side: float(across[ARMS[side][1]]) for side in ARMS}
         if self._parameters.detector == "mediapipe":
             across = body_sigma(across, seen.confidence)
+            for side, (_, elbow, wrist) in ARMS.items():
+                forearm = _part_across(seen.rays[[elbow, wrist]], before.depth[wrist], size)
+                elbows[side] = elbow_sigma(float(seen.confidence[elbow]), forearm)
             # Beside the joint is another depth than at it.
-            sigma = np.hypot(sigma, _SLOPE * np.maximum(across - _ACROSS, 0.0))
-        for side, wrist in wrists.items():
+            beside = across - _ACROSS
+            beside[_ELBOWS] = [elbows[side] - _ACROSS[ARMS[side][1]] for side in ARMS]
+            sigma = np.hypot(sigma, _SLOPE * np.maximum(beside, 0.0))
+        for side, view in wrists.items():
             row = ARMS[side][2]
-            rays[row], across[row] = wrist.ray, _HAND_ACROSS
-            depth[row], sigma[row] = wrist.depth, wrist.sigma
+            rays[row], across[row] = view.ray, _HAND_ACROSS
+            depth[row], sigma[row] = view.depth, view.sigma
         _reject_hidden_trunk(depth, before)
         replaced = _behind_the_head(depth, sigma) | _even_shoulders(depth, sigma)
         points = np.column_stack([rays, np.ones(_N)]) * depth[:, None]
@@ -125,9 +133,8 @@ class BodyDepth:
         points[replaced] = np.nan
         found = BodyDepths(rays, depth, across, sigma, points, replaced)
         if self._parameters.optimise_limbs:
-            for side, rows in ARMS.items():
-                certain = np.array([False, False, side in wrists and wrists[side].certain])
-                self._solve_arm(rows, certain, found, before, size)
+            certain = {side: side in wrists and wrists[side].certain for side in ARMS}
+            self._solve_arms(elbows, certain, found, before, size)
         return found
 
     def _measure(
@@ -152,36 +159,52 @@ class BodyDepth:
         behind = along_ray(radius, limb, points, BODY_CAPS)
         return behind, behind - radius
 
-    def _solve_arm(
+    def _solve_arms(
         self,
-        rows: list[int],
-        certain: BoolArray,
+        elbows: Mapping[str, float],
+        certain: Mapping[str, bool],
         found: BodyDepths,
         before: FilterOutput,
         size: BodySize,
     ) -> None:
-        """Solve an arm and enter its depths."""
+        """Solve both arms and enter their depths."""
         lengths, sigmas = zip(*(size.length(limb) for limb in ("upper arm", "forearm")), strict=True)
-        arm = Arm(
-            rays=found.rays[rows],
-            across=found.across[rows],
-            measured=found.depths[rows],
-            sigma=found.sigma[rows],
-            certain=certain,
-            expected=before.depth[rows],
-            expected_sigma=before.sigma[rows, 2],
-            lengths=np.array(lengths),
-            length_sigma=np.array(sigmas),
-        )
-        solution = self._arms.solve(arm)
-        if solution is None:
-            return
-        found.rays[rows] = solution.points[:, :2] / solution.points[:, 2:]
-        found.depths[rows] = solution.points[:, 2]
-        found.across[rows], found.sigma[rows] = solution.sigma.T
-        hidden = np.array(rows)[solution.hidden]
-        found.optimised[hidden] = True
-        found.measured[hidden] = np.nan
+        arms = [
+            Arm(
+                rays=found.rays[rows],
+                across=found.across[rows],
+                elbow_along=elbows[side],
+                measured=found.depths[rows],
+                sigma=found.sigma[rows],
+                certain=np.array([False, False, certain[side]]),
+                expected=before.depth[rows],
+                expected_sigma=before.sigma[rows, 2],
+                lengths=np.array(lengths),
+                length_sigma=np.array(sigmas),
+            )
+            for side, rows in ARMS.items()
+        ]
+        for rows, solution in zip(ARMS.values(), self._arms.solve(arms), strict=True):
+            if solution is None:
+                continue
+            found.rays[rows] = solution.points[:, :2] / solution.points[:, 2:]
+            found.depths[rows] = solution.points[:, 2]
+            found.across[rows], found.sigma[rows] = solution.sigma.T
+            hidden = np.array(rows)[solution.hidden]
+            found.optimised[hidden] = True
+            found.measured[hidden] = np.nan
+
+
+def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:
+    """Part of a forearm's length that is seen across the view; 1 if its depth is not known.
+
+    Args:
+        forearm: x/z, y/z of elbow and wrist. Shape (2, 2).
+        depth: About where it is [m].
+        size: Of the person.
+    """
+    seen = math.dist(*forearm) * depth / size.length("forearm")[0]
+    return seen if math.isfinite(seen) else 1.0
 
 
 def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
@@ -201,7 +224,7 @@ def _behind_the_head(depth: FloatArray, sigma: FloatArray) -> BoolArray:
     replaced = np.zeros(_N, dtype=bool)
     known = depth[_HEAD][np.isfinite(depth[_HEAD])]
     if len(known):
-        head = float(np.median(known))
+        head = median(known)
         with np.errstate(invalid="ignore"):
             hidden = _SHOULDERS[depth[_SHOULDERS] < head - _BEFORE_HEAD]
         depth[hidden], sigma[hidden], replaced[hidden] = head + _BEHIND_HEAD, _BEHIND_HEAD_SIGMA, True

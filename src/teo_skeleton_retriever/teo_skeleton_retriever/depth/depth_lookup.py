@@ -195,15 +195,11 @@ class DepthLookup:
         solid &= sizes > 0
         rank = np.cumsum(solid, axis=1) * solid
         found = _nothing(n)
-        for layer in range(_LAYERS):
-            rows, chosen = np.nonzero(rank == layer + 1)
-            if not len(rows):
-                break
-            member = (labels[rows] == chosen[:, None]) & known[rows]
-            found.depth[rows, layer], found.sigma[rows, layer] = self._sample(
-                values[rows], order[rows], member
-            )
-            found.support[rows, layer] = sizes[rows, chosen] / total[rows, 0]
+        rows, chosen = np.nonzero(solid & (rank <= _LAYERS))
+        layer = rank[rows, chosen] - 1
+        member = (labels[rows] == chosen[:, None]) & known[rows]
+        found.depth[rows, layer], found.sigma[rows, layer] = self._sample(values[rows], order[rows], member)
+        found.support[rows, layer] = sizes[rows, chosen] / total[rows, 0]
         return found
 
     def _disc(self, depth: DepthArray, pixels: FloatArray, radii: FloatArray) -> FloatArray:

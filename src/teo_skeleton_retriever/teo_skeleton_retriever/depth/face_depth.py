@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 
 _HEAD = 0.13  # [m] from the nose's tip to the ear: nothing of a face is farther from its middle
@@ -46,13 +46,13 @@ def face_depths(rays: FloatArray, surfaces: Surfaces, expected: float) -> FaceDe
     usable = np.isfinite(rays).all(axis=1) & np.isfinite(nearest.depth)
     if usable.sum() < _LEAST:
         return unknown
-    middle = float(np.median(nearest.depth[usable]))
+    middle = median(nearest.depth[usable])
     if np.isfinite(expected) and abs(middle - expected) > _HEAD:
         middle = expected
     usable &= np.abs(nearest.depth - middle) < _HEAD
     if usable.sum() < _LEAST:
         return unknown
-    centre = np.nanmean(rays[usable], axis=0)
+    centre = rays[usable].mean(axis=0)
     seen: BoolArray = np.asarray(np.isfinite(rays).all(axis=1))
     x, y = np.where(seen[:, None], (rays - centre) * middle / 0.1, 0.0).T  # about -1 to 1 on a face
     terms = np.column_stack([np.ones(n), x, y, x * x, x * y, y * y])

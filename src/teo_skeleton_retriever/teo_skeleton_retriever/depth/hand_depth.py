@@ -126,7 +126,7 @@ def _start(hand: HandView, radius: FloatArray, lengths: FloatArray) -> _Start | 
     if hand.world is not None:
         bones, step_sigma = imagined_bones(hand.world, lengths), _STEP_SIGMA
     # The detector sees a crop around the hand as if the camera looked straight at it: its z runs along this.
-    towards = np.append(np.nanmean(hand.rays, axis=0), 1.0)
+    towards = np.append(hand.rays[seen].mean(axis=0), 1.0)
     steps = bones @ _turned_axis(towards / np.linalg.norm(towards))
     offsets = np.append(0.0, np.cumsum(steps.reshape(5, 4), axis=1).ravel())
     wrist = _wrist_depth(hand, radius, offsets)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_skeleton_retriever.arrays import BoolArray, FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.layouts.person_layout import ROW
 
@@ -63,7 +63,8 @@ def head_depths(
     known = np.isfinite(votes)
     votes, weights = votes[known], weights[known]
     was = expected - _BEHIND_EYES
-    last = float(np.median(was[np.isfinite(was)])) if np.isfinite(was).any() else float("nan")
+    was = was[np.isfinite(was)]
+    last = median(was) if len(was) else float("nan")
     eyes = _agreed(votes, weights, neck - _BEFORE_NECK, last)
     if not np.isfinite(eyes):
         eyes = last if np.isfinite(last) else neck - _BEFORE_NECK

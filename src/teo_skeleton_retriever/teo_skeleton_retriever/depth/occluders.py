@@ -16,6 +16,9 @@ from teo_skeleton_retriever.layouts.person_layout import ARMS, N
 _FOREARM, _HAND = 0.045, 0.055  # [m] half a forearm's breadth, half a palm's with the thumb
 _STEPS = np.linspace(0.0, 1.0, 6)  # a forearm is covered by discs 5 cm apart, a hand by those 2 cm apart
 _CLEAR = 0.02  # [m] where arms cross, both seem as near: the one that is nearer by this hides the other
+# [m] The same of a joint's own limb: nearer, it is the joint's own skin that is seen. A forearm that points
+# at the camera is so far before its elbow where the camera sees the forearm's skin and no more the elbow's.
+_OWN_FOREARM_CLEAR, _OWN_HAND_CLEAR = 0.07, 0.09
 _SKIN = 0.03  # [m] from the axis of a forearm or hand to the skin before it
 _THICKNESS = 0.05  # [m] depths so near to that skin are of the same arm
 _LIKE_A_HAND = 0.4  # of the forearm's length, to the middle of the hand: where no hand is seen it is ahead
@@ -31,6 +34,8 @@ class Occluders(NamedTuple):
     """[m]. Shape (k,)"""
     owner: FloatArray
     """row of the body's joint that each begins at: elbow, or wrist. Shape (k,)"""
+    own_clear: FloatArray
+    """how far before a joint of the same arm each hides it [m]. Shape (k,)"""
 
     def before(self, rays: FloatArray, depth: FloatArray, own: BoolArray | None = None) -> FloatArray:
         """Give the depth of the nearest that lies before each joint [m]; NaN where none does. Shape (n,).
@@ -42,10 +47,9 @@ class Occluders(NamedTuple):
         """
         nearest = np.full(len(rays), np.nan)
         hides = self._on(rays)
-        if own is not None:
-            hides &= ~own
+        clear = _CLEAR if own is None else np.where(own, self.own_clear, _CLEAR)
         with np.errstate(invalid="ignore"):
-            hides &= self.points[:, 2] < depth[:, None] - _CLEAR
+            hides &= self.points[:, 2] < depth[:, None] - clear
         hidden = hides.any(axis=1)
         nearest[hidden] = np.where(hides[hidden], self.points[:, 2], np.inf).min(axis=1, initial=np.inf)
         return nearest
@@ -95,7 +99,7 @@ def occluders(body: FloatArray, hands: dict[str, FloatArray]) -> Occluders:
         body: Joints in space [m]; NaN where not known. Shape (25, 3).
         hands: Keypoints of the left ("L") and right ("R") hand, of those that are seen [m]. Shape (21, 3).
     """
-    points, radius, owner = [np.zeros((0, 3))], [np.zeros(0)], [np.zeros(0)]
+    points, radius, owner, own_clear = [np.zeros((0, 3))], [np.zeros(0)], [np.zeros(0)], [np.zeros(0)]
 
     def add(start: FloatArray, end: FloatArray, half: float, row: int) -> None:
         line = start + _STEPS[:, None] * (end - start)
@@ -103,6 +107,7 @@ def occluders(body: FloatArray, hands: dict[str, FloatArray]) -> Occluders:
             points.append(line)
             radius.append(np.full(len(line), half))
             owner.append(np.full(len(line), row))
+            own_clear.append(np.full(len(line), _OWN_FOREARM_CLEAR if half == _FOREARM else _OWN_HAND_CLEAR))
 
     for side, (_, elbow, wrist) in ARMS.items():
         add(body[elbow], body[wrist], _FOREARM, elbow)
@@ -113,4 +118,4 @@ def occluders(body: FloatArray, hands: dict[str, FloatArray]) -> Occluders:
         knuckle, tip = hand[_MIDDLE]
         add(hand[0], knuckle, _HAND, wrist)
         add(knuckle, tip, _HAND, wrist)
-    return Occluders(np.concatenate(points), np.concatenate(radius), np.concatenate(owner))
+    return Occluders(*(np.concatenate(parts) for parts in (points, radius, owner, own_clear)))

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +44,31 @@ class Detector(Protocol):
 
     def close(self) -> None:
         """Release what it holds; a second call does nothing."""
+
+
+@runtime_checkable
+class LimitedDetector(Protocol):
+    """A detector that follows so many people at most, and knows of those whom it leaves out."""
+
+    @property
+    def people_left_out(self) -> int:
+        """How many more it sees than it follows, as far as it has looked."""
+
+
+def people_left_out(detector: Detector) -> int:
+    """How many more people a detector sees than it follows; 0 if it has no limit."""
+    return detector.people_left_out if isinstance(detector, LimitedDetector) else 0
+
+
+def left_out_sentence(count: int) -> str:
+    """Say that people are left out, and what to do; empty if none are."""
+    if not count:
+        return ""
+    people = "1 more person is" if count == 1 else f"{count} more people are"
+    return (
+        f"{people} seen than the detector follows: those who came first are followed, which need not be the "
+        "nearest; let fewer into the image, or take a detector without a limit (openpose_json, openpose_onnx)"
+    )
 
 
 def check_image(image: ImageArray, stamp: float) -> None:

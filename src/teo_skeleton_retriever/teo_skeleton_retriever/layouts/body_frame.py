@@ -80,12 +80,17 @@ def body_frame(
     lengths = float(np.linalg.norm(across)) * float(np.linalg.norm(trunk))
     if not np.isfinite(lengths) or lengths == 0.0:
         return None
-    forward = np.cross(across, trunk)
+    forward = _cross(across, trunk)
     if np.linalg.norm(forward) < _MIN_SINE * lengths:
         return None
     x = forward / np.linalg.norm(forward)
     y = across / np.linalg.norm(across)
-    rotation = np.column_stack([x, y, np.cross(x, y)])
+    rotation = np.column_stack([x, y, _cross(x, y)])
     return BodyFrame(
         hips if anchored and hips is not None else chest, rotation, "hips" if anchored else "shoulders"
     )
+
+
+def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Vector product; numpy's takes ten times as long for two vectors."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from teo_common.diagnostics import Diagnosis, Level
+from teo_skeleton_retriever.detectors.detector import left_out_sentence
 from teo_skeleton_retriever.empty_space import depth_fault
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.node.stream_stats import Percentiles, StreamReport
@@ -47,6 +48,8 @@ def assess(report: StreamReport, topics: dict[str, str], problem: Problem | None
     elif fault := depth_fault(report.depth_share, report.depth_median):
         code = "wrong_depth" if report.depth_share else "no_depth_measured"
         level, message = Level.WARN, f"{code}: {fault}"
+    elif told := left_out_sentence(report.people_left_out):
+        level, message = Level.WARN, f"too_many_people: {told}"
     elif report.rates["results"] < _SLOW * report.rates["color"]:
         level = Level.WARN
         message = (
@@ -68,6 +71,7 @@ def _values(report: StreamReport) -> dict[str, str]:
     values |= {
         "results": str(report.results),
         "people": str(report.people),
+        "people left out": str(report.people_left_out),
         "signer": "" if report.signer is None else str(report.signer),
         "depth known [%]": f"{100.0 * report.depth_share:.0f}",
         "median depth [m]": f"{report.depth_median:.2f}",

@@ -237,6 +237,7 @@ class RetrieverNode(Node):
                 depth_share=result.depth_share,
                 depth_median=result.depth_median,
                 signer=next((s.track_id for s in result.skeletons if s.is_signer), None),
+                people_left_out=result.people_left_out,
             )
         )
 

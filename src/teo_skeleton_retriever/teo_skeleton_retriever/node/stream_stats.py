@@ -39,6 +39,7 @@ class StreamReport:
         depth_share: Part of its pixels with a depth, 0 to 1; NaN before the first.
         depth_median: Of its depths [m]; NaN if it has none.
         signer: Id of its signer, None if there is none.
+        people_left_out: How many more people the detector sees than it follows.
     """
 
     rates: dict[str, float]
@@ -53,6 +54,7 @@ class StreamReport:
     depth_share: float
     depth_median: float
     signer: int | None
+    people_left_out: int
 
 
 class Result(NamedTuple):
@@ -67,6 +69,7 @@ class Result(NamedTuple):
     depth_share: float
     depth_median: float
     signer: int | None
+    people_left_out: int = 0
 
 
 class StreamStats:
@@ -124,6 +127,7 @@ class StreamStats:
             depth_share=last.depth_share if last else float("nan"),
             depth_median=last.depth_median if last else float("nan"),
             signer=last.signer if last else None,
+            people_left_out=last.people_left_out if last else 0,
         )
 
 

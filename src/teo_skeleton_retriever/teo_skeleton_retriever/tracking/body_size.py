@@ -109,20 +109,26 @@ _LIMBS: dict[str, tuple[tuple[str, str], ...]] = {
     "thigh": (("RHip", "RKnee"), ("LHip", "LKnee")),
     "shank": (("RKnee", "RAnkle"), ("LKnee", "LAnkle")),
 }
-# [m] Of an adult, between the joints. The first three by the 27 people of `bench/accuracy/tuning.py`; limbs
-# of 1.7 m after Drillis and Contini, "Body Segment Parameters" (1966): 0.29, 0.25, 0.42 and 0.42.
-_AVERAGE = {"shoulders": 0.36, "upper arm": 0.274, "forearm": 0.236, "thigh": 0.42, "shank": 0.42}
+# [m] Of an adult, between the joints, by the 27 people of `bench/accuracy/tuning.py`. Limbs of 1.7 m after
+# Drillis and Contini, "Body Segment Parameters" (1966): 0.29 and 0.25.
+_AVERAGE = {"shoulders": 0.36, "upper arm": 0.274, "forearm": 0.236}
 # Power of the shoulders' width that a limb grows with: broad shoulders are not long arms.
-_GROWTH = {"upper arm": 0.4, "forearm": 0.8, "thigh": 0.5, "shank": 0.5}
-_ASSUMED = 5.0  # lengths seen across the view that outweigh what is assumed of a person: a third of a second
+_GROWTH = {"upper arm": 0.4, "forearm": 0.8}
+# [m] How far a limb's length is from that of average people with such shoulders: of these people 10 and 15
+# mm, but with 0.016 and 0.02 the elbows of bodies built otherwise came out 2 mm worse.
+_SPREAD = {"upper arm": 0.03, "forearm": 0.03}
+# [m] How far the length that is measured is off however often it is, as a detector errs for a person in the
+# same way. MediaPipe guesses the elbows of forearms that point at the camera: 16 and 10 mm for these people.
+_OFF = 0.005
+_MEDIAPIPE_OFF = {"upper arm": 0.018, "forearm": 0.012}
+_SINGLE_OFF = 0.04  # [m] and how far a single length is
 _HAND = (1.04, 0.7)  # size of a hand of someone of average shoulders, and the power that it grows with
 # Power of the width that MediaPipe sees that the shoulders' width grows with: to the network everybody is
 # rather average. Of the 27 people, whose shoulders were 0.28 to 0.44 m wide, it saw 0.31 to 0.405 m.
 _REGRESSION = 1.4
-# Of the shoulders: the first width tells more than nothing, which `_ASSUMED` weighs.
+# Of the shoulders: the first width tells more than nothing, which `_ASSUMED_WIDTH` weighs.
 _FIRST = LimbLengthSettings(min_samples=1)
-_ASSUMED_WIDTH = 1.5  # likewise of the shoulders, which are nearly always seen across the view
-_LENGTH_SIGMA = (0.010, 0.04)  # [m] of a limb whose length was measured, and of one that was not
+_ASSUMED_WIDTH = 1.5  # widths seen across the view that outweigh what is assumed of a person
 _SCALE_RANGE = (0.55, 1.35)  # a child of six; a man of 2.1 m with broad shoulders
 
 _ROWS = {limb: [(BODY_25.index[a], BODY_25.index[b]) for a, b in pairs] for limb, pairs in _LIMBS.items()}
@@ -147,6 +153,7 @@ class BodySize:
         """
         self._lengths = {limb: LimbLength(_FIRST if limb == "shoulders" else None) for limb in _LIMBS}
         self._power = _REGRESSION if averaging else 1.0
+        self._off = _MEDIAPIPE_OFF if averaging else dict.fromkeys(_GROWTH, _OFF)
         self._seen_scale = 1.0
 
     def step(self, points: FloatArray) -> None:
@@ -169,7 +176,8 @@ class BodySize:
     @property
     def scale(self) -> float:
         """Size against an average adult, by the shoulders; 1 while nothing is known."""
-        return float(np.clip(self._seen_scale**self._power, *_SCALE_RANGE))
+        smallest, largest = _SCALE_RANGE
+        return min(max(math.pow(self._seen_scale, self._power), smallest), largest)
 
     @property
     def hand_scale(self) -> float:
@@ -190,14 +198,18 @@ class BodySize:
         return seen
 
     def length(self, limb: str) -> tuple[float, float]:
-        """Give a limb's length and its sigma [m]: by proportion to the shoulders while little was seen."""
+        """Give the length of "upper arm" or "forearm" and its sigma [m].
+
+        What is measured and what goes with such shoulders are averaged, each by how far it may be off.
+        """
         assumed = _AVERAGE[limb] * self.scale ** _GROWTH[limb]
         value, weight = self._lengths[limb].value, self._lengths[limb].weight
         if value is None:
-            return assumed, _LENGTH_SIGMA[1]
-        share = weight / (weight + _ASSUMED)
-        sigma = share * _LENGTH_SIGMA[0] + (1.0 - share) * _LENGTH_SIGMA[1]
-        return share * value + (1.0 - share) * assumed, sigma
+            return assumed, _SPREAD[limb]
+        spread = _SPREAD[limb] ** 2
+        off = self._off[limb] ** 2 + _SINGLE_OFF**2 / weight
+        share = spread / (spread + off)
+        return share * value + (1.0 - share) * assumed, math.sqrt(share * off)
 
     def too_long(self, limb: str, length: float) -> bool:
         """Whether a length [m] exceeds the estimate by more than the tolerance; False without one."""

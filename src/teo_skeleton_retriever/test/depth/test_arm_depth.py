@@ -37,6 +37,7 @@ def arm(points: np.ndarray, **changes: Any) -> Arm:
     seen = Arm(
         rays=points[:, :2] / points[:, 2:],
         across=np.array([0.005, 0.005, 0.005]),
+        elbow_along=0.005,
         measured=points[:, 2].copy(),
         sigma=np.full(3, 0.008),
         certain=np.zeros(3, dtype=bool),
@@ -54,10 +55,36 @@ SIGNING = joints((0.3, 1.3), (-0.6, -0.2))  # the forearm comes forward and in
 
 @pytest.mark.parametrize("points", [HANGING, SIGNING])
 def test_an_arm_that_is_seen_stays_where_it_is(points: np.ndarray) -> None:
-    solution = SOLVER.solve(arm(points))
+    (solution,) = SOLVER.solve([arm(points)])
     assert solution is not None
     np.testing.assert_allclose(solution.points, points, atol=1e-4)
     assert not solution.hidden.any()
+
+
+def test_arms_are_solved_together_as_each_alone() -> None:
+    behind = SIGNING[:, 2].copy()
+    behind[1] -= 0.15
+    arms = [arm(HANGING), arm(SIGNING, measured=behind), arm(SIGNING, rays=np.full((3, 2), math.nan))]
+    together = SOLVER.solve(arms)
+    for one, solution in zip(arms, together, strict=True):
+        (alone,) = SOLVER.solve([one])
+        assert (alone is None) == (solution is None)
+        if alone is not None and solution is not None:
+            np.testing.assert_allclose(solution.points, alone.points, atol=1e-9)
+
+
+def test_an_elbow_that_may_be_short_along_the_upper_arm_is_put_right_along_it() -> None:
+    points = joints((math.pi / 2, 0.6), (-0.2, -0.1))  # the upper arm across the view, the forearm pointing
+    upper_arm = points[1] - points[0]
+    short = points.copy()
+    short[1] -= 0.25 * upper_arm
+    rays = short[:, :2] / short[:, 2:]
+    (even,) = SOLVER.solve([arm(points, rays=rays, across=np.array([0.005, 0.02, 0.005]), elbow_along=0.02)])
+    (along,) = SOLVER.solve([arm(points, rays=rays, across=np.array([0.005, 0.02, 0.005]), elbow_along=0.06)])
+    assert even is not None
+    assert along is not None
+    off = [float(np.linalg.norm(solution.points[1] - points[1])) for solution in (even, along)]
+    assert off[1] < 0.7 * off[0]
 
 
 def test_noise_of_depth_is_evened_out_by_the_lengths() -> None:
@@ -65,7 +92,7 @@ def test_noise_of_depth_is_evened_out_by_the_lengths() -> None:
     before, after = [], []
     for _ in range(100):
         noisy = SIGNING[:, 2] + random.normal(0.0, 0.02, 3)
-        solution = SOLVER.solve(arm(SIGNING, measured=noisy, sigma=np.full(3, 0.02)))
+        (solution,) = SOLVER.solve([arm(SIGNING, measured=noisy, sigma=np.full(3, 0.02))])
         assert solution is not None
         before.append(noisy - SIGNING[:, 2])
         after.append(solution.points[:, 2] - SIGNING[:, 2])
@@ -75,7 +102,7 @@ def test_noise_of_depth_is_evened_out_by_the_lengths() -> None:
 def test_an_elbow_behind_a_hand_is_found_behind_it() -> None:
     measured = SIGNING[:, 2].copy()
     measured[1] -= 0.15
-    solution = SOLVER.solve(arm(SIGNING, measured=measured))
+    (solution,) = SOLVER.solve([arm(SIGNING, measured=measured)])
     assert solution is not None
     assert solution.hidden.tolist() == [False, True, False]
     assert np.linalg.norm(solution.points[1] - SIGNING[1]) < 0.02
@@ -85,7 +112,9 @@ def test_a_wrist_behind_the_other_arm_is_found_behind_it() -> None:
     measured = HANGING[:, 2].copy()
     measured[2] -= 0.12
     before = HANGING[:, 2] + [0.0, 0.01, -0.02]
-    solution = SOLVER.solve(arm(HANGING, measured=measured, expected=before, expected_sigma=np.full(3, 0.05)))
+    (solution,) = SOLVER.solve(
+        [arm(HANGING, measured=measured, expected=before, expected_sigma=np.full(3, 0.05))]
+    )
     assert solution is not None
     assert solution.hidden.tolist() == [False, False, True]
     assert np.linalg.norm(solution.points[2] - HANGING[2]) < 0.03
@@ -95,7 +124,7 @@ def test_a_wrist_whose_hand_was_measured_is_not_taken_for_hidden() -> None:
     measured = HANGING[:, 2].copy()
     measured[2] -= 0.12
     certain = np.array([False, False, True])
-    solution = SOLVER.solve(arm(HANGING, measured=measured, certain=certain))
+    (solution,) = SOLVER.solve([arm(HANGING, measured=measured, certain=certain)])
     assert solution is not None
     assert not solution.hidden[2]
 
@@ -103,7 +132,7 @@ def test_a_wrist_whose_hand_was_measured_is_not_taken_for_hidden() -> None:
 def test_an_elbow_beside_its_joint_in_the_image_is_put_right_by_the_lengths() -> None:
     rays = HANGING[:, :2] / HANGING[:, 2:]
     rays[1, 1] -= 0.05 / HANGING[1, 2]  # 5 cm too high, along the upper arm
-    solution = SOLVER.solve(arm(HANGING, rays=rays, across=np.array([0.005, 0.04, 0.005])))
+    (solution,) = SOLVER.solve([arm(HANGING, rays=rays, across=np.array([0.005, 0.04, 0.005]))])
     assert solution is not None
     assert np.linalg.norm(solution.points[1] - HANGING[1]) < 0.025
 
@@ -116,7 +145,7 @@ def test_the_elbow_that_would_bend_too_far_is_not_taken() -> None:
     assert math.radians(20) < math.pi - angle < MAX_FLEXION
     measured = folded[:, 2].copy()
     measured[1] = math.nan
-    solution = SOLVER.solve(arm(folded, measured=measured, sigma=np.array([0.008, math.nan, 0.008])))
+    (solution,) = SOLVER.solve([arm(folded, measured=measured, sigma=np.array([0.008, math.nan, 0.008]))])
     assert solution is not None
     found = np.diff(solution.points, axis=0)
     cosine = float(-found[0] @ found[1]) / float(np.prod(np.linalg.norm(found, axis=1)))
@@ -126,13 +155,13 @@ def test_the_elbow_that_would_bend_too_far_is_not_taken() -> None:
 def test_a_shoulder_of_unknown_depth_leaves_nothing_to_hang_an_arm_from() -> None:
     measured = SIGNING[:, 2].copy()
     measured[0] = math.nan
-    assert SOLVER.solve(arm(SIGNING, measured=measured)) is None
+    assert SOLVER.solve([arm(SIGNING, measured=measured)]) == [None]
 
 
 def test_a_joint_that_the_detector_does_not_see_is_not_solved() -> None:
     rays = SIGNING[:, :2] / SIGNING[:, 2:]
     rays[1] = math.nan
-    assert SOLVER.solve(arm(SIGNING, rays=rays)) is None
+    assert SOLVER.solve([arm(SIGNING, rays=rays)]) == [None]
 
 
 angles = st.tuples(st.floats(-1.2, 1.2), st.floats(-1.2, 1.4))
@@ -148,8 +177,8 @@ def test_a_hidden_elbow_is_found_where_images_before_had_it(
     assume(float(-limbs[0] @ limbs[1]) / float(np.prod(LENGTHS)) < math.cos(math.pi - MAX_FLEXION))
     measured = points[:, 2].copy()
     measured[1] -= before_it
-    solution = SOLVER.solve(
-        arm(points, measured=measured, expected=points[:, 2], expected_sigma=np.full(3, 0.03))
+    (solution,) = SOLVER.solve(
+        [arm(points, measured=measured, expected=points[:, 2], expected_sigma=np.full(3, 0.03))]
     )
     assert solution is not None
     lengths = np.linalg.norm(np.diff(solution.points, axis=0), axis=1)

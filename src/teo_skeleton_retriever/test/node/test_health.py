@@ -69,6 +69,12 @@ def test_what_is_wrong_is_told():
         )
 
 
+def test_people_whom_the_detector_has_no_place_for_are_told():
+    health = assess(streaming(10.0, people=4, people_left_out=2).report(10.0), TOPICS, None)
+    assert (health.level, health.values["people left out"]) == (Level.WARN, "2")
+    assert health.message.startswith("too_many_people: 2 more people are seen")
+
+
 def test_a_problem_is_told_before_anything_else_and_a_fault_of_its_own_is_an_error():
     report = streaming(10.0).report(10.0)
     told = assess(report, TOPICS, Problem.of(DepthError("wrong_length", "expected more")))

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from capsule_person import FOREARM, SHOULDERS, UPPER_ARM, pose
+from capsule_person import FOREARM, ROW, SHOULDERS, UPPER_ARM, pose
 
 from teo_skeleton_retriever.tracking.body_size import BodySize, widened
 
@@ -30,7 +30,20 @@ def test_lengths_are_those_of_the_person(size: float) -> None:
 
 def test_before_anything_is_seen_a_person_is_average_and_that_is_uncertain() -> None:
     assert BodySize().scale == 1.0
-    assert BodySize().length("forearm")[1] > 3 * seen(1.0).length("forearm")[1]
+    assert BodySize().length("forearm")[1] > 2 * seen(1.0).length("forearm")[1]
+
+
+def test_arms_that_a_detector_sees_short_for_minutes_are_not_believed_to_be() -> None:
+    body = pose((-0.5, 0.2, -0.1), (0.5, 0.2, -0.1), size=1.0).body
+    for side in "RL":
+        shoulder, elbow = body[ROW[f"{side}Shoulder"]], body[ROW[f"{side}Elbow"]]
+        elbow += 0.4 * (shoulder - elbow)
+    estimate = BodySize(averaging=True)
+    for _ in range(600):
+        estimate.step(body)
+    length, sigma = estimate.length("upper arm")
+    assert length > 0.65 * UPPER_ARM
+    assert sigma > 0.01
 
 
 def test_a_forearm_that_was_never_seen_grows_with_the_shoulders() -> None:

@@ -23,8 +23,8 @@ export function camera({ t, notify }, { onFilm, bags = false }) {
   preview.muted = true;
   const count = h("p", { class: "count", role: "status" });
   const frame = h("div", { class: "viewfinder", hidden: true }, preview, count);
-  const start = h("button", { type: "button", class: "primary", on: { click: open } }, t("camera.start"));
-  const record = h("button", { type: "button", class: "primary", hidden: true, on: { click: film } }, t("camera.record"));
+  const start = h("button", { type: "button", class: "primary", id: "camera-start", on: { click: open } }, t("camera.start"));
+  const record = h("button", { type: "button", class: "primary", id: "camera-record", hidden: true, on: { click: film } }, t("camera.record"));
   const seconds = h("select", { "aria-label": t("camera.seconds") }, ...SECONDS.map((each) => h("option", { value: String(each) }, t("camera.for", { seconds: each }))));
   const file = h("input", { type: "file", accept: bags ? "video/*,.mcap" : "video/*", class: "visually-hidden", id: "film-file" });
   const choose = h("label", { class: "button", for: "film-file" }, t(bags ? "camera.file_or_bag" : "camera.file"));

@@ -25,7 +25,7 @@ export async function questions(element, context, series) {
   async function start(event) {
     event.preventDefault();
     settings.set("reviewer", reviewer());
-    begin.hidden = true;
+    begin.remove();
     body.hidden = false;
     view ??= await robotView(stage);
     await next();

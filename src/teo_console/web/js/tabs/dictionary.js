@@ -26,7 +26,7 @@ export async function mount(element, context) {
 function search({ t }, signs, show) {
   const word = h("input", { type: "text", id: "search-word", autocomplete: "off", spellcheck: "false" });
   const hand = select("search-hand", [["", t("dictionary.any")], ...[...new Set(signs.flatMap(({ handshapes }) => handshapes))].sort().map((name) => [name, name])]);
-  const standing = select("search-standing", [["", t("dictionary.any")], ...["reviewed", "recorded", "measured", "described", "sketched"].map((name) => [name, t(`standing.${name}`)])]);
+  const standing = select("search-standing", [["", t("dictionary.any")], ...["reviewed", "recorded", "measured", "described", "sketched"].map((name) => [name, t(`evidence.${name}`)])]);
   const kind = select("search-kind", [["", t("dictionary.any")], ...["lexical", "letter", "number"].map((name) => [name, t(`kind.${name}`)])]);
   const count = h("p", { role: "status", class: "faint" });
   const list = h("ul", { class: "words", "aria-label": t("dictionary.results") });
@@ -59,7 +59,7 @@ function card({ socket, api, t, attempt, robotView }) {
     const film = h("div", {});
     const name = sign.gloss.replaceAll("_", " ");
     const facts = [
-      ["dictionary.standing", t(`standing.${sign.standing}`)], ["dictionary.source", sign.source], ["dictionary.licence", sign.licence],
+      ["dictionary.standing", t(`evidence.${sign.standing}`)], ["dictionary.source", sign.source], ["dictionary.licence", sign.licence],
       ["dictionary.hands", t(`hands.${sign.handedness}`)], ["dictionary.handshapes", sign.handshapes.join(", ") || "–"],
       ["dictionary.duration", t("dictionary.seconds", { seconds: sign.duration.toFixed(1) })],
     ];
@@ -77,7 +77,7 @@ function card({ socket, api, t, attempt, robotView }) {
         h("a", { class: "button", href: `#practise/${encodeURIComponent(sign.gloss)}` }, t("dictionary.practise"))),
       progress.element, film,
       h("dl", {}, ...facts.flatMap(([key, value]) => [h("dt", {}, t(key)), h("dd", {}, value)])),
-      h("p", { class: "faint" }, t(`standing.${sign.standing}.means`)),
+      h("p", { class: "faint" }, t(`evidence.${sign.standing}.means`)),
     );
     element.querySelector("h2").focus();
     view = await robotView(stage);
@@ -95,7 +95,7 @@ function coverage({ api, t, attempt }) {
     event.preventDefault();
     await attempt(async () => {
       const told = await progress.finish(await api.post("/api/coverage", { text: text.value }));
-      const words = Object.entries(told.showings).map(([how, count]) => h("li", {}, `${has(`coverage.${how}`) ? t(`coverage.${how}`) : how}: ${count}`));
+      const words = Object.entries(told.showings).filter(([, count]) => count > 0).map(([how, count]) => h("li", {}, `${has(`coverage.${how}`) ? t(`coverage.${how}`) : how}: ${count}`));
       const missing = Object.entries(told.missing).sort(([, a], [, b]) => b - a).slice(0, MOST_WANTED);
       const wanted = missing.map(([gloss, count]) => h("li", {}, h("a", { href: `#teach/${encodeURIComponent(gloss)}` }, gloss), ` · ${count}`));
       result.replaceChildren(

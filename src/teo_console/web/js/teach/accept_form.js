@@ -40,7 +40,7 @@ export function acceptForm(context, { gloss, hands, exists, failed, recording, p
       await api.delete(`/api/recordings/${recording}`);
       const sign = () => attempt(() => socket.ask("sign_glosses", { glosses: [gloss] }));
       form.replaceChildren(
-        h("p", { role: "status", id: "accepted" }, t("teach.accepted", { name, standing: t(`standing.${told.standing}`) })),
+        h("p", { role: "status", id: "accepted" }, t("teach.accepted", { name, standing: t(`evidence.${told.standing}`) })),
         h("div", { class: "row" }, h("button", { type: "button", class: "primary", on: { click: sign } }, t("teach.sign_it")), redo),
       );
       form.querySelector("button").focus();

@@ -61,5 +61,5 @@ const ALIKE = 2;
 
 function similar(t, signs) {
   if (!signs.length) return h("p", {}, t("teach.similar.none"));
-  return h("ul", { class: "plain" }, ...signs.map(({ gloss, seen }) => h("li", {}, h("strong", {}, gloss.replaceAll("_", " ")), ` · ${t(seen < ALIKE ? "teach.similar.alike" : "teach.similar.apart", { seen: seen.toFixed(1) })}`)));
+  return h("ul", { class: "plain similar" }, ...signs.map(({ gloss, seen }) => h("li", {}, h("strong", {}, gloss.replaceAll("_", " ")), ` · ${t(seen < ALIKE ? "teach.similar.alike" : "teach.similar.apart", { seen: seen.toFixed(1) })}`)));
 }

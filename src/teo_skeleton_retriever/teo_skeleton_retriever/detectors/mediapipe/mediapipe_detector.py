@@ -93,6 +93,12 @@ class MediaPipeDetector:
             raise
         return tuple(_person(landmarks, image) for landmarks in found)
 
+    @property
+    def people_left_out(self) -> int:
+        """How many more are seen than `MOST_PEOPLE`, which are followed; who asks for fewer is not told."""
+        follower = self._follower
+        return follower.left_out if follower is not None else 0
+
     def close(self) -> None:
         """Stop, when the images at hand are done."""
         follower, self._follower = self._follower, None
@@ -100,7 +106,8 @@ class MediaPipeDetector:
             follower.close()
 
     def _make_follower(self) -> PeopleFollower:
-        return PeopleFollower(self._make_graph, self._make_finder(), self._people)
+        counts_more = self._people == MOST_PEOPLE
+        return PeopleFollower(self._make_graph, self._make_finder(), self._people, counts_more=counts_more)
 
 
 def _in_unit_range(name: str, value: float) -> float:

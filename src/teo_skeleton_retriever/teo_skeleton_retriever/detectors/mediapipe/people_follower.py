@@ -28,23 +28,39 @@ _SAME = 0.3
 class PeopleFollower:
     """Follows up to some people from image to image. May be used by several threads, each with an image."""
 
-    def __init__(self, make_graph: Callable[[], HolisticGraph], finder: PeopleGraph, most: int) -> None:
+    def __init__(
+        self,
+        make_graph: Callable[[], HolisticGraph],
+        finder: PeopleGraph,
+        most: int,
+        *,
+        counts_more: bool = False,
+    ) -> None:
         """Know nobody yet.
 
         Args:
             make_graph: Makes what follows one person; called as people come.
             finder: Tells who is there.
             most: People who are followed at once.
+            counts_more: Whether to go on looking for more people than these, for `left_out`.
         """
         self._make_graph = make_graph
         self._finder = finder
         self._most = most
+        self._counts_more = counts_more
+        self._more: dict[str, tuple[int, int]] = {}  # by view, in its last two glances
         self._order = threading.Lock()
         self._looking = threading.Lock()
         self._followed: dict[HolisticGraph, FloatArray] = {}  # the pose that each last saw
         self._spare = [make_graph()]  # at once, as it takes a while
         self._images = 0
         self._closed = False
+
+    @property
+    def left_out(self) -> int:
+        """People who are seen and not followed; those of two glances, as one may be mistaken."""
+        with self._looking:
+            return max((min(counts) for counts in self._more.values()), default=0)
 
     def follow(self, image: ImageArray) -> list[HolisticLandmarks]:
         """Look at one image; give everybody who is found in it.
@@ -72,9 +88,10 @@ class PeopleFollower:
         if len(seen) < len(begun) or not seen:  # somebody was lost, or nobody was there
             views = VIEWS
         for view in views:
-            if len(seen) < self._most:
+            if len(seen) < self._most or self._counts_more:
                 with self._looking:
-                    self._look(image, view, seen)
+                    more = self._look(image, view, seen)
+                    self._more[view] = (self._more.get(view, (0, 0))[1], more)
         return list(seen.values())
 
     def close(self) -> None:
@@ -87,14 +104,16 @@ class PeopleFollower:
         with self._looking:
             self._finder.close()
 
-    def _look(self, image: ImageArray, view: str, seen: dict[HolisticGraph, HolisticLandmarks]) -> None:
-        """Add to those who are seen whom the finder sees besides."""
+    def _look(self, image: ImageArray, view: str, seen: dict[HolisticGraph, HolisticLandmarks]) -> int:
+        """Add to those who are seen whom the finder sees besides; give how many there is no place for."""
         height, width = image.shape[:2]
+        more = 0
         for sighting in self._finder.find(image, view):
-            if len(seen) >= self._most:
-                return
             poses = [landmarks.pose for landmarks in seen.values() if landmarks.pose is not None]
             if any(sighting.is_of(pose, width=width, height=height) for pose in poses):
+                continue
+            if len(seen) >= self._most:
+                more += 1
                 continue
             graph = self._graph_for(sighting, seen, width, height)
             landmarks = graph.finish(graph.begin(image, sighting.region))
@@ -102,6 +121,7 @@ class PeopleFollower:
                 self._keep(graph, landmarks, seen)
             else:
                 self._drop(graph)
+        return more
 
     def _graph_for(
         self, sighting: Sighting, seen: dict[HolisticGraph, HolisticLandmarks], width: int, height: int

@@ -5,7 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, extra_hand_sigma
+from teo_skeleton_retriever.detectors.mediapipe.calibration import (
+    body_sigma,
+    elbow_sigma,
+    extra_hand_sigma,
+)
 from teo_skeleton_retriever.layouts.layout import BODY_25
 
 ROW = BODY_25.index
@@ -15,16 +19,27 @@ def at(confidence: float) -> np.ndarray:
     return body_sigma(np.full(25, 0.012), np.full(25, confidence))
 
 
-def test_an_elbow_is_farther_off_the_less_the_detector_is_sure_of_it() -> None:
-    sigmas = [at(confidence)[ROW["RElbow"]] for confidence in (1.0, 0.999, 0.99, 0.98, 0.95, 0.9, 0.5)]
+ACROSS, POINTED = 1.0, 0.4  # parts of a forearm's length that are seen
+
+
+@pytest.mark.parametrize("forearm", [ACROSS, POINTED])
+def test_an_elbow_is_farther_off_the_less_the_detector_is_sure_of_it(forearm: float) -> None:
+    confidences = (1.0, 0.999, 0.99, 0.98, 0.95, 0.9, 0.5, 0.0)
+    sigmas = [elbow_sigma(confidence, forearm) for confidence in confidences]
     assert sigmas == sorted(sigmas)
     assert sigmas[0] == pytest.approx(0.02)
-    assert sigmas[-1] == pytest.approx(0.05)
+    assert sigmas[-1] < 0.12
+
+
+@pytest.mark.parametrize("confidence", [0.99, 0.96, 0.9])
+def test_an_elbow_behind_a_forearm_that_points_at_the_camera_is_a_guess(confidence: float) -> None:
+    assert elbow_sigma(confidence, POINTED) > 1.5 * elbow_sigma(confidence, ACROSS)
+    between = elbow_sigma(confidence, 0.75)
+    assert elbow_sigma(confidence, ACROSS) < between < elbow_sigma(confidence, POINTED)
 
 
 def test_left_and_right_are_alike_and_shoulders_are_as_they_were() -> None:
     told = at(0.95)
-    assert told[ROW["RElbow"]] == told[ROW["LElbow"]]
     assert told[ROW["RWrist"]] == told[ROW["LWrist"]]
     assert told[ROW["RShoulder"]] == 0.012
 

@@ -1,0 +1,196 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""/api against what is sent to it: reviews stay blind, hostile uploads are refused, nothing is kept."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import aiohttp
+import pytest
+from aiohttp import web
+
+from teo_console.api.routes import all_routes
+from teo_console.api.workbench import Folders, Workbench
+from teo_console.jobs import recordings as recordings_module
+from teo_console.protocol.to_page import Answer
+from teo_console.review.series import NewItem, Shown
+from teo_console.server.access import Access
+from teo_console.server.app import make_app
+from teo_console.server.hub import Hub
+from teo_console.server.thread import ServerThread
+
+WEB = Path(__file__).parents[1] / "web"
+PATIENCE = 60.0  # [s] for an answer on a loaded machine
+BAG = b"\x89MCAP0\r\n" + bytes(1000)
+
+
+class Api:
+    """The routes on a free port, with files of the test's own."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folders = Folders(
+            kept=folder / "kept", reviews=folder / "reviews.sqlite", cache=folder / "cache"
+        )
+        self.thread = ServerThread(self._app, "127.0.0.1", 0)
+        self.url = f"http://127.0.0.1:{self.thread.port}"
+
+    def _app(self) -> web.Application:
+        self.workbench = Workbench(self.folders)
+        hub = Hub(lambda asked: asyncio.sleep(0, Answer(id=asked.id, success=True)), lambda _: None)
+        access = Access.for_address("127.0.0.1", frozenset())
+        routes = all_routes(self.workbench)
+        app = make_app(web_folder=WEB, access=access, hub=hub, urdf=lambda: "", routes=routes)
+
+        async def clear_up(_: web.Application) -> None:
+            await self.workbench.close()
+
+        app.on_cleanup.append(clear_up)
+        return app
+
+    def add_series(self, kind: str, *meanings: str) -> str:
+        """A series whose motions need no planning."""
+        motion = Shown(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
+        items = [
+            NewItem(kind="sign", meaning=meaning, language="lse", motion_hash="0" * 64, motion=motion)
+            for meaning in meanings
+        ]
+
+        async def add() -> str:
+            return self.workbench.reviews.add_series(kind, "", items, 1)  # type: ignore[arg-type]
+
+        return asyncio.run_coroutine_threadsafe(add(), self.thread.loop).result(PATIENCE)
+
+    def ask(self, method: str, path: str, body: Any = None, *, origin: str | None = None) -> tuple[int, Any]:
+        """Status and JSON of an answer; bytes are sent as they are."""
+
+        async def go() -> tuple[int, Any]:
+            data = body if isinstance(body, bytes) or body is None else json.dumps(body).encode()
+            headers = {"Origin": origin or self.url}
+            async with (
+                aiohttp.ClientSession(timeout=aiohttp.ClientTimeout(PATIENCE)) as session,
+                session.request(method, f"{self.url}{path}", data=data, headers=headers) as response,
+            ):
+                text = await response.text()
+                is_json = response.content_type == "application/json"
+                return response.status, json.loads(text) if is_json else text
+
+        return asyncio.run(go())
+
+
+@pytest.fixture
+def api(tmp_path: Path) -> Iterator[Api]:
+    opened = Api(tmp_path)
+    yield opened
+    opened.thread.close()
+
+
+def recordings(api: Api) -> list[Path]:
+    """What lies in the folder of recordings."""
+    return [path for path in api.folders.cache.glob("recordings-*/*") if path.is_dir()]
+
+
+def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api: Api) -> None:
+    series = api.add_series("review", "CASA")
+    status, asked = api.ask("POST", f"/api/series/{series}/next", {"reviewer": "Ana"})
+    assert status == 200
+    assert "CASA" not in json.dumps(asked)
+    item = asked["question"]["item"]
+    rating = {"reviewer": "Ana", "rating": "right", "flags": ["palm"], "comment": "<b>bien</b>"}
+    status, refused = api.ask("POST", f"/api/items/{item}/rating", rating)
+    assert (status, refused["code"]) == (409, "not_answered")
+    assert api.ask("POST", f"/api/items/{item}/answer", {"reviewer": "Ana", "understood": "casa"}) == (
+        200,
+        {"meaning": "CASA"},
+    )
+    assert api.ask("POST", f"/api/items/{item}/rating", rating)[0] == 200
+    assert api.ask("POST", f"/api/series/{series}/next", {"reviewer": "Ana"}) == (200, {"question": None})
+    _, exported = api.ask("GET", "/api/reviews.json")
+    (answer,) = exported["answers"]
+    assert (answer["reviewer"], answer["rating"], answer["recognised"]) == ("Ana", "right", True)
+    _, figures = api.ask("GET", f"/api/series/{series}/report")
+    assert figures["recognised"][0] == 1.0
+    assert len(figures["anchors"]) == 3
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body", "status", "code"),
+    [
+        ("POST", "/api/coverage", b"{", 400, "malformed"),
+        ("POST", "/api/coverage", {"text": ""}, 400, "malformed"),
+        ("POST", "/api/coverage", {"text": "x" * 5001}, 400, "malformed"),
+        ("POST", "/api/coverage", {"text": "a", "more": 1}, 400, "malformed"),
+        ("POST", "/api/coverage", b"[" * 20_000, 400, "malformed"),
+        ("POST", "/api/series", {"kind": "party"}, 400, "malformed"),
+        ("POST", "/api/series", {"kind": "review", "count": 1000}, 400, "malformed"),
+        ("POST", "/api/series/nowhere/next", {"reviewer": "Ana"}, 404, "unknown_series"),
+        ("GET", "/api/series/nowhere/report", None, 404, "unknown_series"),
+        ("POST", "/api/items/x/answer", {"reviewer": "\x00", "understood": ""}, 400, "bad_name"),
+        ("GET", "/api/jobs/nobody", None, 404, "unknown_job"),
+        ("DELETE", "/api/jobs/nobody", None, 404, "unknown_job"),
+        ("GET", "/api/films/..%2F..%2Freviews.sqlite", None, 404, "unknown_sign"),
+        ("POST", "/api/recordings/nobody/try", {"gloss": "A"}, 404, "unknown_recording"),
+        ("GET", "/api/recordings/..%2Fkept/picture", None, 404, "unknown_recording"),
+        ("POST", "/api/recordings", b"<script>alert(1)</script>" * 9, 400, "bad_film"),
+        ("POST", "/api/recordings", b"", 400, "bad_film"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_with_a_reason(
+    api: Api, method: str, path: str, body: Any, status: int, code: str
+) -> None:
+    got, answer = api.ask(method, path, body)
+    assert (got, answer["code"]) == (status, code)
+    assert recordings(api) == []
+
+
+def test_a_body_that_is_no_film_may_not_be_large(api: Api) -> None:
+    assert api.ask("POST", "/api/coverage", b" " * 200_000)[0] == 413
+
+
+def test_a_recording_that_is_too_large_is_refused_and_nothing_of_it_stays(
+    api: Api, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(recordings_module, "MOST_BYTES", 500_000)
+    status, answer = api.ask("POST", "/api/recordings", BAG + bytes(3_000_000))
+    assert (status, answer["code"]) == (413, "too_large")
+    assert recordings(api) == []
+
+
+def test_a_page_of_another_site_uploads_nothing(api: Api) -> None:
+    status, answer = api.ask("POST", "/api/recordings", BAG, origin="http://evil.example")
+    assert (status, answer["code"]) == (403, "bad_origin")
+    assert recordings(api) == []
+
+
+def test_nothing_is_kept_without_the_agreement_of_the_person(api: Api) -> None:
+    _, taken = api.ask("POST", "/api/recordings", BAG)
+    one = f"/api/recordings/{taken['recording']}"
+    terms = {"gloss": "CASA", "licence": "CC-BY-4.0", "consent": False}
+    status, answer = api.ask("POST", f"{one}/accept", terms)
+    assert (status, answer["code"]) == (400, "no_consent")
+    status, answer = api.ask("POST", f"{one}/accept", {**terms, "consent": True, "licence": "none"})
+    assert (status, answer["code"]) == (400, "malformed")
+    assert api.ask("GET", f"{one}/trial")[1]["code"] == "not_ready"
+    assert api.ask("DELETE", one) == (200, {})
+    assert recordings(api) == []
+
+
+def test_a_film_is_kept_under_a_name_that_leaves_no_folder(api: Api) -> None:
+    _, taken = api.ask("POST", "/api/recordings", BAG)
+    status, answer = api.ask("POST", f"/api/recordings/{taken['recording']}/keep", {"gloss": "../../x"})
+    assert status == 200
+    assert Path(answer["kept"]).parent == api.folders.kept
+    assert Path(answer["kept"]).read_bytes() == BAG
+
+
+def test_recordings_of_a_console_that_was_killed_are_deleted(tmp_path: Path) -> None:
+    left = tmp_path / "cache" / "recordings-4194305" / "abc" / "film.webm"  # above the kernel's last number
+    left.parent.mkdir(parents=True)
+    left.touch()
+    api = Api(tmp_path)
+    api.thread.close()
+    assert not left.exists()

@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Dictionary, Teach, Practise and Review in a browser, before the real nodes and commands."""
+
+from __future__ import annotations
+
+import json
+import re
+import urllib.request
+from collections.abc import Callable
+from pathlib import Path
+
+import av
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, expect
+
+GREETING = Path(__file__).parent / "data" / "greeting.mp4"
+NewPage = Callable[..., Page]
+
+# For commands that look at films on a loaded machine [ms]; ten seconds on an idle one.
+LONG = 600_000
+
+
+def accessible(page: Page) -> None:
+    """Nothing that axe-core finds stands in anybody's way."""
+    found = Axe().run(page).response["violations"]
+    assert not found, json.dumps([(each["id"], [node["html"] for node in each["nodes"]]) for each in found])
+
+
+def photograph(page: Page, pictures: Path, name: str) -> None:
+    """At the width of a desk and of a telephone."""
+    for width, where in ((1100, "desk"), (390, "phone")):
+        page.set_viewport_size({"width": width, "height": 800})
+        page.screenshot(path=pictures / f"{name}_{where}.png")
+    page.set_viewport_size({"width": 1100, "height": 760})
+
+
+def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_record(
+    new_page: NewPage, pictures: Path
+) -> None:
+    page = new_page(tab="dictionary")
+    page.fill("#search-word", "bíci")  # whatever the accents
+    page.select_option("#search-hand", "A")
+    expect(page.locator(".words button")).to_have_text(["BICICLETA"])
+    page.select_option("#search-hand", "B")
+    expect(page.locator(".words button")).to_have_count(0)
+    page.select_option("#search-hand", "A")
+    page.click(".words button")
+    expect(page.locator("dl")).to_contain_text("DILSE")
+    page.fill("#coverage-text", "La matrona tiene una bicicleta.")
+    page.click("form button[type=submit]")
+    expect(page.locator("form ol a")).to_have_text(["MATRONA"], timeout=LONG)
+    accessible(page)
+    photograph(page, pictures, "dictionary")
+    page.click("form ol a")
+    expect(page.locator("#teach-gloss")).to_have_value("MATRONA")
+
+
+def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
+    new_page: NewPage, pictures: Path, tmp_path: Path
+) -> None:
+    page = new_page(tab="teach/SALUDAR")
+    accessible(page)
+    page.select_option(".camera select", "6")
+    page.click("#camera-start")
+    page.click("#camera-record")
+    expect(page.locator("#outcome-title")).to_be_visible(timeout=LONG)
+    expect(page.locator(".gate.passed, .gate.failed")).to_have_count(6)  # no contact, no gate of contacts
+    expect(page.locator(".similar li")).to_have_count(5)
+    accessible(page)
+    photograph(page, pictures, "teach")
+    page.click("form button[type=submit]")  # nothing is kept without consent
+    expect(page.locator("#notice")).to_be_visible()
+    for box in page.locator("form .tick:not([for=accept-keep]) input").all():
+        box.check()
+    page.click("form button[type=submit]")
+    expect(page.locator("#accepted")).to_contain_text("SALUDAR", timeout=LONG)
+    page.click("form button.primary")
+    expect(page.locator("#status")).to_contain_text("SALUDAR")
+
+    # The same movement again is that sign; another sign differs from it.
+    film = thinned(tmp_path)
+    assert practised(page, "saludar", film) == "practise.right"
+    accessible(page)
+    photograph(page, pictures, "practise")
+    assert practised(page, "dormir", film) == "practise.other"
+    assert page.locator(".difference.large").count() > 0
+
+
+def thinned(folder: Path) -> Path:
+    """The film of the greeting with every other image, which takes half the time to look at."""
+    path = folder / "greeting.mp4"
+    with av.open(str(GREETING)) as source, av.open(str(path), "w") as out:
+        stream = out.add_stream("libx264", rate=15)
+        stream.width, stream.height, stream.pix_fmt = 640, 480, "yuv420p"
+        for image in list(source.decode(video=0))[::2]:
+            image.pts = None
+            out.mux(stream.encode(image))
+        out.mux(stream.encode())
+    return path
+
+
+def practised(page: Page, word: str, film: Path) -> str | None:
+    """What the page says of a film in which a word was to be signed."""
+    page.goto(f"{page.url.split('#')[0]}#practise/{word.upper()}")
+    expect(page.locator("input[list]")).to_have_value(word.upper())
+    page.set_input_files("#film-file", film)
+    expect(page.locator("[data-verdict]")).to_be_visible(timeout=LONG)
+    return page.locator("[data-verdict]").get_attribute("data-verdict")
+
+
+def test_three_signs_are_reviewed_blind_and_the_export_says_how(
+    new_page: NewPage, address: str, pictures: Path
+) -> None:
+    page = new_page(tab="review")
+    page.fill("#new-title", "Tres")
+    page.fill("#new-glosses", "casa, madre\nbicicleta")
+    page.select_option("#new-choices", "")
+    page.click("form button[type=submit]")
+    row = page.locator("[data-series]").filter(has_text="Tres")
+    expect(row).to_be_visible(timeout=LONG)
+    accessible(page)
+    photograph(page, pictures, "review")
+    series = row.get_attribute("data-series")
+    page.goto(f"{address}#review/{series}")
+    page.fill("#reviewer", "Ana")
+    page.click("form button[type=submit]")
+    for number in (1, 2, 3):
+        expect(page.locator("h2")).to_have_text(re.compile(f"{number}.*3"))
+        assert not re.search("CASA|MADRE|BICICLETA", page.locator("main").inner_text())
+        page.fill("#understood", "casa")
+        page.click("form button[type=submit]")
+        expect(page.locator(".meaning")).to_be_visible()
+        if number == 1:
+            accessible(page)
+            photograph(page, pictures, "reviewing")
+        is_house = "CASA" in page.locator(".meaning").inner_text()
+        page.check("#rating-right" if is_house else "#rating-wrong")
+        page.check("#flag-movement")
+        page.fill("#comment", "<img src=x onerror=alert(1)>")  # shown as text, or the page fails the test
+        page.click("form button[type=submit]")
+    expect(page.locator("#all-done")).to_be_visible()
+    with urllib.request.urlopen(f"{address}api/reviews.json") as response:
+        exported = json.load(response)
+    said = {answer["gloss"]: answer for answer in exported["answers"] if answer["series"] == series}
+    assert said.keys() == {"CASA", "MADRE", "BICICLETA"}
+    assert (said["CASA"]["rating"], said["CASA"]["recognised"]) == ("right", True)
+    assert (said["MADRE"]["rating"], said["MADRE"]["recognised"]) == ("wrong", False)
+    assert said["MADRE"]["flags"] == ["movement"]
+    page.goto(f"{address}#review/{series}/report")
+    expect(page.locator("table")).to_contain_text("onerror")
+    expect(page.locator("dl")).to_contain_text("33 %")
+    accessible(page)
+    photograph(page, pictures, "report")
+
+
+@pytest.mark.parametrize("language", ["es", "en"])
+def test_every_word_of_the_tabs_is_there_in_both_languages(language: str) -> None:
+    web = Path(__file__).parents[1] / "web"
+    words = json.loads((web / "i18n" / f"{language}.tabs.json").read_text("utf-8"))
+    frame = json.loads((web / "i18n" / f"{language}.json").read_text("utf-8"))
+    assert not words.keys() & frame.keys()
+    scripts = [*(web / "js" / "tabs").glob("*.js"), *(web / "js").glob("[prt]*/*.js")]
+    asked = {key for path in scripts for key in re.findall(r'\bt\("([\w.]+)"', path.read_text("utf-8"))}
+    assert len(asked) > 100
+    assert asked <= words.keys() | frame.keys(), asked - words.keys() - frame.keys()
