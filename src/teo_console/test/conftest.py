@@ -13,7 +13,7 @@ from pathlib import Path
 
 import av
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, Page, sync_playwright
 
 from teo_bringup.graph import CONSOLE, Graph, executable_of
 
@@ -93,13 +93,18 @@ def new_page(browser: Browser, address: str) -> Iterator[NewPage]:
     wrong: list[str] = []
     contexts = []
 
+    def note(said: ConsoleMessage) -> None:
+        # A page whose node has ended tries again: the browser says so, and it is right.
+        if said.type == "error" and "ERR_CONNECTION_REFUSED" not in said.text:
+            wrong.append(said.text)
+
     def open_page(*, tab: str = "", width: int = 1100, height: int = 760, script: str = "") -> Page:
         context = browser.new_context(viewport={"width": width, "height": height}, locale="es-ES")
         contexts.append(context)
         context.set_default_timeout(PATIENCE)
         page = context.new_page()
         page.on("pageerror", lambda error: wrong.append(str(error)))
-        page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+        page.on("console", note)
         page.on("dialog", lambda dialog: wrong.append(dialog.message))
         if script:
             page.add_init_script(script)
