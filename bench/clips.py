@@ -3,7 +3,9 @@
 """Signs captured from films: the same takes in colour alone and with depth, and the letters' clips as if new.
 
 The synthetic signer performs scores before a D435. Its colour images, as a film, go the way of a phone's;
-the whole recording goes the way of a depth camera's. Both are compared with the true keypoints.
+the whole recording goes the way of a depth camera's. Both are compared with the true keypoints. Besides,
+written signs performed without a camera (`signs/score_clips.py`), those looked at while capture was built and
+others.
 """
 
 from __future__ import annotations
@@ -16,6 +18,8 @@ from pathlib import Path
 
 import numpy as np
 from report import Figure
+from signs import score_clips
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
@@ -40,10 +44,15 @@ _RAISED = -0.36  # [m] below the shoulders: lower wrists hang
 
 
 def measure() -> list[Figure]:
-    """Film and depth against the truth, and what became of 30 clips of letters."""
+    """Film and depth against the truth, and what became of clips of letters and of performed scores."""
     robot = Robot.load()
-    with tempfile.TemporaryDirectory() as folder:
-        return [*_performed(robot, Path(folder)), *_letters(robot, Path(folder))]
+    with tempfile.TemporaryDirectory() as folder, threadpool_limits(1):
+        return [
+            *_performed(robot, Path(folder)),
+            *_letters(robot, Path(folder)),
+            *score_clips.measure(robot, "known", score_clips.KNOWN),
+            *score_clips.measure(robot, "new", score_clips.NEW),
+        ]
 
 
 def _performed(robot: Robot, folder: Path) -> list[Figure]:

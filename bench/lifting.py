@@ -14,11 +14,11 @@ from functools import cache
 
 import numpy as np
 from report import Figure
+from signs.pictured import pictured
 from signs.signer_tracks import signer_track
 
 from teo_common.arrays import Array
 from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recordings.pose_file import Points, PoseClip
 from teo_sign_capture.tracks.hand_model import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
 
@@ -26,8 +26,6 @@ SCRIPTS = ("signing", "face", "crossing", "spelling")
 BODIES = ("woman_average", "man_average", "man_tall")
 
 _RATE = 25.0  # [Hz]
-_PIXELS, _NOISE = 550.0, 1.5  # of a metre; deviation of a point [pixel], as MediaPipe's across the view
-_DEPTH_NOISE, _DEPTH_SHARE = 0.006, 0.8  # of guessed depths in a hand: [m], and what is left of the true ones
 _NEAR = 2.0  # [m] from a camera in whose picture hands are larger than shoulders
 _RAISED = -0.36  # [m] below the shoulders: lower wrists hang
 
@@ -44,7 +42,7 @@ def measure() -> list[Figure]:
 
 def _figures(name: str, distance: float, depth: bool) -> list[Figure]:
     found = [
-        _errors(track, lift_clip(_picture(track, distance, depth)))
+        _errors(track, lift_clip(pictured(track, distance=distance, depth=depth)))
         for track in (_track(script, body) for script in SCRIPTS for body in BODIES)
     ]
     elbows, wrists, sized, palms = (np.concatenate(errors) for errors in zip(*found, strict=True))
@@ -64,27 +62,6 @@ def _figures(name: str, distance: float, depth: bool) -> list[Figure]:
 @cache
 def _track(script: str, body: str) -> SkeletonTrack:
     return signer_track(script, body, _RATE)
-
-
-def _picture(track: SkeletonTrack, distance: float, depth: bool) -> PoseClip:
-    random = np.random.default_rng(0)
-
-    def part(true: Array, *, guessed: bool) -> Points:
-        size = _PIXELS / (1.0 - true[..., 0] / distance)
-        places = true * size[..., None] + random.normal(0.0, _NOISE, true.shape)
-        along = (true - true[:, :1])[..., 0]
-        guess = _DEPTH_SHARE * along + random.normal(0.0, _DEPTH_NOISE, along.shape)
-        places[..., 0] = guess if guessed else np.nan
-        return Points(places=places, confidence=np.ones(true.shape[:2]))
-
-    return PoseClip(
-        rate=_RATE,
-        body=part(track.body.positions, guessed=False),
-        left_hand=part(track.left_hand.positions, guessed=depth),
-        right_hand=part(track.right_hand.positions, guessed=depth),
-        source=track.source,
-        layout="made of the truth",
-    )
 
 
 def _errors(truth: SkeletonTrack, lifted: SkeletonTrack) -> tuple[Array, Array, Array, Array]:

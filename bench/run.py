@@ -23,7 +23,15 @@ import spelling
 import translation
 import words
 from accuracy import limbs
-from nodes import console_page, driver_rate, driver_robustness, kills, text_to_trajectory
+from nodes import (
+    console_page,
+    driver_executed,
+    driver_physics,
+    driver_rate,
+    driver_robustness,
+    kills,
+    text_to_trajectory,
+)
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -38,6 +46,8 @@ BENCHES = (
     clips,
     driver_rate,
     driver_robustness,
+    driver_executed,
+    driver_physics,
     console_page,
     translation,
     words,

@@ -21,6 +21,7 @@ from report import Figure
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
+from teo_motion.torque import PeakTorque, peak_torques
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.tags import tag_class
@@ -136,19 +137,21 @@ def _frequent_lemmas(signs: Set[str]) -> Figure:
 
 def _seconds(texts: Sequence[str], signs: Set[str]) -> list[Figure]:
     """How long TEO signs a sentence, and how much of that time it spells."""
-    planner = Planner(Lut.open(default_lut_directory()), robot=Robot.load(), max_duration=1e4)
+    robot = Robot.load()
+    planner = Planner(Lut.open(default_lut_directory()), robot=robot, max_duration=1e4)
     translator = Translator.load()
-    seconds, spelling, total, refused = [], 0.0, 0.0, 0
+    seconds, peaks, spelling, total, refused = [], [], 0.0, 0.0, 0
     for answer in translator.translate_all(texts, signs):
         if isinstance(answer, TranslationError):
             continue
         for sentence in answer.sentences:
             try:
-                plan = planner.plan(_tokens(sentence))
+                plan = planner.plan(tokens_of(sentence))
             except PlanError:
                 refused += 1
                 continue
             seconds.append(plan.duration)
+            peaks.append(peak_torques(plan, robot)[0])
             total += plan.duration
             ends = [0.0, *(token.start + token.duration for token in plan.timings)]
             spelling += sum(
@@ -161,11 +164,23 @@ def _seconds(texts: Sequence[str], signs: Set[str]) -> list[Figure]:
             f"{len(seconds)} known sentences signed",
             f"median {median(seconds):.1f} s; letters and the ways to them {_share(spelling, total)}"
             + (f"; {refused} refused" if refused else ""),
-        )
+        ),
+        _torque(peaks),
     ]
 
 
-def _tokens(sentence: Sentence) -> list[Token]:
+def _torque(peaks: Sequence[PeakTorque]) -> Figure:
+    """How near the joint that is loaded most is to its effort limit, which is a placeholder."""
+    most = max(peaks, key=lambda peak: peak.share)
+    return Figure(
+        "most torque in them, over the effort limit of the URDF (a placeholder)",
+        f"median {100.0 * median(peak.share for peak in peaks):.0f} %, most {100.0 * most.share:.0f} % "
+        f"({most.torque:.1f} N m, {most.joint})",
+    )
+
+
+def tokens_of(sentence: Sentence) -> list[Token]:
+    """A translated sentence as the executor takes it."""
     return [
         Token(
             gloss=token.gloss,

@@ -101,7 +101,8 @@ install_requirements() {
         "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
     fi
     if [ "$level" = all ]; then
-        options+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt)
+        options+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt
+            -r requirements/physics.txt)
     fi
     "${pip[@]}" "${options[@]}"
     wait $!

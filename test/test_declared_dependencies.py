@@ -40,6 +40,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "mcap": (None, "mcap"),
     "mediapipe": (None, "mediapipe"),
+    "mujoco": (None, "mujoco"),
     "msgspec": (None, "msgspec"),
     "num2words": (None, "num2words"),
     "numpy": ("python3-numpy", "numpy"),

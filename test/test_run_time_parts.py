@@ -29,8 +29,8 @@ RESEND = 5.0  # [s] after which a text that was not signed is sent again
 
 # What a robot's computer does without.
 ABSENT = (
-    "anny", "av", "casadi", "cv2", "embreex", "matplotlib", "mcap", "mediapipe", "PIL", "pose_format",
-    "rosbags", "spoken_to_signed", "torch", "trimesh",
+    "anny", "av", "casadi", "cv2", "embreex", "matplotlib", "mcap", "mediapipe", "mujoco", "PIL",
+    "pose_format", "rosbags", "spoken_to_signed", "torch", "trimesh",
     "teo_ros2cli", "teo_sign_capture", "teo_skeleton_retriever", "teo_synthetic_signer",
 )  # fmt: skip
 # The packages that sign, and what of them does something else.
@@ -51,7 +51,7 @@ RUN_TIME = {
         "teo_sign_translator.cli.train",
     ),
     "teo_signs": ("teo_signs.pictures",),  # draws: captures
-    "teo_sim_driver": (),
+    "teo_sim_driver": ("teo_sim_driver.plants.physics",),  # only where physics is asked for
 }
 
 # Makes the packages absent, then imports every module named and reports those that could not be.

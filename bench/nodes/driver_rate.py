@@ -27,12 +27,13 @@ from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import COMMANDED_JOINTS, HOME, joint_limits
-from teo_sim_driver.cdr import CdrTrajectory
+from teo_sim_driver.checking.cdr import CdrTrajectory
+from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
+from teo_sim_driver.checking.validation import check
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.joint_follower import JointFollower
-from teo_sim_driver.message import SECOND, PlainTrajectory, plain_trajectory
+from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.rules import Rules
-from teo_sim_driver.validation import check
 
 PERIOD = 0.01  # [s]
 WATCHED = 20.0  # [s] of the node in motion

@@ -53,6 +53,7 @@ setup(
         ],
         "teo_lut_executor.lut_commands": [
             "capture = teo_sign_capture.cli.capture:capture",
+            "ease = teo_sign_capture.cli.ease:ease",
             "import = teo_sign_capture.cli.import_pose:import_pose",
             "recognise = teo_sign_capture.cli.recognise:recognise",
             "record = teo_sign_capture.cli.record:record",

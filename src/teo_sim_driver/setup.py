@@ -19,7 +19,7 @@ setup(
     maintainer_email="teo-sign@example.org",
     description="Simulated joint driver of TEO: executes joint trajectories as the robot would",
     license="Apache-2.0",
-    extras_require={"test": ["hypothesis", "pytest", "scipy"]},
+    extras_require={"physics": ["mujoco"], "test": ["hypothesis", "pytest", "scipy"]},
     entry_points={
         "console_scripts": [
             "driver_node = teo_sim_driver.node.driver_node:main",

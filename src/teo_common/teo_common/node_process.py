@@ -5,12 +5,18 @@
 from __future__ import annotations
 
 import gc
+import signal
+import threading
 from collections.abc import Callable, Sequence
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
+
+# A signal is noticed within this time, where nothing else happens [s].
+_LOOK = 0.1
 
 
 def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> None:
@@ -31,13 +37,28 @@ def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> 
         # for a tenth of a second.
         gc.collect()
         gc.freeze()
-        rclpy.spin(node, executor)
+        _spin(node, executor)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
     except rclpy_implementation.RCLError:
         if rclpy.ok():
             raise  # else it was told to end before it had begun to spin
     finally:
+        gc.unfreeze()  # else what is loaded is never taken down, and bindings complain of leaks
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+
+
+def _spin(node: Node, executor: SingleThreadedExecutor) -> None:
+    """Run callbacks until told to end; the node can still publish then.
+
+    The handlers of rclpy shut ROS down at once: what a node has to say at its end would reach nobody.
+    """
+    told = threading.Event()
+    uninstall_signal_handlers()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: told.set())
+    executor.add_node(node)
+    while not told.is_set() and node.context.ok():
+        executor.spin_once(timeout_sec=_LOOK)

@@ -10,6 +10,7 @@ import sys
 import pytest
 
 NODE = """
+import rclpy
 from rclpy.node import Node
 from teo_common.node_process import run_node
 
@@ -19,7 +20,7 @@ class Talker(Node):
         self.create_timer(0.1, lambda: print("spins", flush=True))
 
     def destroy_node(self):
-        print("destroyed", flush=True)
+        print("destroyed, can publish:", rclpy.ok(), flush=True)
         super().destroy_node()
 
 run_node(Talker, None)
@@ -67,7 +68,7 @@ def test_a_node_that_is_told_to_end_is_destroyed_and_ends_well(told: int, domain
             rest, _ = process.communicate(timeout=20.0)
         finally:
             process.kill()
-        assert rest.endswith("destroyed\nreturned\n")
+        assert rest.endswith("destroyed, can publish: True\nreturned\n")
         assert process.returncode == 0
 
 

@@ -130,25 +130,29 @@ class ClearanceChecker:
             request.enable_signed_distance = True
         self._links = links
         self._pairs = np.array(pairs)
+        # Where shapes are, in the memory that Pinocchio writes to: asking for all anew takes longer than
+        # forward kinematics and all distances together. Boxes and rods have their origin at their centre.
+        self._poses = self._geometry_data.oMg.tolist()
+        self._centres = [pose.translation for pose in self._poses]
         for item in objects:
             item.geometry.computeLocalAABB()
-        self._centres = np.array([item.geometry.aabb_center for item in objects]).reshape(-1, 3)
         radii = np.array([item.geometry.aabb_radius for item in objects])
         self._reach = radii[self._pairs[:, 0]] + radii[self._pairs[:, 1]]
 
     def clearance(self, q: NDArray[np.float64]) -> Clearance:
         """Smallest distance at a configuration, shape (nq,)."""
         bounds = self._bounds(q)
-        best, closest = np.inf, 0
-        for index in np.argsort(bounds):
+        closest = int(bounds.argmin())
+        best = self._distance(closest)
+        nearer = np.flatnonzero(bounds < best)
+        for index in nearer[np.argsort(bounds[nearer])]:
             if bounds[index] >= best:
                 break
-            pair = int(index)
-            distance = pin.computeDistance(self._geometry, self._geometry_data, pair).min_distance
+            distance = self._distance(int(index))
             if distance < best:
-                best, closest = distance, pair
+                best, closest = distance, int(index)
         first, second = self._pairs[closest]
-        return Clearance(float(best), self._links[first], self._links[second])
+        return Clearance(best, self._links[first], self._links[second])
 
     def contacts(self, q: NDArray[np.float64], within: float) -> list[Contact]:
         """All pairs of shapes nearer to each other than a distance [m] at a configuration, shape (nq,)."""
@@ -169,12 +173,14 @@ class ClearanceChecker:
                 )
         return found
 
+    def _distance(self, pair: int) -> float:
+        """Distance of a pair of shapes where they were placed last [m]."""
+        return float(pin.computeDistance(self._geometry, self._geometry_data, pair).min_distance)
+
     def _bounds(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
         """What the distance of each pair is not below, by their bounding spheres [m]."""
         pin.updateGeometryPlacements(self._model, self._data, self._geometry, self._geometry_data, q)
-        centres = np.array(
-            [pose.act(centre) for pose, centre in zip(self._geometry_data.oMg, self._centres, strict=True)]
-        )
-        apart = centres[self._pairs[:, 0]] - centres[self._pairs[:, 1]]
+        centres = np.array(self._centres)
+        apart = centres.take(self._pairs[:, 0], axis=0) - centres.take(self._pairs[:, 1], axis=0)
         bounds: NDArray[np.float64] = np.sqrt(np.einsum("ij,ij->i", apart, apart)) - self._reach
         return bounds

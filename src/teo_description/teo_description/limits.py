@@ -74,13 +74,13 @@ def description_hash() -> str:
 
 
 @cache
-def _limits(hand_drive: str) -> Mapping[str, tuple[float, float, float]]:
+def _limits(hand_drive: str) -> Mapping[str, tuple[float, ...]]:
     limits = {}
     for joint in ET.fromstring(urdf_text(hand_drive)).iter("joint"):
         limit = joint.find("limit")
         if limit is not None and joint.find("mimic") is None:
-            lower, upper, velocity = (float(limit.attrib[key]) for key in ("lower", "upper", "velocity"))
-            limits[joint.attrib["name"]] = (lower, upper, velocity)
+            keys = ("lower", "upper", "velocity", "effort")
+            limits[joint.attrib["name"]] = tuple(float(limit.attrib[key]) for key in keys)
     return limits
 
 
@@ -98,6 +98,17 @@ def joint_limits(
     """
     check_joint_names(names)
     table = _limits(hand_drive)
-    values = np.array([table[name] for name in names], dtype=np.float64).reshape(-1, 3)
+    values = np.array([table[name][:3] for name in names], dtype=np.float64).reshape(-1, 3)
     values.setflags(write=False)
     return JointLimits(names=tuple(names), lower=values[:, 0], upper=values[:, 1], velocity=values[:, 2])
+
+
+def effort_limits(names: Sequence[str] = COMMANDED_JOINTS) -> NDArray[np.float64]:
+    """Greatest torques of the named joints [N m]. Shape (n,). Placeholders: none is published.
+
+    Raises:
+        DescriptionError: ``unknown_joint``.
+    """
+    check_joint_names(names)
+    table = _limits(DEFAULT_HAND_DRIVE)
+    return np.array([table[name][3] for name in names])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from teo_description.clearance import HEAD_LINKS, Clearance, ClearanceChecker, Contact
 from teo_description.errors import DescriptionError
 from teo_description.home import HOME
-from teo_description.joints import ALL_JOINTS, check_joint_names
+from teo_description.joints import ALL_JOINTS, COMMANDED_JOINTS, check_joint_names
 from teo_description.limits import urdf_text
 
 Matrix = NDArray[np.float64]
@@ -90,6 +90,30 @@ class Robot:
             )
         expanded: Matrix = self._expansion @ values + self._offset
         return expanded
+
+    def torques(self, positions: Matrix, velocities: Matrix, accelerations: Matrix) -> Matrix:
+        """Torques that move the commanded joints so, against gravity, the legs standing at `HOME` [N m].
+
+        Recursive Newton-Euler with the description's masses, without friction (R. Featherstone, "Rigid Body
+        Dynamics Algorithms", 2008, 5.3). The phalanges that follow a hand axis load that axis.
+
+        Args:
+            positions: Of `COMMANDED_JOINTS` [rad]. Shape (n, 28), as all.
+            velocities: [rad/s].
+            accelerations: [rad/s^2].
+        """
+        columns = [self._column[name] for name in COMMANDED_JOINTS]
+        values = np.tile(self._home, (len(positions), 1))
+        values[:, columns] = positions
+        expansion = self._expansion[:, columns]
+        rows = zip(
+            values @ self._expansion.T + self._offset,
+            velocities @ expansion.T,
+            accelerations @ expansion.T,
+            strict=True,
+        )
+        needed: Matrix = np.array([pin.rnea(self.model, self.data, *row) for row in rows]) @ expansion
+        return needed
 
     def placement(self, q: Matrix, frame: str) -> Matrix:
         """Pose of a frame in ``base_link``.

@@ -34,6 +34,7 @@ from teo_lut_executor.execution.events import Sentence
 from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
+from teo_motion.sentence.rest_posture import REST
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
 
@@ -192,7 +193,7 @@ def test_sentences_are_signed_in_order_and_bad_ones_refused_when_they_come(graph
     for trajectory in graph.robot.received:
         assert trajectory.header.stamp.sec > 0
         assert np.abs(trajectory.points[-1].velocities).max() < 1e-9, "each ends at a standstill"
-    np.testing.assert_allclose(graph.robot.positions, [HOME[name] for name in COMMANDED_JOINTS], atol=0.02)
+    np.testing.assert_allclose(graph.robot.positions, REST, atol=0.02)
 
 
 def test_a_late_listener_learns_the_present_state_alone(graph: Graph) -> None:
@@ -305,7 +306,7 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     graph.wait(handle.cancel_goal_async())
     result = graph.wait(handle.get_result_async()).result
     assert result.code == ExecuteSentence.Result.CANCELED
-    np.testing.assert_allclose(graph.robot.positions, [HOME[name] for name in COMMANDED_JOINTS], atol=0.02)
+    np.testing.assert_allclose(graph.robot.positions, REST, atol=0.02)
     times = np.array([when for when, _ in graph.robot.path[before:]])
     steps = np.abs(np.diff([positions for _, positions in graph.robot.path[before:]], axis=0)).max(axis=1)
     # No jump: full speed in the time since the step before, however late a timer was.

@@ -41,6 +41,7 @@ def test_a_sentence_is_planned_to_a_table_and_a_csv(table_directory: Path, tmp_p
     starts = [float(row[2]) for row in cells]
     assert starts == sorted(starts) and all(float(row[4]) >= 1.0 for row in cells)
     assert "from rest to rest" in done.stdout and "nearest to itself" in done.stdout
+    assert "% of its limit" in done.stdout
 
     lines = csv.read_text().splitlines()
     assert lines[0] == ",".join(("time", *COMMANDED_JOINTS))

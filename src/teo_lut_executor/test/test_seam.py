@@ -13,7 +13,7 @@ from queue_world import World
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_lut_executor.execution.events import Preemption, QueueSettings, TrajectoryReady
 from teo_lut_executor.node.messages import to_trajectory
-from teo_motion.sentence.composition import REST
+from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.sign import Sign
 from teo_sim_driver.joint_follower import JointFollower

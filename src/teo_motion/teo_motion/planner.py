@@ -32,7 +32,7 @@ from teo_motion.sentence.timing import SentenceTiming
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
-from teo_signs.lexicon import DEFAULT_STANDING, Lexicon
+from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Standing
 from teo_signs.tokens import Token
@@ -165,11 +165,20 @@ class Planner:
         signed = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
         if self._size is not None:
             signed = self._size.fitted(signed, captured)
-        composition = compose(
-            signed, start=begin, limits=self.limits, style=style, rest=self._rest, hold=hold
-        )
-        plan = self._avoidance.plan(composition)
-        return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
+
+        def planned(signed: Sequence[SignedToken]) -> Plan:
+            composition = compose(
+                signed, start=begin, limits=self.limits, style=style, rest=self._rest, hold=hold
+            )
+            plan = self._avoidance.plan(composition)
+            return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
+
+        try:
+            return planned(signed)
+        except PlanError as error:
+            if error.code != "self_collision" or signed == captured:
+                raise
+            return planned(captured)  # slower, as the entries have the signs: they keep apart
 
     def plan_opening(
         self, tokens: Sequence[Token], start: State, *, lasting: float

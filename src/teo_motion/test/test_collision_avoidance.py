@@ -121,6 +121,16 @@ def test_nearly_every_random_sentence_of_the_table_has_a_way(lut: Lut, robot: Ro
     assert len(refused) <= 2, refused
 
 
+def test_a_sign_that_is_swung_into_stands_still_where_its_hands_would_meet(lut: Lut, robot: Robot) -> None:
+    tokens = [Token(gloss="TIERRA"), Token(gloss="MESA")]
+    planner = Planner(lut, robot=robot)
+    plan = planner.plan(tokens)
+    assert plan.nearest is not None and plan.nearest.distance >= 0.002
+    # The sign itself lasts no longer than half a second more than without looking.
+    freely = Planner(lut).plan(tokens)
+    assert plan.timings[1].duration < freely.timings[1].duration + 0.5
+
+
 def test_no_overlap_between_two_looks_stays_unseen(robot: Robot) -> None:
     """On straight ways of the arms from anywhere to anywhere, beside a look at every hundredth."""
     random, limits = np.random.default_rng(3), joint_limits(COMMANDED_JOINTS)

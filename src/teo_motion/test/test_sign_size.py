@@ -83,6 +83,22 @@ def test_a_hand_that_opens_once_opens_wholly_and_one_that_wiggles_wiggles_less(
     assert np.ptp(fitted(robot, wiggle).knots[:, JOINTS.index("RightIndexFinger")]) < 0.6
 
 
+def test_fingers_that_fold_one_after_the_other_move_together_for_a_while(
+    robot: Robot, make_sign: Callable[..., Sign]
+) -> None:
+    knots = np.tile(BEFORE, (5, 1))
+    fingers = [JOINTS.index(f"Right{name}Finger") for name in ("Index", "Middle", "Ring", "Pinky")]
+    for step, column in enumerate(fingers, start=1):
+        knots[step:, column] = 1.4
+    sign = make_sign("X", list(knots), np.arange(5) * 0.2, joints=JOINTS)
+    flowing = fitted(robot, sign)
+    np.testing.assert_allclose(flowing.knots[[0, -1]], sign.knots[[0, -1]])
+    slowest = [np.abs(np.diff(one.knots, axis=0)).max(axis=1).sum() for one in (sign, flowing)]
+    assert slowest[1] < 0.75 * slowest[0]
+    half = [np.argmax(flowing.knots[:, column] > 0.75) for column in fingers]
+    assert half == sorted(half) and len(set(half)) == 4, "and still one after the other"
+
+
 def test_what_is_repeated_four_times_is_repeated_twice(robot: Robot, make_sign: Callable[..., Sign]) -> None:
     angles = [-1.2, -0.8] * 4 + [-1.2, -1.2]
     sign = make_sign("X", swung("FrontalRightElbow", angles), np.arange(10) * 0.2, joints=JOINTS)

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulated joint driver of TEO: executes joint trajectories as the robot would, or says why not."""
 
+from teo_sim_driver.checking.message import PlainTrajectory, TrajectoryLike, plain_trajectory
+from teo_sim_driver.checking.scheduling import Scheduled, validate
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.joint_follower import JointFollower
-from teo_sim_driver.message import PlainTrajectory, TrajectoryLike, plain_trajectory
+from teo_sim_driver.motion.trajectory import MotionState, Trajectory
+from teo_sim_driver.position_direct import PositionDirect, position_direct
 from teo_sim_driver.rules import Rules
-from teo_sim_driver.trajectory import MotionState, Trajectory
-from teo_sim_driver.validation import Scheduled, validate
 
 __all__ = [
     "DriverError",
@@ -17,6 +18,7 @@ __all__ = [
     "Mode",
     "MotionState",
     "PlainTrajectory",
+    "PositionDirect",
     "Refusal",
     "Rules",
     "Scheduled",
@@ -25,5 +27,6 @@ __all__ = [
     "TrajectoryError",
     "TrajectoryLike",
     "plain_trajectory",
+    "position_direct",
     "validate",
 ]

@@ -28,6 +28,7 @@ class Refusal(StrEnum):
     DUPLICATE_JOINT = "duplicate_joint"
     UNKNOWN_JOINT = "unknown_joint"
     HELD_JOINT = "held_joint"
+    OTHER_GROUP = "other_group"
     MISSING_JOINTS = "missing_joints"
     NO_POINTS = "no_points"
     TOO_MANY_POINTS = "too_many_points"

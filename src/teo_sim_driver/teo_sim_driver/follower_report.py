@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from teo_sim_driver.errors import TrajectoryError
@@ -22,11 +23,27 @@ class Mode(StrEnum):
 
 
 class Source(StrEnum):
-    """Who gave the trajectory that is being executed."""
+    """How a trajectory came."""
 
     NONE = ""
     TOPIC = "topic"
     ACTION = "action"
+
+
+@dataclass
+class Tally:
+    """What has happened since the start; attributes as those of `FollowerReport`."""
+
+    accepted: int = 0
+    refused: Counter[str] = field(default_factory=Counter)
+    last_refusal: TrajectoryError | None = None
+    limited_steps: int = 0
+    limited_joints: tuple[str, ...] = ()
+
+    def refuse(self, refusal: TrajectoryError) -> None:
+        """Enter a refusal."""
+        self.refused[refusal.code] += 1
+        self.last_refusal = refusal
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +53,9 @@ class FollowerReport:
     mode: Mode
     at_rest: bool
     source: Source
+    """Who gave the newest trajectory that is being executed."""
+    commands: tuple[str, ...]
+    """All that are being executed, such as ``left_arm action``; the oldest first."""
     speed_scaling: float
     """In force now: trajectory time per time, 0..1."""
     path_time: float

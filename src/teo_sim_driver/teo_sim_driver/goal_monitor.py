@@ -11,10 +11,10 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.checking.reading import quoted
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.reading import quoted
-from teo_sim_driver.trajectory import MotionState
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.trajectory import MotionState
 
 # A tolerance that says that the joint may be anywhere.
 _ERASED = -1.0
@@ -36,6 +36,7 @@ _RESULT = {
     Refusal.DUPLICATE_JOINT: ResultCode.INVALID_JOINTS,
     Refusal.UNKNOWN_JOINT: ResultCode.INVALID_JOINTS,
     Refusal.HELD_JOINT: ResultCode.INVALID_JOINTS,
+    Refusal.OTHER_GROUP: ResultCode.INVALID_JOINTS,
     Refusal.MISSING_JOINTS: ResultCode.INVALID_JOINTS,
     Refusal.ENDS_IN_THE_PAST: ResultCode.OLD_HEADER_TIMESTAMP,
 }

@@ -47,7 +47,7 @@ def _values(report: FollowerReport, rate: RateReport, refused: int) -> dict[str,
     values = {
         "state": str(report.mode),
         "reason": report.reason,
-        "commanded by": str(report.source),
+        "commanded by": ", ".join(report.commands),
         "speed scaling": f"{report.speed_scaling:.3f}",
         "elapsed [s]": f"{report.path_time:.3f}",
         "duration [s]": f"{report.path_duration:.3f}",

@@ -4,42 +4,32 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection
 
 import numpy as np
 
 from teo_description import JointLimits
-from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.checking.message import TrajectoryLike
+from teo_sim_driver.checking.reading import MessageFields, Points
+from teo_sim_driver.checking.scheduling import schedule
+from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
-from teo_sim_driver.follower_report import FollowerReport, Mode, Source
-from teo_sim_driver.message import TrajectoryLike
-from teo_sim_driver.path_time import Braking, PathClock, PathPace, fastest_ahead
-from teo_sim_driver.reading import MessageFields, Points
+from teo_sim_driver.follower_report import FollowerReport, Mode, Source, Tally
+from teo_sim_driver.gate import Gate
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.commanded_path import Command, CommandedPath
+from teo_sim_driver.motion.path_time import DEFAULT_BRAKING, Braking, PathClock, PathPace, fastest_ahead
+from teo_sim_driver.motion.step_guard import StepGuard
+from teo_sim_driver.motion.trajectory import MotionState, Trajectory
 from teo_sim_driver.rules import Rules
-from teo_sim_driver.step_guard import StepGuard
-from teo_sim_driver.trajectory import MotionState, Trajectory
-from teo_sim_driver.validation import check, schedule
-
-# Deceleration of a stop [rad/s^2], 300 deg/s^2: about that of signs. No limit of the real joints is public.
-DEFAULT_STOP_DECELERATION = 5.2
-
-# Jerk of a stop [rad/s^3], that of the planner's motions: the deceleration builds up in 0.05 s. From 50 deg/s
-# a stop takes 0.22 s and at most 0.1 rad.
-DEFAULT_STOP_JERK = 105.0
-DEFAULT_BRAKING = Braking(DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK)
-
-# Modes in which nothing is taken, the first that holds goes first; with the refusal's code and what to do.
-_BLOCKING = {
-    Mode.INACTIVE: (Refusal.INACTIVE, "activate it (`ros2 lifecycle set ... activate`), then send it again"),
-    Mode.FAULT: (Refusal.FAULT, "mend the cause, call `rearm`, then send it again"),
-    Mode.STOPPED: (Refusal.STOPPED, "call `rearm`, then send it again"),
-    Mode.PAUSED: (Refusal.PAUSED, "resume, or stop and re-arm, then send it again"),
-}
 
 
 class JointFollower:
-    """Executes trajectories, one at a time. Owns no clock: every call says what time it is [ns]."""
+    """Executes trajectories, of all joints or of some. Owns no clock: every call says what time it is [ns].
+
+    Whatever is being executed is one trajectory of all joints (`side_by_side`), so that all of them slow down
+    together when the pace changes.
+    """
 
     def __init__(
         self,
@@ -64,11 +54,8 @@ class JointFollower:
         Raises:
             DriverError: ``start_outside_limits``.
         """
-        outside = [
-            n
-            for n, p, a, b in zip(limits.names, start, limits.lower, limits.upper, strict=True)
-            if not a <= p <= b
-        ]
+        inside = (start >= limits.lower) & (start <= limits.upper)
+        outside = [name for name, good in zip(limits.names, inside, strict=True) if not good]
         if outside:
             raise DriverError(
                 "start_outside_limits", f"expected a start within the joint limits; not so: {outside}"
@@ -82,33 +69,25 @@ class JointFollower:
         self.step_duration = 0.0
         """Of the last step [s]."""
         self._pace = PathPace()
-        self._scaling = 1.0
-        self._paused = False
-        self._blocks: dict[Mode, str] = {}  # modes in which nothing moves until they are released, and why
+        self._gate = Gate()
         self._sent = self._rest = MotionState.at_rest(np.array(start, dtype=np.float64))
-        self._trajectory, self._time = Trajectory.hold(self._rest.positions), 0.0
+        self._path = CommandedPath(self._rest.positions, limits.velocity)
         self._following = self._ending = False
-        self._source = Source.NONE
-        self._accepted = 0
-        self._refused: Counter[str] = Counter()
-        self._last_refusal: TrajectoryError | None = None
-        self._limited_steps = 0
-        self._limited_joints: tuple[str, ...] = ()
+        self._tally = Tally()
 
     @property
     def trajectory(self) -> Trajectory | None:
         """What is being executed; None when holding."""
-        return self._trajectory if self._following else None
+        return self._path.trajectory if self._following else None
 
     @property
     def mode(self) -> Mode:
         """What it is doing."""
-        for mode in _BLOCKING:
-            if mode in self._blocks:
-                return mode
-        if self._paused or self._scaling == 0.0:
-            return Mode.PAUSED
-        return Mode.MOVING if self._following else Mode.HOLDING
+        return self._gate.mode(self._following)
+
+    @property
+    def _at_rest(self) -> bool:
+        return not self._following or (self._pace.rate == 0.0 and self._pace.remaining == 0.0)
 
     def step(self, now: int) -> MotionState:
         """Move on to this time and return what is sent to the joints."""
@@ -118,8 +97,8 @@ class JointFollower:
             return self._sent
         guarded = self._guard.limit(asked.positions, self._sent.positions, duration)
         if guarded.limited:
-            self._limited_steps += 1
-            self._limited_joints = guarded.limited
+            self._tally.limited_steps += 1
+            self._tally.limited_joints = guarded.limited
             moved = guarded.positions - self._sent.positions
             velocities = moved / duration if duration > 0.0 else np.zeros_like(moved)
             asked = MotionState(guarded.positions, velocities, np.zeros_like(moved))
@@ -137,48 +116,61 @@ class JointFollower:
         except TrajectoryError as refusal:
             self.count_refusal(refusal)
             raise
-        return self.take(points, now)
+        self.take(points, now)
+        return self._path.trajectory
 
-    def take(self, points: Points, now: int, source: Source = Source.NONE) -> Trajectory:
-        """Take a checked trajectory in place of the present one, from its start time on.
+    def take(self, points: Points, now: int, source: Source = Source.NONE, group: str = "") -> Command:
+        """Take a checked trajectory in place of what its joints do at present, from its start time on.
+
+        A command that loses joints to it is over: the joints that it keeps slow down on their path and hold.
+        What other commands do goes on.
 
         Args:
             points: As `validation.check` returned them.
             now: [ns].
             source: Who gave it.
+            group: Of joints, whose topic or action it came by; empty for the whole body.
 
         Raises:
             TrajectoryError: refused; whatever was going on goes on.
         """
         self.step(now)
         try:
-            self._check_free()
+            self._gate.check(self._following)
+            if self._ending:
+                sentence = "the robot slows down and is not at rest yet: send it again when it is"
+                raise TrajectoryError(Refusal.STOPPING, sentence)
             delay, trajectory = schedule(
                 points, limits=self.limits, rules=self.rules, now=now, state_in=self._path_state_in
             )
         except TrajectoryError as refusal:
             self.count_refusal(refusal)
             raise
-        if delay > 0.0:
-            trajectory = self._trajectory.cut(self._time, self._time + self._pace.progress(delay)).then(
-                trajectory
-            )
-        self._accepted += 1
-        self._trajectory, self._time, self._following, self._source = trajectory, 0.0, True, source
-        return trajectory
+        self._tally.accepted += 1
+        command = Command(points.columns, source, group)
+        self._path.take(trajectory, command, self._pace.progress(delay), self.braking)
+        self._following = True
+        return command
 
     def count_refusal(self, refusal: TrajectoryError) -> None:
         """Enter a refusal into the report."""
-        self._refused[refusal.code] += 1
-        self._last_refusal = refusal
+        self._tally.refuse(refusal)
 
-    def cancel(self, now: int) -> float:
-        """Slow down on the path until the robot stands still, and hold there; then trajectories are taken.
+    def cancel(self, now: int, command: Command | None = None) -> float:
+        """Slow down on the path until the joints stand still, and hold there.
+
+        Args:
+            now: [ns].
+            command: Whose joints are to stop while others go on; all joints without.
 
         Returns:
-            Time until it stands still [s]; 0 when it holds already.
+            Time until all of them stand still, at full pace [s]; 0 when they hold already.
         """
         self.step(now)
+        if command is not None and self._path.commands != (command,):
+            if command.over:
+                return 0.0
+            return self._path.slow_down(command, None if self._at_rest else self.braking)
         if self._following and not self._ending:
             self._ending = True
             self._turn()
@@ -196,8 +188,8 @@ class JointFollower:
         Returns:
             Time until the robot stands still [s].
         """
-        self._blocks.setdefault(mode, reason)
-        self._paused = False
+        self._gate.blocks.setdefault(mode, reason)
+        self._gate.paused = False
         return self.cancel(now)
 
     def release(self, mode: Mode) -> None:
@@ -206,11 +198,11 @@ class JointFollower:
         Raises:
             DriverError: ``moving``: the robot is still slowing down.
         """
-        if mode in self._blocks and self._following and self._ending:
+        if mode in self._gate.blocks and self._following and self._ending:
             raise DriverError(
                 "moving", f"the robot is at rest in {self._pace.remaining:.2f} s: call again then"
             )
-        self._blocks.pop(mode, None)
+        self._gate.blocks.pop(mode, None)
 
     def pause(self, now: int) -> float:
         """Slow down on the path, and stay on it.
@@ -219,14 +211,14 @@ class JointFollower:
             Time until the robot stands still [s].
         """
         self.step(now)
-        self._paused = True
+        self._gate.paused = True
         self._turn()
         return self._pace.remaining if self._following else 0.0
 
     def resume(self, now: int) -> bool:
         """Go on after a pause; False if there was none."""
         self.step(now)
-        paused, self._paused = self._paused, False
+        paused, self._gate.paused = self._gate.paused, False
         self._turn()
         return paused
 
@@ -239,7 +231,7 @@ class JointFollower:
         if not 0.0 <= factor <= 1.0:
             raise DriverError("bad_factor", f"expected a speed scaling factor within 0 .. 1, got {factor}")
         self.step(now)
-        self._scaling = factor
+        self._gate.scaling = factor
         self._turn()
 
     def move_rest(self, positions: FloatArray) -> None:
@@ -258,69 +250,51 @@ class JointFollower:
     def report(self) -> FollowerReport:
         """What goes on, and what has happened."""
         mode = self.mode
+        newest = self._path.commands[-1] if self._path.commands else None
         return FollowerReport(
             mode=mode,
-            at_rest=not self._following or (self._pace.rate == 0.0 and self._pace.remaining == 0.0),
-            source=self._source,
+            at_rest=self._at_rest,
+            commands=tuple(command.name for command in self._path.commands),
+            source=newest.source if newest else Source.NONE,
             speed_scaling=self._pace.rate,
-            path_time=self._time if self._following else 0.0,
-            path_duration=self._trajectory.duration if self._following else 0.0,
-            reason=self._reason(mode),
-            accepted=self._accepted,
-            refused=dict(self._refused),
-            last_refusal=self._last_refusal,
-            limited_steps=self._limited_steps,
-            limited_joints=self._limited_joints,
+            path_time=self._path.time if self._following else 0.0,
+            path_duration=self._path.trajectory.duration if self._following else 0.0,
+            reason=self._gate.reason(mode),
+            accepted=self._tally.accepted,
+            refused=dict(self._tally.refused),
+            last_refusal=self._tally.last_refusal,
+            limited_steps=self._tally.limited_steps,
+            limited_joints=self._tally.limited_joints,
             clock_jumps=self._clock.jumps,
         )
 
-    def _check_free(self) -> None:
-        mode = self.mode
-        if mode in _BLOCKING:
-            code, remedy = _BLOCKING[mode]
-            raise TrajectoryError(code, f"{self._reason(mode)}: {remedy}")
-        if self._ending:
-            raise TrajectoryError(
-                Refusal.STOPPING, "the robot slows down and is not at rest yet: send it again when it is"
-            )
-
-    def _reason(self, mode: Mode) -> str:
-        """Why it is paused, stopped, inactive or in fault; empty in the other modes."""
-        if mode is Mode.PAUSED:
-            return "paused" if self._paused else "the speed scaling factor is 0"
-        return self._blocks.get(mode, "")
-
     def _path_state_in(self, delay: float) -> MotionState:
         """State on the path, at full pace: what a trajectory that takes over begins with, at any pace."""
-        return self._trajectory.sample(self._time + self._pace.progress(delay))
+        return self._path.sample(self._pace.progress(delay))
 
     def _turn(self) -> None:
         """Let the pace become what it should be now."""
-        target = 0.0 if self._ending or self._paused else self._scaling
+        target = 0.0 if self._ending else self._gate.pace
         if not self._following:
             self._pace.jump(target)
             return
-        fastest = fastest_ahead(self._trajectory, self._time, self.limits.velocity, self.braking)
+        fastest = fastest_ahead(self._path.trajectory, self._path.time, self.limits.velocity, self.braking)
         self._pace.turn(target, fastest, self.braking)
 
     def _advance(self, duration: float) -> MotionState:
         """Let time pass and return where the joints should be."""
         if not self._following:
             return self._rest
-        self._time += self._pace.advance(duration)
-        state = self._trajectory.sample(self._time)
+        state = self._path.advance(self._pace.advance(duration))
         rate, change = self._pace.rate, self._pace.acceleration
-        if self._time >= self._trajectory.duration or (self._ending and rate == 0.0 == self._pace.remaining):
+        ended = self._path.time >= self._path.trajectory.duration
+        if ended or (self._ending and rate == 0.0 == self._pace.remaining):
             self._hold(state.positions)
             return self._rest
-        return MotionState(
-            state.positions,
-            rate * state.velocities,
-            rate**2 * state.accelerations + change * state.velocities,
-        )
+        return state.at_pace(rate, change)
 
     def _hold(self, positions: FloatArray) -> None:
         self._rest = MotionState.at_rest(positions)
-        self._trajectory, self._time = Trajectory.hold(positions), 0.0
-        self._following, self._ending, self._source = False, False, Source.NONE
+        self._path.hold(positions)
+        self._following, self._ending = False, False
         self._turn()

@@ -6,9 +6,12 @@ from __future__ import annotations
 
 from teo_common.parameters import ParameterRow
 from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
-from teo_sim_driver.joint_follower import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
-from teo_sim_driver.plant import Faults
+from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
+from teo_sim_driver.plants.faults import Faults
 from teo_sim_driver.rules import Rules
+
+# Which joints the driver drives.
+IDEAL, MUJOCO = "ideal", "mujoco"
 
 _RULES = Rules()
 _FAULTS = Faults()
@@ -116,6 +119,16 @@ PARAMETERS = (
         description=(
             "Whether the node configures and activates itself, so that it works without a lifecycle manager."
         ),
+        read_only=True,
+    ),
+    ParameterRow(
+        name="plant",
+        default=IDEAL,
+        description=(
+            "The joints: `ideal` ones are where they are told to be; with `mujoco` they have mass, servos, "
+            "gravity and contact."
+        ),
+        choices=(IDEAL, MUJOCO),
         read_only=True,
     ),
     ParameterRow(

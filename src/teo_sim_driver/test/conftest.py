@@ -19,8 +19,8 @@ from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS, JointLimits, joint_limits
+from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.joint_follower import JointFollower
-from teo_sim_driver.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.node.driver_node import DriverNode
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -116,7 +116,9 @@ class Bench:
 
     def __init__(self, context, **driver_arguments):
         self.driver = DriverNode(context=context, **driver_arguments)
-        self.client = rclpy.create_node("client", context=context)
+        self.client = rclpy.create_node(
+            "client", context=context, namespace=driver_arguments.get("namespace")
+        )
         self.executor = SingleThreadedExecutor(context=context)
         self.executor.add_node(self.driver)
         self.executor.add_node(self.client)

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import BPoly
 
-from teo_sim_driver.bezier import CUBIC, LINEAR, QUINTIC, control_points, derivative, first_excess
-from teo_sim_driver.trajectory import Trajectory
+from teo_sim_driver.motion.bezier import CUBIC, LINEAR, QUINTIC, control_points, derivative, first_excess
+from teo_sim_driver.motion.trajectory import Trajectory
 
 GIVEN = {LINEAR: 1, CUBIC: 2, QUINTIC: 3}  # derivatives that a point gives, the zeroth included
 
@@ -21,7 +21,7 @@ def random_trajectory(seed: int, degrees: list[int], joints: int = 3) -> Traject
         rng.normal(size=(points, joints)),
         rng.normal(size=(points, joints)),
         rng.normal(scale=5.0, size=(points, joints)),
-        np.array(degrees, dtype=np.int8),
+        np.repeat(np.array(degrees, dtype=np.int8)[:, None], joints, axis=1),
     )
 
 
@@ -29,7 +29,7 @@ def independent(trajectory: Trajectory, segment: int, order: int = 0):
     ends = []
     for i in (segment, segment + 1):
         values = [trajectory.positions[i], trajectory.velocities[i], trajectory.accelerations[i]]
-        ends.append(values[: GIVEN[int(trajectory.degrees[segment])]])
+        ends.append(values[: GIVEN[int(trajectory.degrees[segment, 0])]])
     return BPoly.from_derivatives(trajectory.times[segment : segment + 2], ends).derivative(order)
 
 
@@ -119,7 +119,7 @@ def test_a_curve_that_is_not_finite_is_outside():
 def test_a_plateau_exactly_on_the_bound_is_inside():
     control = control_points(
         np.array([1.0]),
-        np.array([LINEAR], np.int8),
+        np.array([[LINEAR]], np.int8),
         np.array([[0.0], [0.3]]),
         np.zeros((2, 1)),
         np.zeros((2, 1)),

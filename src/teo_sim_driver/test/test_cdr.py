@@ -12,11 +12,11 @@ from rclpy.serialization import serialize_message
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import LEG_JOINTS
-from teo_sim_driver.cdr import CdrTrajectory
+from teo_sim_driver.checking.cdr import CdrTrajectory
+from teo_sim_driver.checking.reading import MessageFields
+from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import TrajectoryError
-from teo_sim_driver.reading import MessageFields
 from teo_sim_driver.rules import Rules
-from teo_sim_driver.validation import check
 
 
 def assert_same(message):

@@ -8,8 +8,9 @@ from control_msgs.srv import QueryTrajectoryState
 from rclpy.action import ActionClient
 from rclpy.parameter import Parameter
 from teo_sign_msgs.msg import DriverState
+from trajectory_msgs.msg import JointTrajectory
 
-from teo_description import COMMANDED_JOINTS
+from teo_description.joints import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 
 Result = FollowJointTrajectory.Result
 ELBOW = "FrontalRightElbow"
@@ -18,9 +19,10 @@ ELBOW = "FrontalRightElbow"
 class Client:
     """Sends goals and waits for what becomes of them."""
 
-    def __init__(self, bench):
+    def __init__(self, bench, prefix=""):
         self.bench = bench
-        self.client = ActionClient(bench.client, FollowJointTrajectory, "follow_joint_trajectory")
+        name = f"{prefix}follow_joint_trajectory"
+        self.client = ActionClient(bench.client, FollowJointTrajectory, name)
         bench.until(self.client.server_is_ready)
         self.feedback = []
 
@@ -139,6 +141,34 @@ def test_the_newest_command_wins_and_the_goal_before_it_is_told(bench, client, o
     status, result = client.end(third)
     assert (status, result.error_code) == (GoalStatus.STATUS_ABORTED, Result.INVALID_GOAL)
     assert result.error_string.startswith("stopped")
+
+
+def test_limbs_are_commanded_side_by_side_until_the_whole_body_takes_over(bench, one_way):
+    def limb(joints, joint):
+        message = one_way(duration=20.0, angle=-0.6, joint=joint)
+        columns = [COMMANDED_JOINTS.index(name) for name in joints]
+        for point in message.points:
+            for field in ("positions", "velocities", "accelerations"):
+                setattr(point, field, [getattr(point, field)[i] for i in columns])
+        message.joint_names = list(joints)
+        return message
+
+    left, right = Client(bench, "left_arm/"), Client(bench, "right_arm/")
+    to_the_left = bench.client.create_publisher(JointTrajectory, "left_arm/joint_trajectory", 10)
+    bench.until(to_the_left.get_subscription_count)
+    first = left.send(limb(LEFT_ARM, "FrontalLeftElbow"))
+    second = right.send(limb(RIGHT_ARM, ELBOW))
+    bench.until(lambda: bench.position(ELBOW) < -0.02 and bench.position("FrontalLeftElbow") < -0.02)
+    bench.until(lambda: left.feedback and list(left.feedback[-1].joint_names) == list(LEFT_ARM))
+    to_the_left.publish(limb(RIGHT_ARM, ELBOW))
+    bench.until(lambda: bench.driver_states[-1].refusal_code == "other_group")
+    second.cancel_goal_async()
+    status, _ = right.end(second)
+    assert status == GoalStatus.STATUS_CANCELED
+    bench.commands.publish(one_way(duration=20.0, angle=-0.3))
+    status, result = left.end(first)
+    assert (status, result.error_code) == (GoalStatus.STATUS_ABORTED, Result.INVALID_GOAL)
+    assert "topic" in result.error_string
 
 
 def test_a_joint_beyond_its_tolerance_aborts_the_goal_on_the_way_or_at_the_end(bench, client, one_way):

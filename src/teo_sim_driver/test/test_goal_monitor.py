@@ -7,7 +7,7 @@ import pytest
 
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
-from teo_sim_driver.trajectory import MotionState
+from teo_sim_driver.motion.trajectory import MotionState
 
 JOINTS = ("neck", "elbow")
 

@@ -7,8 +7,9 @@ import pytest
 from rclpy.serialization import serialize_message
 
 from teo_description import LEG_JOINTS
+from teo_sim_driver.checking.intake import MOST_WAITING, Intake
+from teo_sim_driver.checking.reading import MessageFields
 from teo_sim_driver.errors import TrajectoryError
-from teo_sim_driver.intake import MOST_WAITING, Intake
 from teo_sim_driver.rules import Rules
 
 
@@ -32,8 +33,8 @@ def take_all(intake, count):
 def test_trajectories_come_out_in_their_order_with_their_sender(intake, swing, as_ros):
     good, bad = swing(), swing()
     bad.joint_names = []
-    intake.put(good, Rules(), "objects")
-    intake.put(bad, Rules(), "bad")
+    intake.put(MessageFields(good), Rules(), "objects")
+    intake.put(MessageFields(bad), Rules(), "bad")
     intake.put(serialize_message(as_ros(good)), Rules(), "bytes")
     objects, refused, data = take_all(intake, 3)
     assert (objects.sender, refused.sender, data.sender) == ("objects", "bad", "bytes")
@@ -58,10 +59,10 @@ def test_more_than_can_be_checked_are_refused(intake, swing, monkeypatch):
     gate = threading.Event()
     monkeypatch.setattr(intake, "_check", lambda *_: gate.wait(20.0))
     for _ in range(MOST_WAITING):
-        intake.put(swing(), Rules(), None)
+        intake.put(MessageFields(swing()), Rules(), None)
     with pytest.raises(TrajectoryError) as refusal:
-        intake.put(swing(), Rules(), None)
+        intake.put(MessageFields(swing()), Rules(), None)
     assert refusal.value.code == "too_many_waiting"
     gate.set()
     take_all(intake, MOST_WAITING)
-    intake.put(swing(), Rules(), None)
+    intake.put(MessageFields(swing()), Rules(), None)

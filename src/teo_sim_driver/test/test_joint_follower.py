@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from teo_sim_driver.checking.message import plain_trajectory
 from teo_sim_driver.errors import DriverError, TrajectoryError
 from teo_sim_driver.follower_report import Mode
-from teo_sim_driver.message import SECOND, plain_trajectory
+from teo_sim_driver.motion.path_time import SECOND
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from teo_sim_driver.plant import Faults, Plant, StateLine
-from teo_sim_driver.trajectory import MotionState
+from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.plants.faults import Faults, FaultyPlant, StateLine
+from teo_sim_driver.plants.plant import IdealPlant
 
 NAMES = ("neck", "elbow")
 SECOND = 1_000_000_000
@@ -16,7 +17,7 @@ def at(*positions):
 
 @pytest.fixture
 def plant():
-    return Plant(NAMES, np.zeros(2))
+    return FaultyPlant(IdealPlant(), NAMES, np.zeros(2))
 
 
 def run(plant, goal, steps):

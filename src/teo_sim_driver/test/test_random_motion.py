@@ -10,10 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from teo_sim_driver.checking.message import PlainTime, plain_trajectory
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode
-from teo_sim_driver.message import SECOND, PlainTime, plain_trajectory
-from teo_sim_driver.path_time import Braking
+from teo_sim_driver.motion.path_time import SECOND, Braking
 
 START = 1_700_000_000 * SECOND
 FRACTIONS = np.linspace(0.0, 1.0, 401)

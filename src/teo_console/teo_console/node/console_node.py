@@ -74,7 +74,7 @@ class ConsoleNode(Node):
         address = self._value("address")
         self._access = Access.for_address(address, self._host_names())
         self._server = ServerThread(self._make_app, address, self._value("port"))
-        self._hub_welcome()
+        self._send_welcome()
         self.create_timer(1.0 / self._value("pose_rate"), self._send_pose)
         self.create_timer(1.0 / _SITUATION_RATE, self._send_situation)
         self._say_where(address)
@@ -86,8 +86,7 @@ class ConsoleNode(Node):
 
     def destroy_node(self) -> None:
         """Send the pages away, then end."""
-        if hasattr(self, "_server"):
-            self._server.close()
+        self._server.close()
         super().destroy_node()
 
     def _value(self, name: str) -> Any:
@@ -120,7 +119,7 @@ class ConsoleNode(Node):
         given = {name.strip().lower() for name in self._value("allowed_hosts").split(",")} - {""}
         return frozenset({socket.gethostname().lower(), *_own_addresses(), *given})
 
-    def _hub_welcome(self) -> None:
+    def _send_welcome(self) -> None:
         self._robot_known = bool(self._observer.urdf)
         welcome = encode(Welcome(joints=self._joints, robot=self._robot_known))
         self._server.call(self._hub.welcome, welcome)
@@ -128,12 +127,12 @@ class ConsoleNode(Node):
     def _send_pose(self) -> None:
         state = self._observer.take_joint_state()
         if bool(self._observer.urdf) != self._robot_known:
-            self._hub_welcome()
+            self._send_welcome()
         if state is None or not self._pages:
             return
         if tuple(state.name) != self._joints:
             self._joints = tuple(state.name)
-            self._hub_welcome()
+            self._send_welcome()
         now = self._now()
         if state.position == self._positions and now - self._pose_sent < _REPEAT:
             return

@@ -13,12 +13,11 @@ from teo_sign_msgs.msg import (
     TokenTiming,
     TranslationStatus,
 )
-from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
+from teo_sign_msgs.srv import GetSign, ListQueue
 
 from teo_console.protocol.to_page import (
     Caption,
     ExecutorState,
-    Listed,
     Motion,
     Origin,
     Queued,
@@ -32,7 +31,7 @@ from teo_console.protocol.to_page import (
 from teo_console.situation.progress import PathReport
 from teo_console.situation.sentences import SigningReport
 
-KINDS: dict[int, TokenKind] = {
+_KINDS: dict[int, TokenKind] = {
     SignToken.KIND_LEXICAL: "sign",
     SignToken.KIND_LETTER: "letter",
     SignToken.KIND_NUMBER: "number",
@@ -160,18 +159,10 @@ def to_sign(gloss: str, response: GetSign.Response) -> Sign:
     )
 
 
-def to_listed(response: ListSigns.Response) -> tuple[Listed, ...]:
-    """Signs of the table by name."""
-    return tuple(
-        Listed(gloss=gloss, kind=KINDS[kind])
-        for gloss, kind in zip(response.glosses, response.kinds, strict=True)
-    )
-
-
 def _to_caption(token: SignToken) -> Caption:
     return Caption(
         gloss=token.gloss,
-        kind=KINDS.get(token.kind, "sign"),
+        kind=_KINDS.get(token.kind, "sign"),
         origin=_ORIGINS.get(token.origin, "unknown"),
         words=tuple(token.source_words),
         word_index=token.word_index,

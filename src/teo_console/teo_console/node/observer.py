@@ -56,11 +56,13 @@ class Observer:
         newest = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
         # A text's worth of sentences that come while a callback runs.
         many = 100
+        # Latched too, but each counts: what was refused is told just before what is done now.
+        statuses = QoSProfile(depth=many, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         subscribe = node.create_subscription
         # As bytes: a hundred come a second, of which some thirty are looked at.
         subscribe(JointState, "joint_states", self._on_joint_state, newest, raw=True)
         subscribe(SignSentence, "sign_tokens", self._on_tokens, many)
-        subscribe(ExecutorStatus, "executor_status", self._on_executor_status, latched)
+        subscribe(ExecutorStatus, "executor_status", self._on_executor_status, statuses)
         subscribe(DriverState, "driver_state", self._on_driver_state, latched)
         subscribe(TranslationStatus, "translation_status", self._on_translation_status, many)
         subscribe(DiagnosticArray, "diagnostics", self._on_diagnostics, many)

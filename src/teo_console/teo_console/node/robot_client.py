@@ -14,7 +14,7 @@ from rclpy.task import Future
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import SignSentence, SignToken
-from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
+from teo_sign_msgs.srv import GetSign, ListQueue
 
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
@@ -22,17 +22,12 @@ from teo_console.protocol.from_page import (
     Command,
     ConfirmSpoken,
     DiscardSpoken,
+    FetchSign,
     FromPage,
     Order,
     SetSpeed,
     SignGlosses,
     SignText,
-)
-from teo_console.protocol.from_page import (
-    GetSign as AskedSign,
-)
-from teo_console.protocol.from_page import (
-    ListSigns as AskedSigns,
 )
 from teo_console.protocol.to_page import Answer
 from teo_console.situation.shared_situation import SharedSituation
@@ -57,7 +52,6 @@ class RobotClient:
         self._speeds = node.create_publisher(SpeedScalingFactor, "speed_scaling_input", 10)
         self._orders = {order: node.create_client(Trigger, order.value) for order in Order}
         self._get_sign = node.create_client(GetSign, "get_sign")
-        self._list_signs = node.create_client(ListSigns, "list_signs")
         self._list_queue = node.create_client(ListQueue, "list_queue")
 
     def serve(self, asked: FromPage, reply: Reply) -> None:
@@ -97,12 +91,9 @@ class RobotClient:
             case Command():
                 client = self._orders[asked.order]
                 self._call(client, Trigger.Request(), reply, lambda done: _of_trigger(asked.id, done))
-            case AskedSign():
+            case FetchSign():
                 request = GetSign.Request(gloss=asked.gloss)
                 self._call(self._get_sign, request, reply, lambda done: _of_sign(asked, done))
-            case AskedSigns():
-                request = ListSigns.Request(prefix=asked.prefix)
-                self._call(self._list_signs, request, reply, lambda done: _of_signs(asked, done))
 
     def _sign(self, text: str) -> None:
         self._expect_listener(self._texts, "translator")
@@ -153,11 +144,7 @@ def _of_trigger(number: int, response: Trigger.Response) -> Answer:
     return Answer(id=number, success=response.success, code=code, message=response.message)
 
 
-def _of_sign(asked: AskedSign, response: GetSign.Response) -> Answer:
+def _of_sign(asked: FetchSign, response: GetSign.Response) -> Answer:
     if not response.success:
         return Answer(id=asked.id, success=False, code=response.code, message=response.message)
     return Answer(id=asked.id, success=True, sign=messages.to_sign(asked.gloss, response))
-
-
-def _of_signs(asked: AskedSigns, response: ListSigns.Response) -> Answer:
-    return Answer(id=asked.id, success=True, signs=messages.to_listed(response))

@@ -78,19 +78,13 @@ class DiscardSpoken(Request, frozen=True, tag="discard_spoken"):
     spoken: Name
 
 
-class GetSign(Request, frozen=True, tag="get_sign"):
+class FetchSign(Request, frozen=True, tag="get_sign"):
     """One sign of the table: its entry, and its motion."""
 
     gloss: Gloss
 
 
-class ListSigns(Request, frozen=True, tag="list_signs"):
-    """The signs of the table that begin so."""
-
-    prefix: Annotated[str, Meta(max_length=GLOSS_LENGTH)]
-
-
-FromPage = SignText | SignGlosses | Command | SetSpeed | ConfirmSpoken | DiscardSpoken | GetSign | ListSigns
+FromPage = SignText | SignGlosses | Command | SetSpeed | ConfirmSpoken | DiscardSpoken | FetchSign
 
 _DECODER = msgspec.json.Decoder(FromPage)
 

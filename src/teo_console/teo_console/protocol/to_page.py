@@ -170,13 +170,6 @@ class Sign(Struct, frozen=True, kw_only=True):
     motion: Motion
 
 
-class Listed(Struct, frozen=True, kw_only=True):
-    """A sign of the table by name."""
-
-    gloss: str
-    kind: TokenKind
-
-
 class Answer(Struct, frozen=True, kw_only=True, tag_field="type", tag="answer"):
     """What became of a request."""
 
@@ -188,7 +181,6 @@ class Answer(Struct, frozen=True, kw_only=True, tag_field="type", tag="answer"):
     message: str = ""
     """A sentence for people."""
     sign: Sign | None = None
-    signs: tuple[Listed, ...] | None = None
 
 
 ToPage = Situation | Welcome | Answer

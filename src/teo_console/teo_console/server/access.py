@@ -11,7 +11,7 @@ from __future__ import annotations
 import hmac
 import ipaddress
 import secrets
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from aiohttp import web
@@ -61,7 +61,6 @@ class Access:
     """Names and addresses under which it may be asked for, without the port."""
     token: str | None = None
     """What a browser must have been given; None: none is needed."""
-    headers: dict[str, str] = field(default_factory=lambda: dict(_HEADERS))
 
     @classmethod
     def for_address(cls, address: str, names: frozenset[str]) -> Access:
@@ -141,10 +140,10 @@ def guard(access: Access) -> Middleware:
         except ConsoleError as error:
             response = refusal(error, 401 if error.code == "no_token" else 403)
         except web.HTTPException as error:
-            error.headers.update(access.headers)
+            error.headers.update(_HEADERS)
             raise
         if not response.prepared:
-            response.headers.update(access.headers)
+            response.headers.update(_HEADERS)
         return response
 
     return guarded

@@ -23,6 +23,7 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan, sample_at
 from teo_motion.sentence.sentence_form import SentenceType, printed_form, without_marks
+from teo_motion.torque import peak_torques
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
@@ -31,6 +32,9 @@ from teo_signs.tokens import parse_printed
 
 # Rows of a CSV a second [Hz], as TEO's own state is published.
 _RATE = 100
+
+# Joints whose torque is told: the trunk's, which bears the most, and one of each arm.
+_SHOWN_TORQUES = 3
 
 # A nanoradian: what is written stays within the limits that it stands on.
 _DECIMALS = 9
@@ -108,7 +112,7 @@ def _plan(
             form = replace(form, negated=negated)
         plan = planner.plan(tokens, form=form)
         _out.print(_table(plan))
-        _out.print(_summary(plan), highlight=False, soft_wrap=True)
+        _out.print(_summary(plan, robot), highlight=False, soft_wrap=True)
         _write(plan, csv, mp4, strip)
     except (PlanError, LutError, DescriptionError) as error:
         _complain(f"{error.code}: {error}")
@@ -128,7 +132,7 @@ def _table(plan: Plan) -> Table:
     return table
 
 
-def _summary(plan: Plan) -> str:
+def _summary(plan: Plan, robot: Robot) -> str:
     lines = [f"{plan.duration:.2f} s from rest to rest, signs stretched {plan.stretch:.2f} times"]
     if plan.nearest is not None:
         near = plan.nearest
@@ -136,6 +140,11 @@ def _summary(plan: Plan) -> str:
             f"nearest to itself: {near.distance * 1000.0:.0f} mm between {near.first} and {near.second} "
             f"at {near.time:.2f} s"
         )
+    peaks = (
+        f"{peak.joint} {peak.torque:.1f} N m ({100.0 * peak.share:.0f} % of its limit, at {peak.time:.2f} s)"
+        for peak in peak_torques(plan, robot)[:_SHOWN_TORQUES]
+    )
+    lines.append(f"most torque, over limits that are placeholders: {', '.join(peaks)}")
     if plan.head:
         gestures = (f"{item.kind.value} {item.start:.2f} .. {item.end:.2f} s" for item in plan.head)
         lines.append(f"head: {', '.join(gestures)}")

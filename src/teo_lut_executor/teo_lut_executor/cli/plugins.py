@@ -30,6 +30,7 @@ _CAPTURE = ("teo_sign_capture", "requirements/capture.txt")
 _KNOWN = {
     "capture": _Known("A sign from recordings of a person.", *_CAPTURE),
     "coverage": _Known("What of a text has signs.", "teo_sign_translator", "requirements/run.txt"),
+    "ease": _Known("Postures of words that are quicker to reach.", *_CAPTURE),
     "import": _Known(
         "Signs from a clip in which a person's points were found, or from SignWriting.", *_CAPTURE
     ),

@@ -16,7 +16,7 @@ from teo_motion.trajectory.limits import MotionLimits
 _CLOCK_STEP = 0.2
 
 # What the driver's modes mean for the sentence at hand, by code.
-_BLOCKED = {
+BLOCKED = {
     DriverMode.STOPPED: ("stopped", "the robot was told to stop: re-arm it to go on"),
     DriverMode.INACTIVE: ("driver_inactive", "the driver is not active: activate it to go on"),
     DriverMode.FAULT: ("driver_fault", "the driver reports a fault: mend it and re-arm it to go on"),
@@ -70,7 +70,7 @@ class Situation:
     @property
     def block(self) -> tuple[str, str] | None:
         """Code and meaning of the driver's mode if it takes no motion in it."""
-        return None if self.mode is None else _BLOCKED.get(self.mode)
+        return None if self.mode is None else BLOCKED.get(self.mode)
 
     @property
     def age(self) -> float:

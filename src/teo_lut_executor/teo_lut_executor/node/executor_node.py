@@ -279,7 +279,8 @@ class ExecutorNode(SelfStartingNode):
 
     def _publish(self, status: Status) -> None:
         self._statistics.add_status(status)
-        self._statuses.publish(to_status(status))
+        if self.context.ok():  # not where it was told to end before it had begun to spin
+            self._statuses.publish(to_status(status))
         if status.code:
             named = "" if status.sentence is None else f" (utterance {status.sentence.utterance_id})"
             self.get_logger().warning(f"{status.activity.name}: [{status.code}] {status.message}{named}")

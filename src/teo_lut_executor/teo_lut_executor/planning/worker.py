@@ -171,3 +171,5 @@ def main() -> None:
         serve(Connection(int(sys.argv[1])))
     except LutError as error:
         sys.exit(f"planner: [{error.code}] {error}")
+    finally:
+        gc.unfreeze()  # else bindings complain of leaks at the end

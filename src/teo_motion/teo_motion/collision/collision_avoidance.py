@@ -115,10 +115,15 @@ class CollisionAvoidance:
         """Lead the transition with the worst collision around the body."""
         route, plan, times = timed
         step = _nearest_step(timed)
-        if route.token_at(step) is None and self._is_clear_at(plan, times[step : step + 2]):
+        if self._is_clear_at(plan, times[step : step + 2]):
             begin, end = float(times[step]), float(times[step + 1])
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
-            for postures in self._free_first(detours(first, middle, second, self._limits), first, second):
+            # A sign that is swung into leaves the straight line to its next knot, where hands may be close:
+            # it stands still at the knot first.
+            ways: Iterable[Sequence[Array]] = (
+                detours(first, middle, second, self._limits) if route.token_at(step) is None else [(first,)]
+            )
+            for postures in self._free_first(ways, first, second):
                 other = route
                 for posture in reversed(postures):
                     other = with_detour(other, step, posture)

@@ -15,29 +15,12 @@ from teo_common.arrays import Array
 from teo_description import COMMANDED_JOINTS
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
+from teo_motion.collision.approach_bound import approaches
 from teo_motion.sentence.plan import NearestApproach, Samples
 
 # Overlaps between two looks are found to within this [m]: parts that are at least so far apart at their
 # nearest overlap nowhere.
 RESOLUTION = 0.002
-
-# How far any point of the robot can be from each joint's axis [m], rounded up from the robot description: tip
-# of the hand to shoulder, elbow and wrist, finger tip to knuckle.
-_REACH = {
-    "Neck": 0.25,
-    "Trunk": 0.9,
-    "Shoulder": 0.85,
-    "Elbow": 0.55,
-    "FrontalLeftWrist": 0.33,
-    "FrontalRightWrist": 0.33,
-    "Wrist": 0.12,
-    "Hand": 0.12,
-    "Finger": 0.12,
-}
-
-# How far parts can have moved is bounded by adding up all joints, as if each moved the farthest point, and
-# all in one direction. The real motion is about a third of that, and the approach of two parts less.
-_REAL_SHARE = 0.5
 
 # Looks of the first round are this far apart, over what parts at one distance need to meet [1]: at 2 they
 # could just meet half way and come back; a little less, so that parts a little nearer need no third look.
@@ -53,7 +36,6 @@ class MotionClearance:
     def __init__(self, robot: Robot) -> None:
         """Use a robot, which is not shared with another thread."""
         self._robot = robot
-        self._reach = np.array([_reach(name) for name in COMMANDED_JOINTS])
 
     def nearest(self, samples: Samples, *, head_alone: bool = False) -> NearestApproach:
         """The nearest approach of parts along a motion that was found, and no overlap unseen.
@@ -67,13 +49,13 @@ class MotionClearance:
             samples: The motion of the 28 commanded joints.
             head_alone: Whether only pairs with a part of the head are measured.
         """
-        motion = _Motion(samples, self._reach)
+        motion = _Motion(samples)
         clearance = self._robot.head_clearance if head_alone else self._robot.clearance
         last = float(motion.path[-1])
         looks = [self._look(motion, 0.0, clearance)]
         while looks[-1][0] < last:
             path, near = looks[-1]
-            ahead = min(path + max(_AHEAD * near.distance / _REAL_SHARE, _STEP), last)
+            ahead = min(path + max(_AHEAD * near.distance, _STEP), last)
             looks.append(self._look(motion, ahead, clearance))
         closest = min((near for _, near in looks), key=lambda near: near.distance)
         stretches = [(_least(*pair), *pair) for pair in pairwise(looks) if pair[0][0] < pair[1][0]]
@@ -111,12 +93,11 @@ _Look = tuple[float, NearestApproach]
 
 
 class _Motion:
-    """A motion by how far its parts can have moved since its beginning."""
+    """A motion by how far two parts can have approached each other since its beginning."""
 
-    def __init__(self, samples: Samples, reach: Array) -> None:
+    def __init__(self, samples: Samples) -> None:
         self._samples = samples
-        moved = np.abs(np.diff(samples.positions, axis=0)) @ reach
-        self.path: Array = np.concatenate(([0.0], np.cumsum(moved)))
+        self.path: Array = np.concatenate(([0.0], np.cumsum(approaches(samples.positions))))
 
     def at(self, path: float) -> tuple[float, Array]:
         """Time [s] and positions [rad] on straight lines between samples, which are a period apart."""
@@ -131,9 +112,4 @@ class _Motion:
 
 def _least(first: _Look, second: _Look) -> float:
     """What the distance between two looks is not below [m]."""
-    moved = _REAL_SHARE * (second[0] - first[0])
-    return (first[1].distance + second[1].distance - moved) / 2.0
-
-
-def _reach(name: str) -> float:
-    return next(reach for part, reach in _REACH.items() if part in name)
+    return (first[1].distance + second[1].distance - (second[0] - first[0])) / 2.0

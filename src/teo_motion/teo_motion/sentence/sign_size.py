@@ -8,13 +8,15 @@ its centre: arms, trunk, and fingers that come back to where they were, as in a 
 once is kept: half open it is another one. So are places and palms that differ: no hand moves or turns further
 than what a reader takes for the same. A sign that touches is drawn together around the contact, one that
 touches in several postures is left as large as it is. What is repeated more than twice is repeated twice:
-that it repeats is told by the second time.
+that it repeats is told by the second time. Where that is not enough, fingers begin a way before a knot and
+end it after.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from itertools import pairwise
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -35,6 +37,12 @@ _HANDS = frozenset((*LEFT_HAND, *RIGHT_HAND))
 # Parts nearer than this touch, or are meant to [m]: three in four of the table's words come that near, since
 # those that touch stand off by up to 22 mm: the shapes that must not overlap are larger than the parts.
 _CONTACT = 0.025
+
+# Parts whose fingers flow stay so far apart [m]: as near as entries come, less what a motion swings out.
+_CLEAR = 0.005
+
+# Postures that are looked at from a knot to the next, both included [1].
+_BETWEEN = 5
 
 # Postures closer than this are the same [rad]: 3 deg, 2 cm at the hand.
 _SAME = 0.05
@@ -97,6 +105,10 @@ class SignSize:
         if centre is not None:
             palms = self._palms(_with_knots(captured, captured.knots[kept], times))
             sign = self._smaller(sign, palms, centre, scale)
+        if not self._fits(sign, scale):
+            flowing = _flowing(sign, 1.0 - self._sizes[-1])
+            if not self._touches(_with_between(flowing), _CLEAR).any():
+                sign = flowing
         return dataclasses.replace(item, sign=sign)
 
     def _smaller(self, sign: Sign, palms: Array, centre: Array, scale: float) -> Sign:
@@ -172,6 +184,26 @@ def _drawn_together(sign: Sign, centre: Array, size: float) -> Sign:
     ]
     knots[:, columns] = centre[columns] + size * (knots[:, columns] - centre[columns])
     return _with_knots(sign, knots, sign.times)
+
+
+def _flowing(sign: Sign, share: float) -> Sign:
+    """A sign whose fingers begin their way before a knot and end it after, by a share of it [1].
+
+    Fingers that fold one after the other then move together for a while, as people's do, and those that come
+    back go less far; how the hand begins and ends stays.
+    """
+    knots = sign.knots.copy()
+    columns = [index for index, name in enumerate(sign.joints) if name in _HANDS]
+    inner = knots[1:-1, columns]
+    knots[1:-1, columns] = inner + share * ((knots[:-2, columns] + knots[2:, columns]) / 2.0 - inner)
+    return _with_knots(sign, knots, sign.times)
+
+
+def _with_between(sign: Sign) -> Sign:
+    """A sign with more knots, on the straight lines between its own."""
+    times = np.concatenate([np.linspace(a, b, _BETWEEN) for a, b in pairwise(sign.times.tolist())])
+    knots = np.column_stack([np.interp(times, sign.times, column) for column in sign.knots.T])
+    return _with_knots(sign, knots, times)
 
 
 def _with_knots(sign: Sign, knots: Array, times: Array) -> Sign:

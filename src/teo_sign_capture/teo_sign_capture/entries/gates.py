@@ -138,7 +138,7 @@ def judge(quality: Mapping[str, float], *, duration: float, has_rest: bool) -> t
         message=f"expected a stroke of {_LEAST_DURATION:g} s or more, got {duration:.2f} s",
         remedy="let the hands rest before and after it, or say where it is with --start and --end",
     )
-    got = "such rest" if has_rest else "a recording that begins and ends within it"
+    got = "them" if has_rest else "a recording that begins and ends within it"
     rest = Verdict(
         code="no_rest",
         passed=has_rest,

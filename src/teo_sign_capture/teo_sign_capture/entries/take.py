@@ -18,13 +18,8 @@ from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Handedness
 
-# [m] A hand that is farther than this from where it belongs is at another part of the body: from the crown to
-# the shoulder.
-MOST_OUT_OF_REACH = 0.30
 # [s] Length of the recording before and after a cut from which keypoints lost at its edges are filled in.
 _CONTEXT = 1.0
-# [%] Percentile over the frames that is checked, so that a single one decides nothing.
-_SHARE = 95.0
 # A hand that is lost for more than this share of the stroke, while the other is not, and that moves by less
 # than `_STILL` [m], is passive and left out.
 _MOSTLY, _STILL = 0.5, 0.08
@@ -86,8 +81,8 @@ def capture_take(
         handedness: Hands that make the sign; those that leave rest without.
 
     Raises:
-        LutError: "outside_recording", "no_motion", "several_signs", "too_long", "hand_lost", "unreachable",
-            or what `retarget_motion` raises.
+        LutError: "outside_recording", "no_motion", "several_signs", "too_long", "hand_lost" or
+            what `retarget_motion` raises.
     """
     cut = cut or Cut()
     offset, raw, smoothed = _cut(track, cut)
@@ -104,7 +99,6 @@ def capture_take(
     stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
     _check_seen(stroke, handedness, offset + span.start)
     motion = retarget_motion(robot, stroke, handedness=handedness, person=measure_person(track))
-    _check_reach(track.source, motion, offset + span.start)
     return Take(
         source=track.source,
         recorded=track.recorded,
@@ -204,18 +198,6 @@ def _check_seen(stroke: SkeletonTrack, handedness: Handedness, start: float) -> 
                 f"{end:.2f} s, got it lost from {start + stroke.times[first]:.2f} to "
                 f"{start + stroke.times[last]:.2f} s: record it again, or name the hands with --hands",
             )
-
-
-def _check_reach(source: str, motion: RobotMotion, start: float) -> None:
-    away = np.nanmax(motion.place_error, axis=1)
-    if np.percentile(away, _SHARE) > MOST_OUT_OF_REACH:
-        worst = int(np.argmax(away))
-        raise LutError(
-            "unreachable",
-            f"{source}: expected hands at places that TEO reaches within {100.0 * MOST_OUT_OF_REACH:.0f} cm, "
-            f"got one {100.0 * away[worst]:.0f} cm off at {start + motion.times[worst]:.2f} s: show the sign "
-            "farther before the body, or leave this part out with --start and --end",
-        )
 
 
 def _stroke(raw: SkeletonTrack, span: SignSpan) -> NDArray[np.bool_]:

@@ -13,10 +13,11 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description import HOME, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
 from teo_description.clearance import Clearance
+from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
 from teo_sign_capture.notation.arm_solver import ArmCandidate, ArmSolver, cheapest_sequence
 from teo_sign_capture.notation.inflection import inflected_scores
-from teo_sign_capture.notation.score_knots import knots_of
+from teo_sign_capture.notation.score_knots import knots_of, with_clear_thumbs
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
 from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored
@@ -108,7 +109,7 @@ def _motion(robot: Robot, score: Score) -> _Motion:
     moments = postures(score)
     performance = _Performance(robot, score, moments)
     rights, lefts = performance.solve()
-    joints, knots = knots_of(score, moments, rights, lefts)
+    joints, knots = knots_of(score, moments, rights, lefts, dextra_table(robot))
     times = np.array([moment.time for moment in moments])
     times, knots = _round_obstacles(robot, score.gloss, joints, times, knots)
     reached = (*rights, *lefts)
@@ -144,7 +145,7 @@ class _Performance:
         pushes = np.zeros((len(self._moments), 2))
         for _ in range(_MOST_PUSHES + 1):
             rights, lefts = self._arms(pushes)
-            joints, knots = knots_of(self._score, self._moments, rights, lefts)
+            joints, knots = knots_of(self._score, self._moments, rights, lefts, dextra_table(self._robot))
             near = [self.clearance(joints, row) for row in knots]
             touching = [index for index, found in enumerate(near) if found.distance < _CLEARANCE]
             if not touching:
@@ -287,7 +288,8 @@ def _round_obstacles(
         if end <= start:
             continue
         if least_clearance(robot, joints, [first, second]) < _CLEARANCE / 2.0:
-            kept.append(_way_round(robot, gloss, joints, first, second, float(start)))
+            middle = _way_round(robot, gloss, joints, first, second, float(start))
+            kept.append(with_clear_thumbs(joints, middle, dextra_table(robot)))
             kept_times.append(float(start + end) / 2.0)
         kept.append(second)
         kept_times.append(float(end))

@@ -9,13 +9,18 @@ at any moment. A pool of `concurrent.futures` cannot stop a task that runs.
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from collections.abc import Callable
 from multiprocessing import current_process, get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
+from types import ModuleType
 
 from teo_signs.errors import LutError
+
+# Loaded by MediaPipe, in a second, to draw; nothing is drawn in the process.
+_NOT_NEEDED = ("matplotlib", "matplotlib.pyplot")
 
 # Told how much is done, of how much.
 Progress = Callable[[int, int], None]
@@ -72,6 +77,7 @@ def not_retrieved(recording: Path, reason: str) -> LutError:
 
 def _serve(work: Work, recording: Path, out: Path, sender: Connection, said: str) -> None:
     """Body of the process: sends the progress, then a list of complaints or the error."""
+    sys.modules.update({name: ModuleType(name) for name in _NOT_NEEDED})
     native = os.open(said, os.O_WRONLY | os.O_APPEND)
     os.dup2(native, 1)
     os.dup2(native, 2)  # what MediaPipe's libraries say is for nobody, unless they end the process

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_capture.recordings.pose_layouts import LAYOUTS, Layout
-from teo_sign_capture.tracks.skeleton_track import BODY, HAND, SHOULDER
+from teo_sign_capture.tracks.skeleton_track import BODY, EAR, EYE, HAND, HIP, SHOULDER
 from teo_signs.errors import LutError
 
 # Several times what `MAX_FRAMES` of MediaPipe's 586 points need; more is not read to find that out.
@@ -236,14 +236,28 @@ class _Reader:
             self._refuse("no_torso", "a person whose shoulders are seen", "both shoulders in no frame")
         if not any(parts[side].seen.all(axis=1).any() for side in ("left_hand", "right_hand")):
             self._refuse("no_hand", "a hand with all its points in some frame", "none in any")
-        across = body.places[shoulders, SHOULDER["left"], 1] - body.places[shoulders, SHOULDER["right"], 1]
-        if np.median(across) <= 0.0:
+        if _is_reversed(body):
             self._refuse(
                 "seen_from_behind",
-                "the person's left shoulder on the right of the picture",
-                "it on the left: the person is seen from behind, or the clip was mirrored after its points "
-                "were found",
+                "shoulders, hips, eyes and ears of which the left one is on the right of the picture",
+                "most of them the other way round: the person is seen from behind, or the clip was mirrored "
+                "after its points were found",
             )
+
+
+def _is_reversed(body: Points) -> bool:
+    """Whether most pairs of the body have their left point on the left of the picture.
+
+    Shoulders alone do not tell: those of somebody who stands sideways pass each other, and a detector takes
+    one for the other where an arm is before them.
+    """
+    votes = 0
+    for pair in (SHOULDER, HIP, EYE, EAR):
+        left, right = pair["left"], pair["right"]
+        both = body.seen[:, left] & body.seen[:, right]
+        if both.any():
+            votes += int(np.sign(np.median(body.places[both, left, 1] - body.places[both, right, 1])))
+    return votes < 0
 
 
 def _is_fractions(body: Array, size: tuple[int, int]) -> bool:

@@ -29,6 +29,12 @@ _MIDDLE, _OUTSIDE = 0.4, 1.2
 # [m] A hand nearer than this to a place of the face is on it: of a person whose trunk is `_TRUNK` long, and
 # of TEO, whose fingers are 2 cm thick and stop 3 cm before the face.
 _NEAR, _NEAR_TEO, _TRUNK = 0.10, 0.13, 0.48
+# [m] Breadth of a hand, of a person whose trunk is `_TRUNK` long (Tilley, The Measure of Man and Woman, 1993:
+# 80 to 90 mm), and of TEO's.
+_BREADTH, _BREADTH_TEO = 0.085, 0.09
+# [m] A person's hand farther behind the line of the shoulders than this is behind the body; beside it hands
+# swing to and fro by less. Of TEO's what is behind that line at all is.
+_BEHIND = 0.10
 
 
 class PlaceFigures(NamedTuple):
@@ -75,6 +81,8 @@ def _zones_of_person(person: Person) -> Zones:
         sides=person.shoulder * np.array([-_OUTSIDE, -_MIDDLE, _MIDDLE]),
         face=np.array([*face, person.places["eye"] * MIRROR]),
         near=_NEAR * trunk / _TRUNK,
+        breadth=_BREADTH * trunk / _TRUNK,
+        behind=-_BEHIND * trunk / _TRUNK,
     )
 
 
@@ -87,4 +95,6 @@ def _zones_of_teo(body: BodyMap, person: Person) -> Zones:
         sides=body.scale[1] * person.shoulder * np.array([-_OUTSIDE, -_MIDDLE, _MIDDLE]),
         face=np.array([*face, find_place("eye").point * MIRROR]),
         near=_NEAR_TEO,
+        breadth=_BREADTH_TEO,
+        behind=0.0,
     )

@@ -34,6 +34,9 @@ _REACH = 0.52
 # Hands rest lower than this below the shoulders: in the lap, folded before the belly, hanging. The space in
 # which people sign ends at the waist.
 _LOW = 0.6
+# Wrists lower than this are below the waist, on arms that hang: what is forward of such a hand follows, in a
+# film without depth, from an arm that seems a little too short, and tells nothing.
+_HANGS = 0.75
 # Rest is no higher than this above the lowest place.
 _REST_BAND = 0.25
 # A hand this far from rest has left it; one this near has returned: 10 and 8 cm. Hands at rest sway by 3.
@@ -67,6 +70,12 @@ _LEAST_SIGN = 0.25
 # Share of its speed with which a hand on its way goes straight away from rest, or back to it: 60 deg aside.
 # An arm that swings up from hanging until its elbow is bent by 120 deg ends so.
 _STRAIGHT = 0.5
+# A hand that goes aside faster than this share of its fastest so far swings into its sign; a slower one
+# arrives.
+_SWINGS = 0.2
+# Share of its way from rest after which a hand that swings into its sign without slowing down is in it: its
+# path bends there long before it goes aside.
+_SWUNG = 0.85
 # [s] A sign that is but a touch lasts so long: what is shorter nobody reads.
 _LEAST_STROKE = 0.3
 # [s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several.
@@ -195,7 +204,9 @@ def _distance_from_rest(track: SkeletonTrack, side: str, reach: float) -> Array:
     lowest = float(np.nanpercentile(height, 5.0))
     resting = known & (height < min(-_LOW, lowest + _REST_BAND)) & (_speed(track, [side]) < _SLOW)
     if resting.any():
-        distance: Array = np.linalg.norm(wrist - np.median(wrist[resting], axis=0), axis=-1)
+        way = wrist - np.median(wrist[resting], axis=0)
+        way[height < -_HANGS, 0] = 0.0
+        distance: Array = np.linalg.norm(way, axis=-1)
     else:  # never seen at rest: how far it is above the space where hands rest
         distance = np.maximum(height + _LOW + _LEAVES, 0.0)
     for first, last in runs(~known):
@@ -239,7 +250,8 @@ def _span(
     times, speed = track.times, _speed(track, sides)[inside]
     distance = np.nan_to_num(away[lead][inside])
     aside = _aside(times[inside], reach * away[lead][inside], _speed(track, [lead])[inside])
-    start, end = _arrival(speed, aside), len(speed) - 1 - _arrival(speed[::-1], aside[::-1])
+    start = _arrival(speed, aside, distance)
+    end = len(speed) - 1 - _arrival(speed[::-1], aside[::-1], distance[::-1])
     # A recording that was cut there, while the hands were away, begins or ends with the stroke.
     if first == 0 and distance[0] > (_CUT if cut[0] else _WITHIN * distance.max()):
         start = 0
@@ -300,17 +312,29 @@ def _aside(times: Array, distance: Array, speed: Array) -> Flags:
     return aside
 
 
-def _arrival(speed: Array, aside: Flags) -> int:
-    """Index at which a hand that leaves rest first slows down clearly or goes aside; past the end if none."""
+def _arrival(speed: Array, aside: Flags, distance: Array) -> int:
+    """Index at which a hand that leaves rest first slows down clearly or goes aside; past the end if none.
+
+    A hand that swings into its sign is there for the last part of its way from rest already.
+
+    Args:
+        speed: [m/s]. Shape (n,).
+        aside: Whether the hand goes neither away from rest nor back. Shape (n,).
+        distance: From rest [reach]. Shape (n,).
+    """
     fastest = 0.0
     for index in range(len(speed) - 1):
         fastest = max(fastest, float(speed[index]))
         if fastest < _SLOW:
             continue
-        if aside[index] or speed[index] < max(_STILL, _STILL_SHARE * fastest):
+        if speed[index] < max(_STILL, _STILL_SHARE * fastest):
             return index
         if speed[index] < _DIP * fastest and speed[index] <= speed[index + 1]:
             return index
+        if aside[index] and speed[index] < _SWINGS * fastest:
+            return index
+        if aside[index]:
+            return int(np.argmax(distance[: index + 1] >= _SWUNG * distance[index]))
     return len(speed)
 
 

@@ -4,20 +4,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from made_bags import OUT, REST, signing, write_bag
+from made_tracks import lose, make_track, path
 from typer.testing import CliRunner, Result
 
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
-from teo_sign_capture.entries.gates import accepted_standing, judge, objections
+from teo_sign_capture.entries.gates import RefusedError, accepted_standing, judge, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
 from teo_sign_capture.entries.take import Cut, Take, capture_take
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
+from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
 from teo_synthetic_signer import Take as Performance
@@ -140,6 +143,34 @@ def test_a_recording_without_rest_is_refused_unless_somebody_says_where_the_sign
     assert capture_take(robot, track, handedness="right", cut=Cut(start=0.0, end=1.9)).has_rest
     back = [*NO_REST, (1.9, 2.5, REST)]
     assert capture_take(robot, signing(moves=back, duration=3.2, rate=15.0), handedness="right").has_rest
+
+
+def fluttering() -> SkeletonTrack:
+    """Fingers that close and open four times a second: TEO's take ten times as long."""
+    times = np.arange(0.0, 3.2, 1.0 / 30.0)
+    wrist = path(times, REST, [(0.5, 1.1, OUT), (2.0, 2.6, REST)])
+    return make_track(times, wrist, bend=0.5 - 0.5 * np.cos(2.0 * np.pi * 4.0 * times), noise=0.004)
+
+
+def at_the_nape() -> SkeletonTrack:
+    """A hand on the back of the head, where no arm of TEO's goes."""
+    return signing(moves=[(0.5, 1.1, (-0.13, -0.05, 0.22)), (1.8, 2.4, REST)], rate=15.0)
+
+
+@pytest.mark.parametrize(
+    ("made", "codes"),
+    [
+        (lambda: lose(signing(rate=15.0), "right_hand", 1.2, 1.75), {"much_lost"}),
+        (at_the_nape, {"palm_off", "contact_off", "wrong_place"}),
+        (fluttering, {"too_slow"}),
+    ],
+)
+def test_a_take_that_is_no_good_is_refused_for_what_is_wrong_with_it(
+    robot: Robot, made: Callable[[], SkeletonTrack], codes: set[str]
+) -> None:
+    with pytest.raises(RefusedError) as caught:
+        make_sign(robot, "SIGNO", [capture_take(robot, made())], ORIGIN)
+    assert {verdict.code for verdict in objections(caught.value.verdicts)} == codes
 
 
 def test_a_teacher_is_told_what_to_do_and_may_accept(tmp_path: Path) -> None:

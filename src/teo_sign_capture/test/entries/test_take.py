@@ -99,13 +99,20 @@ def test_the_other_hand_may_be_lost(robot: Robot) -> None:
     assert capture_take(robot, lose(signing(), "left_hand", 0.0, 3.2)).span.handedness == "right"
 
 
-def test_a_place_that_teo_does_not_reach_is_refused(robot: Robot) -> None:
-    behind = (-0.45, -0.10, 0.30)  # behind the head, where no elbow of TEO goes
+def test_behind_the_head_is_another_place_than_before_it(robot: Robot) -> None:
+    behind = (-0.45, -0.10, 0.30)  # where no elbow of TEO goes
     moves = [(0.5, 1.1, behind), (1.2, 1.6, (-0.42, -0.20, 0.32)), (1.7, 2.3, REST)]
-    with pytest.raises(LutError) as error:
-        capture_take(robot, signing(moves=moves))
-    assert error.value.code == "unreachable"
-    assert "cm off at" in str(error.value)
+    motion = capture_take(robot, signing(moves=moves)).motion
+    assert np.nanmean(motion.wrong_place[:, 0]) > 0.9
+
+
+def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(robot: Robot) -> None:
+    """TEO's elbow keeps it 46 cm off: straight before its place, not across the body nor at the face."""
+    beside = (0.15, -0.30, 0.0)
+    motion = capture_take(robot, signing(moves=[(0.5, 1.1, beside), (1.8, 2.4, REST)])).motion
+    assert np.nanmax(motion.place_error[:, 0]) > 0.15
+    assert np.nanmean(motion.wrong_place[:, 0]) == 0.0
+    assert np.nanmean(motion.same_zone[:, 0]) > 0.9
 
 
 def test_hands_can_be_named(robot: Robot) -> None:

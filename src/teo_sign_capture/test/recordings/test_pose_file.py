@@ -251,6 +251,14 @@ def test_a_mirrored_clip_is_refused(tmp_path: Path) -> None:
     assert code_of(write(tmp_path / "mirrored.pose", HOLISTIC, data)) == "seen_from_behind"
 
 
+def test_shoulders_that_a_detector_confused_are_not_a_person_from_behind(tmp_path: Path) -> None:
+    data = np.tile(points(HOLISTIC), (8, 1, 1, 1))
+    names = HOLISTIC["POSE_LANDMARKS"]
+    left, right = names.index("LEFT_SHOULDER"), names.index("RIGHT_SHOULDER")
+    data[:, :, [left, right]] = data[:, :, [right, left]]
+    assert read_pose_file(write(tmp_path / "confused.pose", HOLISTIC, data)).body.seen.any()
+
+
 def test_no_file_no_bytes_and_too_many_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert code_of(tmp_path / "missing.pose") == "unreadable"
     assert code_of(tmp_path) == "unreadable"

@@ -16,12 +16,16 @@ BODY = Zones(
     sides=np.array([-0.24, -0.08, 0.08]),
     face=np.array([[0.10, 0.0, 0.17], [0.10, 0.0, 0.26]]),
     near=0.10,
+    breadth=0.08,
+    behind=-0.10,
 )
 PLACES: dict[str, Array] = {
     "mouth": np.array([[0.12, 0.0, 0.16]]),
     "chest": np.array([[0.15, -0.02, -0.05]]),
     "beside the shoulder": np.array([[0.30, -0.35, 0.02]]),
     "before the face": np.array([[0.40, -0.02, 0.20]]),
+    "nape": np.array([[-0.15, -0.02, 0.05]]),
+    "throat": np.array([[0.15, -0.02, 0.05]]),
     "knee": np.array([[0.30, -0.15, -0.50]]),
 }
 
@@ -42,7 +46,12 @@ def test_places_are_in_the_zones_that_their_names_say(place: str, height: str, s
 
 @pytest.mark.parametrize(
     ("shown", "made"),
-    [("beside the shoulder", "mouth"), ("mouth", "before the face"), ("chest", "knee")],
+    [
+        ("beside the shoulder", "mouth"),
+        ("mouth", "before the face"),
+        ("chest", "knee"),
+        ("nape", "throat"),
+    ],
 )
 def test_another_place_is_wrong_either_way(shown: str, made: str) -> None:
     first, second = BODY.find(PLACES[shown]), BODY.find(PLACES[made])
@@ -60,3 +69,10 @@ def test_a_step_into_the_next_zone_is_not_yet_another_place() -> None:
     first, second = BODY.find(PLACES["chest"]), BODY.find(PLACES["chest"] - (0.0, 0.0, 0.15))
     assert not same_zone(first, second).any()
     assert not wrong_place(first, second).any()
+
+
+def test_a_hand_that_lies_across_a_border_is_on_both_its_sides() -> None:
+    above, below = (BODY.find(np.array([[0.3, 0.0, -0.16 + way]])) for way in (0.03, -0.03))
+    farther = BODY.find(np.array([[0.3, 0.0, -0.16 - 0.06]]))
+    assert same_zone(above, below).all()
+    assert not same_zone(BODY.find(np.array([[0.3, 0.0, -0.16 + 0.05]])), farther).any()

@@ -179,6 +179,17 @@ def test_hands_that_rest_below_the_image_are_at_rest() -> None:
     assert span.end == pytest.approx(1.7, abs=FRAMES)
 
 
+def test_a_hanging_hand_whose_depth_is_guessed_is_at_rest() -> None:
+    """Lifted from a film, an arm that seems 3 cm too short is a hand 20 cm forward."""
+    times = np.arange(0.0, 3.0, 1.0 / RATE)
+    hanging = np.tile(HANGING["left"], (len(times), 1))
+    hanging[:, 0] += 0.2 * (np.sin(2.0 * np.pi * 1.5 * times) > 0.5)
+    (span,) = spans_of(make_track(times, path(times, REST, ONE), hanging, noise=0.008))
+    assert not span.cut_start
+    assert not span.cut_end
+    assert (span.handedness, span.start) == ("right", pytest.approx(1.1, abs=FRAMES))
+
+
 def test_a_recording_cut_within_the_sign_says_so() -> None:
     (span,) = find_signs(smooth_track(track_of(ONE, 3.0)).track.between(0.9, 1.65))
     assert span.cut_start

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The action `follow_joint_trajectory`, with the meanings of ros2_control's joint_trajectory_controller."""
+"""The action `follow_joint_trajectory` of the whole body or a limb.
+
+Its meanings are those of ros2_control's joint_trajectory_controller.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from collections.abc import Callable
 from enum import Enum
 from typing import Any, NamedTuple
 
+import numpy as np
 from builtin_interfaces.msg import Time
 from control_msgs.action import FollowJointTrajectory
 from rclpy.action import ActionServer, CancelResponse
@@ -17,11 +21,14 @@ from rclpy.task import Future
 
 from teo_description import COMMANDED_JOINTS
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.follower_report import FollowerReport, Mode
+from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
-from teo_sim_driver.message import SECOND
+from teo_sim_driver.groups import JointGroup
+from teo_sim_driver.motion.commanded_path import Command
+from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.node.lean_goal import lean_action
 from teo_sim_driver.node.state_topics import difference, point
-from teo_sim_driver.trajectory import MotionState
 
 # How often a goal's progress is told [Hz]: action_monitor_rate of joint_trajectory_controller.
 _FEEDBACK_RATE = 20
@@ -52,10 +59,13 @@ class Goal:
     def __init__(self, handle: Any) -> None:
         """Read its tolerances.
 
+        Args:
+            handle: Of rclpy's; its request is a `lean_goal.LeanGoal`.
+
         Raises:
             TrajectoryError: ``bad_tolerance`` or ``multi_dof``.
         """
-        request = handle.request
+        request, self.points = handle.request
         if (
             request.multi_dof_trajectory.joint_names
             or request.multi_dof_trajectory.points
@@ -77,6 +87,8 @@ class Goal:
             ),
         )
         self.outcome = Future()
+        self.command: Command | None = None
+        """What it became when it was taken."""
 
     def finish(self, end: End, code: ResultCode, sentence: str = "") -> None:
         """End it, unless it has ended."""
@@ -89,82 +101,94 @@ class Goal:
 
 
 class FollowAction:
-    """Serves the action: at most one goal is executed, the newest."""
+    """Serves the action of a group of joints: at most one goal is executed, the newest."""
 
     def __init__(
         self,
         node: Node,
+        group: JointGroup,
         *,
         step_rate: int,
+        most_points: Callable[[], int],
         receive: Callable[[Goal], None],
         refused: Callable[[TrajectoryError], None],
-        cancel: Callable[[], object],
+        cancel: Callable[[Command], object],
     ) -> None:
         """Serve.
 
         Args:
             node: Which serves.
+            group: Joints that its goals are about.
             step_rate: How often `step` is called [Hz].
+            most_points: That a goal may have.
             receive: Takes in a goal's trajectory; raises `TrajectoryError`.
             refused: Counts a refusal.
-            cancel: Slows the robot down.
+            cancel: Slows the joints of a command down.
         """
         self._receive, self._refused, self._cancel = receive, refused, cancel
+        self._joints = list(group.joints)
+        self._columns = np.array([COMMANDED_JOINTS.index(name) for name in group.joints])
         self._every = max(step_rate // _FEEDBACK_RATE, 1)
         self._steps = 0
         self._active: Goal | None = None
         self._cancelling = False
         self._server = ActionServer(
             node,
-            FollowJointTrajectory,
-            "follow_joint_trajectory",
+            lean_action(most_points),
+            f"{group.prefix}follow_joint_trajectory",
             execute_callback=self._execute,
             cancel_callback=lambda _: CancelResponse.ACCEPT,
         )
 
-    def take_over(self, goal: Goal | None) -> None:
-        """End the goal that was being executed: a new trajectory is, this goal's or one of the topic."""
-        if self._active is not None:
-            by = "goal" if goal else "trajectory on the topic joint_trajectory"
-            self._end(End.ABORTED, ResultCode.INVALID_GOAL, f"preempted: a newer {by} took over")
+    def begin(self, goal: Goal, command: Command) -> None:
+        """Watch a goal that has been taken; the one before it ends."""
+        if self._active is not None and self._active.command is not None:
+            self._end_preempted(self._active.command)
+        goal.command = command
         self._active, self._cancelling = goal, False
 
-    def step(
-        self, desired: MotionState, measured: MotionState, report: FollowerReport, ended: bool, stamp: Time
-    ) -> None:
+    def step(self, desired: MotionState, measured: MotionState, report: FollowerReport, stamp: Time) -> None:
         """Watch the goal that is being executed.
 
         Args:
             desired: What was sent to the joints.
             measured: Where they are.
             report: Of the follower.
-            ended: Whether the follower holds again.
             stamp: Of this step.
         """
         goal = self._active
-        if goal is None:
+        if goal is None or goal.command is None:
             return
+        command = goal.command
         if report.mode in _ENDING:
             self._end(End.ABORTED, ResultCode.INVALID_GOAL, f"{report.mode}: {report.reason}")
+        elif command.preempted_by is not None:
+            self._end_preempted(command)
         elif goal.handle.is_cancel_requested:
-            if not self._cancelling:
-                self._cancelling = True
-                self._cancel()
-            elif ended:
+            if command.over:
                 self._end(End.CANCELED, ResultCode.SUCCESSFUL, "canceled: slowed down on the path and holds")
-        elif verdict := goal.monitor.step(desired, measured, time.monotonic(), ended):
+            elif not self._cancelling or report.at_rest:  # at rest in a pause, nothing else would end it
+                self._cancelling = True
+                self._cancel(command)
+        elif verdict := goal.monitor.step(desired, measured, time.monotonic(), command.over):
             if verdict.code is ResultCode.SUCCESSFUL:
                 self._end(End.SUCCEEDED, verdict.code)
             else:
-                self._cancel()
+                self._cancel(command)
                 self._end(End.ABORTED, verdict.code, verdict.sentence)
         self._steps += 1
         if self._active is goal and self._steps % self._every == 0:
-            self._tell(goal, desired, measured, stamp)
+            self._tell(goal, desired.of_joints(self._columns), measured.of_joints(self._columns), stamp)
 
     def destroy(self) -> None:
         """Serve no longer."""
         self._server.destroy()
+
+    def _end_preempted(self, command: Command) -> None:
+        newer = command.preempted_by
+        by = "goal" if newer is None or newer.source is Source.ACTION else "trajectory on a topic"
+        by += f" of {newer.group}" if newer is not None and newer.group else ""
+        self._end(End.ABORTED, ResultCode.INVALID_GOAL, f"preempted: a newer {by} took over")
 
     def _end(self, end: End, code: ResultCode, sentence: str = "") -> None:
         if self._active is not None:
@@ -173,7 +197,7 @@ class FollowAction:
 
     def _tell(self, goal: Goal, desired: MotionState, measured: MotionState, stamp: Time) -> None:
         feedback = FollowJointTrajectory.Feedback(
-            joint_names=list(COMMANDED_JOINTS),
+            joint_names=self._joints,
             desired=point(desired),
             actual=point(measured),
             error=difference(desired, measured),

@@ -13,7 +13,7 @@ from std_msgs.msg import Float64MultiArray, MultiArrayDimension, MultiArrayLayou
 
 from teo_description import COMMANDED_JOINTS
 from teo_description.tendons import HAND_AXES, hand_setpoints
-from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.motion.bezier import FloatArray
 
 # Steps between hand set-points [1]: 50 Hz at the usual rate, as often as TEO's CAN bus is synchronised.
 _EVERY = 2

@@ -16,10 +16,10 @@ from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectoryPoint
 
 from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS
-from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
-from teo_sim_driver.message import SECOND
-from teo_sim_driver.trajectory import MotionState
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.motion.trajectory import MotionState
 
 # How often the driver's state is published while the joints move [Hz]: often enough to show progress.
 _PROGRESS_RATE = 10

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_description import JointLimits
-from teo_sim_driver.bezier import FloatArray
+from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.rules import POSITION_TOLERANCE, VELOCITY_TOLERANCE
 
 # Rounding of one step [rad].

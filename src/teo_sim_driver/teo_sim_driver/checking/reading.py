@@ -14,10 +14,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sim_driver.bezier import FloatArray
-from teo_sim_driver.cdr import FIELDS
+from teo_sim_driver.checking.cdr import FIELDS
+from teo_sim_driver.checking.message import TrajectoryLike
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.message import SECOND, TrajectoryLike
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.rules import Rules
 
 
@@ -101,7 +102,14 @@ class MessageFields:
         return table
 
 
-def read(message: Fields, *, joints: Sequence[str], held: Collection[str], rules: Rules) -> Points:
+def read(
+    message: Fields,
+    *,
+    joints: Sequence[str],
+    held: Collection[str],
+    rules: Rules,
+    group: Collection[str] = (),
+) -> Points:
     """Read a message into checked arrays.
 
     Args:
@@ -109,12 +117,13 @@ def read(message: Fields, *, joints: Sequence[str], held: Collection[str], rules
         joints: Names that the driver commands, in its order.
         held: Names of joints that the robot has and the driver never moves, for a better answer.
         rules: Limits on the message.
+        group: Names of the joints that the message is to be about; all of `joints` if empty.
 
     Raises:
         TrajectoryError: the message is malformed.
     """
     names = message.names
-    columns = _columns(names, joints, held, rules)
+    columns = _columns(names, joints, held, rules, group or joints)
     if not message.count:
         raise TrajectoryError(Refusal.NO_POINTS, "expected at least one point, got none")
     if message.count > rules.max_points:
@@ -152,10 +161,10 @@ def listed(names: Sequence[str], most: int = 6) -> str:
 
 
 def _columns(
-    names: list[str], joints: Sequence[str], held: Collection[str], rules: Rules
+    names: list[str], joints: Sequence[str], held: Collection[str], rules: Rules, group: Collection[str]
 ) -> NDArray[np.intp]:
     if not names:
-        raise TrajectoryError(Refusal.NO_JOINTS, f"expected the names of {len(joints)} joints, got none")
+        raise TrajectoryError(Refusal.NO_JOINTS, f"expected the names of {len(group)} joints, got none")
     index = {name: i for i, name in enumerate(joints)}
     unknown = [name for name in names if name not in index]
     if unknown and unknown[0] in held:
@@ -167,17 +176,22 @@ def _columns(
         near = difflib.get_close_matches(unknown[0][:40], joints, n=1)
         hint = f"did you mean {near[0]!r}?" if near else f"expected some of {', '.join(joints)}"
         raise TrajectoryError(Refusal.UNKNOWN_JOINT, f"no joint is called {listed(unknown)}: {hint}")
+    if others := [name for name in names if name not in group]:
+        raise TrajectoryError(
+            Refusal.OTHER_GROUP,
+            f"expected some of {', '.join(group)}, got {listed(others)}: send it to their group",
+        )
     given = set(names)
     if len(given) < len(names):
         twice = [name for name, count in Counter(names).items() if count > 1]
         raise TrajectoryError(
             Refusal.DUPLICATE_JOINT, f"expected each joint once, got more of {listed(twice)}"
         )
-    missing = [name for name in joints if name not in given]
+    missing = [name for name in group if name not in given]
     if missing and not rules.allow_partial_joints_goal:
         raise TrajectoryError(
             Refusal.MISSING_JOINTS,
-            f"expected all {len(joints)} joints, missing: {listed(missing)}; "
+            f"expected all {len(group)} joints, missing: {listed(missing)}; "
             "give them all, or set the parameter allow_partial_joints_goal",
         )
     return np.array([index[name] for name in names], dtype=np.intp)

@@ -50,7 +50,7 @@ def end_derivatives(
 
     Args:
         durations: [s]. Shape (n,), all > 0.
-        degrees: LINEAR, CUBIC or QUINTIC. Shape (n,).
+        degrees: LINEAR, CUBIC or QUINTIC. Shape (n, joints).
         positions: Of the points [rad]. Shape (n + 1, joints).
         velocities: Of the points [rad/s], read where the degree is CUBIC or QUINTIC. Shape (n + 1, joints).
         accelerations: Of the points [rad/s^2], read where the degree is QUINTIC. Shape (n + 1, joints).
@@ -60,15 +60,14 @@ def end_derivatives(
     """
     v0, v1 = velocities[:-1], velocities[1:]
     a0, a1 = accelerations[:-1], accelerations[1:]
-    degree = degrees[:, None]
-    if not (degree == QUINTIC).all():
+    if not (degrees == QUINTIC).all():
         time = durations[:, None]
         slope = (positions[1:] - positions[:-1]) / time
-        v0 = np.where(degree == LINEAR, slope, v0)
-        v1 = np.where(degree == LINEAR, slope, v1)
+        v0 = np.where(degrees == LINEAR, slope, v0)
+        v1 = np.where(degrees == LINEAR, slope, v1)
         # Second derivatives of the cubic Hermite polynomial at its ends; zero for the straight line.
-        a0 = np.where(degree == QUINTIC, a0, (6.0 * slope - 4.0 * v0 - 2.0 * v1) / time)
-        a1 = np.where(degree == QUINTIC, a1, (-6.0 * slope + 2.0 * v0 + 4.0 * v1) / time)
+        a0 = np.where(degrees == QUINTIC, a0, (6.0 * slope - 4.0 * v0 - 2.0 * v1) / time)
+        a1 = np.where(degrees == QUINTIC, a1, (-6.0 * slope + 2.0 * v0 + 4.0 * v1) / time)
     return v0, v1, a0, a1
 
 
@@ -104,10 +103,10 @@ def derivative(control: FloatArray, durations: FloatArray) -> FloatArray:
     return np.asarray(degree * np.diff(control, axis=0) / durations[:, None])
 
 
-def bernstein(degree: int, fraction: float) -> FloatArray:
-    """Weights of the control points of such a curve at a part 0..1 of its duration. Shape (degree + 1,)."""
+def bernstein(degree: int, fraction: float | FloatArray) -> FloatArray:
+    """Weights of a curve's control points at parts 0..1 of its duration. Shape (degree + 1, ...)."""
     rest = 1.0 - fraction
-    weights = np.empty(degree + 1)
+    weights = np.empty((degree + 1, *np.shape(fraction)))
     binomial = 1.0
     for k in range(degree + 1):
         weights[k] = binomial * fraction**k * rest ** (degree - k)

@@ -10,12 +10,12 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Generic, NamedTuple, TypeVar
 
 from teo_description import JointLimits
-from teo_sim_driver.cdr import CdrTrajectory
+from teo_sim_driver.checking.cdr import CdrTrajectory
+from teo_sim_driver.checking.reading import Fields, Points
+from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.message import TrajectoryLike
-from teo_sim_driver.reading import MessageFields, Points
+from teo_sim_driver.groups import WHOLE_BODY, JointGroup
 from teo_sim_driver.rules import Rules
-from teo_sim_driver.validation import check
 
 # Trajectories that wait to be checked: as many as the subscription keeps.
 MOST_WAITING = 10
@@ -50,13 +50,16 @@ class Intake(Generic[Sender]):
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="intake")
         self._waiting: deque[Checked[Sender]] = deque()
 
-    def put(self, message: bytes | TrajectoryLike, rules: Rules, sender: Sender) -> None:
+    def put(
+        self, message: bytes | Fields, rules: Rules, sender: Sender, group: JointGroup = WHOLE_BODY
+    ) -> None:
         """Begin to check a message.
 
         Args:
-            message: Serialized, or made of objects.
+            message: Serialized, or as arrays.
             rules: Limits on the message.
             sender: Comes out with the result.
+            group: Joints that the message is to be about.
 
         Raises:
             TrajectoryError: refused at once: ``too_large`` or ``too_many_waiting``.
@@ -74,7 +77,7 @@ class Intake(Generic[Sender]):
                 Refusal.TOO_MANY_WAITING,
                 f"expected at most {MOST_WAITING} trajectories at once, got one more: send them more slowly",
             )
-        self._waiting.append(Checked(sender, self._worker.submit(self._check, message, rules)))
+        self._waiting.append(Checked(sender, self._worker.submit(self._check, message, rules, group)))
 
     def take(self) -> list[Checked[Sender]]:
         """What has been checked since the last call, in the order in which it was put."""
@@ -87,6 +90,6 @@ class Intake(Generic[Sender]):
         """End the thread, when it has done what it is at."""
         self._worker.shutdown(cancel_futures=True)
 
-    def _check(self, message: bytes | TrajectoryLike, rules: Rules) -> Points:
-        fields = CdrTrajectory(message) if isinstance(message, bytes) else MessageFields(message)
-        return check(fields, limits=self._limits, rules=rules, held=self._held)
+    def _check(self, message: bytes | Fields, rules: Rules, group: JointGroup) -> Points:
+        fields = CdrTrajectory(message) if isinstance(message, bytes) else message
+        return check(fields, limits=self._limits, rules=rules, held=self._held, group=group.joints)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated joints: where they are when told to be somewhere. Ideal, unless a fault is injected."""
+"""What can be wrong with the joints, and with what is heard of them."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from teo_sim_driver.bezier import FloatArray
-from teo_sim_driver.trajectory import MotionState
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.plants.plant import Plant
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,46 +34,49 @@ class Faults:
     """Part of the joint states that is lost, 0..1."""
 
 
-class Plant:
-    """The joints and their encoders."""
+class FaultyPlant:
+    """Joints to which faults happen."""
 
-    def __init__(self, names: tuple[str, ...], start: FloatArray) -> None:
-        """Stand still.
+    def __init__(self, plant: Plant, names: tuple[str, ...], start: FloatArray) -> None:
+        """Stand still, without faults.
 
         Args:
+            plant: The joints.
             names: Of the joints.
             start: Their positions [rad]. Shape (joints,).
         """
+        self._plant = plant
         self._names = names
-        self._positions = start
+        self._told = start
         self._measured = MotionState.at_rest(start)
         self.faults = Faults()
         """What is wrong; may be exchanged at any time."""
 
     def step(self, asked: MotionState, duration: float) -> MotionState:
-        """Move as told, as far as the faults allow, and return what the encoders say.
-
-        Args:
-            asked: What is sent to the joints.
-            duration: Since the last step [s].
-        """
+        """Move as told, as far as the faults allow, and return what the encoders say; see `Plant`."""
         if self.faults == Faults():
-            self._positions, self._measured = asked.positions, asked
-            return asked
+            self._told, self._measured = asked.positions, self._plant.step(asked, duration)
+            return self._measured
         goal = asked.positions
         if self.faults.lag > 0.0:
-            goal = self._positions + (goal - self._positions) * -np.expm1(-duration / self.faults.lag)
+            goal = self._told + (goal - self._told) * -np.expm1(-duration / self.faults.lag)
         if self.faults.frozen:
             stuck = np.isin(self._names, self.faults.frozen)
-            goal = np.where(stuck, self._positions, goal)
-        self._positions = goal
-        measured = goal + self.faults.tracking_error
+            goal = np.where(stuck, self._told, goal)
+        told = _moved(self._told, goal, duration)
+        self._told = goal
+        measured = self._plant.step(told, duration).positions + self.faults.tracking_error
         if self.faults.encoder_step > 0.0:
             measured = np.round(measured / self.faults.encoder_step) * self.faults.encoder_step
-        moved = measured - self._measured.positions
-        velocities = moved / duration if duration > 0.0 else np.zeros_like(moved)
-        self._measured = MotionState(measured, velocities, np.zeros_like(moved))
+        self._measured = _moved(self._measured.positions, measured, duration)
         return self._measured
+
+
+def _moved(before: FloatArray, after: FloatArray, duration: float) -> MotionState:
+    """Where joints are that were elsewhere so long ago [s]."""
+    moved = after - before
+    still = np.zeros_like(moved)
+    return MotionState(after, moved / duration if duration > 0.0 else still, still)
 
 
 class StateLine:

@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sim_driver.bezier import FloatArray
 from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.motion.bezier import FloatArray
 
 FIELDS = ("positions", "velocities", "accelerations", "effort")
 

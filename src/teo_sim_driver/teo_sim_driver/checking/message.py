@@ -15,8 +15,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-# [ns]
-SECOND = 1_000_000_000
+from teo_sim_driver.motion.path_time import SECOND
 
 
 class TimeLike(Protocol):

@@ -4,13 +4,22 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sim_driver.bezier import DEGREE, LINEAR, FloatArray, bernstein, control_points, derivative
+from teo_sim_driver.motion.bezier import (
+    DEGREE,
+    LINEAR,
+    QUINTIC,
+    FloatArray,
+    bernstein,
+    control_points,
+    derivative,
+)
 
 
 class MotionState(NamedTuple):
@@ -30,6 +39,23 @@ class MotionState(NamedTuple):
         still.flags.writeable = False
         return MotionState(positions, still, still)
 
+    def at_pace(self, rate: float, change: float) -> MotionState:
+        """The same place on a path whose own time passes otherwise.
+
+        Args:
+            rate: Path time per time.
+            change: Of the rate [1/s].
+        """
+        return MotionState(
+            self.positions,
+            rate * self.velocities,
+            rate**2 * self.accelerations + change * self.velocities,
+        )
+
+    def of_joints(self, columns: NDArray[np.intp]) -> MotionState:
+        """The same for some of the joints."""
+        return MotionState(*(values[columns] for values in self))
+
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
@@ -40,7 +66,7 @@ class Trajectory:
         positions: [rad]. Shape (n, joints).
         velocities: [rad/s]; not read next to a linear segment. Shape (n, joints).
         accelerations: [rad/s^2]; read only next to a quintic segment. Shape (n, joints).
-        degrees: Of each segment: 1, 3 or 5. Shape (n - 1,).
+        degrees: Of each joint's polynomial in each segment: 1, 3 or 5. Shape (n - 1, joints).
     """
 
     times: FloatArray
@@ -82,6 +108,29 @@ class Trajectory:
             bernstein(DEGREE - 2, fraction) @ bends * (DEGREE * (DEGREE - 1) / duration**2),
         )
 
+    def states(self, times: FloatArray) -> MotionState:
+        """Evaluate the trajectory at many times at once.
+
+        Args:
+            times: From the first point [s]. Shape (m,).
+
+        Returns:
+            Shape (m, joints) each.
+        """
+        last = len(self.times) - 1
+        inside = (times >= 0.0) & (times < self.times[-1])
+        ends = np.where((times < 0.0)[:, None], self.positions[0], self.positions[-1])
+        positions, velocities, accelerations = ends, np.zeros_like(ends), np.zeros_like(ends)
+        i = np.searchsorted(self.times, times[inside], side="right") - 1
+        control = self.position_control(slice(0, last))[:, i]
+        duration = np.diff(self.times)[i]
+        fraction = (times[inside] - self.times[i]) / duration
+        for order, values in enumerate((positions, velocities, accelerations)):
+            weights = bernstein(DEGREE - order, fraction)
+            scale = math.perm(DEGREE, order) / duration**order
+            values[inside] = np.einsum("km,kmj->mj", weights * scale, np.diff(control, order, axis=0))
+        return MotionState(positions, velocities, accelerations)
+
     def durations(self, segments: slice) -> FloatArray:
         """Durations of some segments [s]."""
         points = slice(segments.start, segments.stop + 1)
@@ -120,6 +169,16 @@ class Trajectory:
             self.degrees[:1],
         )
 
+    def of_joints(self, columns: NDArray[np.intp]) -> Trajectory:
+        """The same for some of the joints."""
+        return Trajectory(
+            self.times,
+            self.positions[:, columns],
+            self.velocities[:, columns],
+            self.accelerations[:, columns],
+            self.degrees[:, columns],
+        )
+
     def cut(self, start: float, end: float) -> Trajectory:
         """Take the part between two times 0 <= start < end [s], standing still after the last point."""
         inside = slice(
@@ -133,7 +192,8 @@ class Trajectory:
         # Splitting a polynomial leaves it the same polynomial, so the cut segments keep their degrees.
         degrees = self.degrees[max(inside.start - 1, 0) : inside.stop]
         if end > self.times[-1]:
-            degrees = np.append(degrees[: inside.stop - inside.start], np.int8(LINEAR))
+            still = np.full((1, degrees.shape[1]), LINEAR, np.int8)
+            degrees = np.concatenate([degrees[: inside.stop - inside.start], still])
         return Trajectory(
             np.concatenate([[0.0], self.times[inside] - start, [end - start]]),
             np.concatenate([first.positions[None], self.positions[inside], last.positions[None]]),
@@ -153,7 +213,16 @@ class Trajectory:
         )
 
     @staticmethod
+    def quintic(
+        times: FloatArray, positions: FloatArray, velocities: FloatArray, accelerations: FloatArray
+    ) -> Trajectory:
+        """A trajectory whose points give everything; arguments as the attributes."""
+        degrees = np.full((len(times) - 1, positions.shape[1]), QUINTIC, np.int8)
+        return Trajectory(times, positions, velocities, accelerations, degrees)
+
+    @staticmethod
     def hold(positions: FloatArray) -> Trajectory:
         """A trajectory of one point: stand still there [rad]."""
         still = np.zeros((1, len(positions)))
-        return Trajectory(np.zeros(1), np.array(positions)[None], still, still.copy(), np.zeros(0, np.int8))
+        degrees = np.zeros((0, len(positions)), np.int8)
+        return Trajectory(np.zeros(1), np.array(positions)[None], still, still.copy(), degrees)

@@ -16,10 +16,12 @@ from typing import NamedTuple
 import numpy as np
 import ruckig
 
-from teo_sim_driver.bezier import FloatArray
-from teo_sim_driver.message import SECOND
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.trajectory import Trajectory
 from teo_sim_driver.rules import REST_VELOCITY
-from teo_sim_driver.trajectory import Trajectory
+
+# [ns]
+SECOND = 1_000_000_000
 
 # Longest gap between two steps that the motion follows [s]: longer than receiving the longest message takes.
 # A greater one is a clock that was set or a process that stood still, and no path is cut short for either.
@@ -69,6 +71,15 @@ class Braking(NamedTuple):
         if speed * self.jerk > self.deceleration**2:
             return speed / self.deceleration + self.deceleration / self.jerk
         return 2.0 * float(np.sqrt(speed / self.jerk))  # the greatest deceleration is not reached
+
+
+# Deceleration of a stop [rad/s^2], 300 deg/s^2: about that of signs. No limit of the real joints is public.
+DEFAULT_STOP_DECELERATION = 5.2
+
+# Jerk of a stop [rad/s^3], that of the planner's motions: the deceleration builds up in 0.05 s. From 50 deg/s
+# a stop takes 0.22 s and at most 0.1 rad.
+DEFAULT_STOP_JERK = 105.0
+DEFAULT_BRAKING = Braking(DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK)
 
 
 class PathPace:

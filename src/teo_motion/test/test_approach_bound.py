@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The bound of how much parts approach, against the shapes of the robot description moved by Pinocchio."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from teo_common.arrays import Array
+from teo_description import (
+    COMMANDED_JOINTS,
+    HEAD,
+    LEFT_ARM,
+    LEFT_HAND,
+    RIGHT_ARM,
+    RIGHT_HAND,
+    TRUNK,
+    joint_limits,
+    urdf_text,
+)
+from teo_description.robot import Robot
+from teo_motion.collision.approach_bound import approaches
+
+STEPS = 11  # at which the way from one row to the next is looked at
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@pytest.fixture(scope="module")
+def points(robot: Robot) -> dict[str, tuple[int, Array]]:
+    """Corners of the boxes about all collision shapes, in the frames of their joints, by joint."""
+    geometry = pin.buildGeomFromUrdfString(robot.model, urdf_text(), pin.GeometryType.COLLISION)
+    found: dict[str, list[Array]] = {}
+    for item in geometry.geometryObjects:
+        item.geometry.computeLocalAABB()
+        box = item.geometry.aabb_local
+        for corner in product(*zip(np.ravel(box.min_), np.ravel(box.max_), strict=True)):
+            name = robot.model.names[item.parentJoint]
+            found.setdefault(name, []).append(item.placement.act(np.array(corner)))
+    return {name: (robot.model.getJointId(name), np.array(rows)) for name, rows in found.items()}
+
+
+def moved(robot: Robot, points: dict[str, tuple[int, Array]], row: Array, part: str) -> Array:
+    """Where the points of joints whose name holds a word are [m]."""
+    q = robot.configuration(dict(zip(COMMANDED_JOINTS, row.tolist(), strict=True)))
+    pin.forwardKinematics(robot.model, robot.data, q)
+    return np.concatenate(
+        [
+            local @ robot.data.oMi[joint].rotation.T + robot.data.oMi[joint].translation
+            for name, (joint, local) in points.items()
+            if part in name
+        ]
+    )
+
+
+@pytest.mark.parametrize(
+    ("part", "turning"),
+    [
+        ("Right", RIGHT_ARM + RIGHT_HAND),
+        ("Left", LEFT_ARM + LEFT_HAND),
+        ("Right", RIGHT_ARM),
+        ("Left", LEFT_HAND),
+        ("Neck", HEAD),
+        ("Right", TRUNK),
+    ],
+)
+def test_no_point_goes_farther_than_parts_are_said_to_approach(
+    robot: Robot, points: dict[str, tuple[int, Array]], part: str, turning: tuple[str, ...]
+) -> None:
+    limits = joint_limits(COMMANDED_JOINTS)
+    rng = np.random.default_rng(11)
+    turns = np.array([name in turning for name in COMMANDED_JOINTS])
+    closest = 0.0
+    for size in (0.02, 0.3) * 10:
+        first = rng.uniform(limits.lower, limits.upper)
+        second = np.clip(first + turns * rng.uniform(-size, size, len(first)), limits.lower, limits.upper)
+        bound = float(approaches(np.array([first, second]))[0])
+        start = moved(robot, points, first, part)
+        for share in np.linspace(0.0, 1.0, STEPS)[1:]:
+            here = moved(robot, points, first + share * (second - first), part)
+            farthest = float(np.linalg.norm(here - start, axis=1).max())
+            assert farthest <= bound
+            closest = max(closest, farthest / bound)
+    assert closest > 0.3  # else looks along a motion are wasted
+
+
+def test_the_distance_of_one_posture_bounds_that_of_the_next(robot: Robot) -> None:
+    limits = joint_limits(COMMANDED_JOINTS)
+    rng = np.random.default_rng(12)
+    for _ in range(60):
+        first = rng.uniform(limits.lower, limits.upper)
+        second = np.clip(first + rng.uniform(-0.1, 0.1, len(first)), limits.lower, limits.upper)
+        poses = [dict(zip(COMMANDED_JOINTS, row.tolist(), strict=True)) for row in (first, second)]
+        near = [robot.clearance(robot.configuration(pose)).distance for pose in poses]
+        assert abs(near[1] - near[0]) <= approaches(np.array([first, second]))[0]
+
+
+def test_what_stands_still_approaches_nothing() -> None:
+    assert approaches(np.zeros((3, 28))).tolist() == [0.0, 0.0]
+    assert approaches(np.zeros((1, 28))).shape == (0,)

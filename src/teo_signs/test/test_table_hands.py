@@ -1,0 +1,25 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import numpy as np
+
+from teo_description import LEFT_HAND, RIGHT_HAND
+from teo_description.hand_contact import TOUCH, thumb_gaps
+from teo_description.hand_geometry import dextra_table
+from teo_description.robot import Robot
+from teo_signs.look_up_table import Lut, default_lut_directory
+
+
+def test_no_sign_of_the_table_has_its_thumb_in_a_finger() -> None:
+    table = dextra_table(Robot.load())
+    deep = {}
+    for gloss, sign in Lut.open(default_lut_directory()).items():
+        postures = [sign.knots, *sign.alternatives, *(form.knots for form in sign.forms.values())]
+        for hand in (LEFT_HAND, RIGHT_HAND):
+            if hand[0] in sign.joints:
+                columns = [sign.joints.index(name) for name in hand]
+                gap = thumb_gaps(table, np.concatenate(postures)[:, columns]).min()
+                if gap < -TOUCH:
+                    deep[gloss] = f"{1000.0 * gap:.1f} mm"
+    assert deep == {}

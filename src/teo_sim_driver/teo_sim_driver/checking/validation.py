@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a trajectory keeps within the joint limits, at its points and between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import JointLimits
+from teo_sim_driver.checking.reading import Fields, Points, read
+from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.motion.bezier import first_excess
+from teo_sim_driver.motion.path_time import SECOND
+from teo_sim_driver.motion.trajectory import Trajectory
+from teo_sim_driver.rules import POSITION_TOLERANCE, REST_VELOCITY, VELOCITY_TOLERANCE, Rules
+
+# Segments checked at once: bounds the memory to some MB whatever the message's length.
+_CHUNK = 1024
+
+
+class Codes(NamedTuple):
+    """Why a segment is refused, by what is wrong with it."""
+
+    position: Refusal
+    velocity: Refusal
+    speed: Refusal
+
+
+_BETWEEN = Codes(
+    Refusal.POSITION_BETWEEN_POINTS, Refusal.VELOCITY_BETWEEN_POINTS, Refusal.SPEED_BETWEEN_POINTS
+)
+
+
+def check(
+    message: Fields,
+    *,
+    limits: JointLimits,
+    rules: Rules,
+    held: Collection[str] = (),
+    group: Collection[str] = (),
+) -> Points:
+    """Check all of a message that can be judged without knowing where the robot is; takes its time.
+
+    Args:
+        message: As received.
+        limits: Of the commanded joints, in the driver's order.
+        rules: Limits on the message.
+        held: Names of joints that the robot has and the driver never moves.
+        group: Names of the joints that the message is to be about; all of `limits` if empty.
+
+    Raises:
+        TrajectoryError: with one reason, the first found; nothing of the message may be executed.
+    """
+    points = read(message, joints=limits.names, held=held, rules=rules, group=group)
+    limits = of_joints(limits, points.columns)
+    _check_points(points, limits)
+    trajectory = Trajectory(
+        points.times / SECOND,
+        points.positions,
+        points.velocities,
+        points.accelerations,
+        per_joint(np.minimum(points.degrees[:-1], points.degrees[1:]), points),
+    )
+    check_between(trajectory, limits, lambda segment: f"between points {segment} and {segment + 1}", _BETWEEN)
+    return _in_order(points)
+
+
+def _in_order(points: Points) -> Points:
+    """Columns in the driver's order."""
+    order = np.argsort(points.columns)
+    return replace(
+        points,
+        columns=points.columns[order],
+        positions=points.positions[:, order],
+        velocities=points.velocities[:, order],
+        accelerations=points.accelerations[:, order],
+    )
+
+
+def _check_points(points: Points, limits: JointLimits) -> None:
+    low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
+    for i, j in first_place((points.positions < low) | (points.positions > high)):
+        raise TrajectoryError(
+            Refusal.POSITION_LIMIT,
+            f"point {i}: expected {limits.names[j]} within "
+            f"{limits.lower[j]:.4f} .. {limits.upper[j]:.4f} rad, got {points.positions[i, j]:.6g} rad",
+        )
+    top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
+    for i, j in first_place(np.abs(points.velocities) > top):
+        raise TrajectoryError(
+            Refusal.VELOCITY_LIMIT,
+            f"point {i}: expected {limits.names[j]} within +-{limits.velocity[j]:.4f} rad/s, "
+            f"got {points.velocities[i, j]:.6g} rad/s",
+        )
+    for _, j in first_place(np.abs(points.velocities[-1:]) > REST_VELOCITY):
+        raise TrajectoryError(
+            Refusal.MOVING_AT_END,
+            f"last point: expected {limits.names[j]} at rest, got {points.velocities[-1, j]:.6g} rad/s",
+        )
+
+
+def of_joints(limits: JointLimits, columns: NDArray[np.intp]) -> JointLimits:
+    """The limits of some of the joints."""
+    return JointLimits(
+        names=tuple(limits.names[i] for i in columns),
+        lower=limits.lower[columns],
+        upper=limits.upper[columns],
+        velocity=limits.velocity[columns],
+    )
+
+
+def per_joint(degrees: NDArray[np.int8], points: Points) -> NDArray[np.int8]:
+    """A message has the same degree for all its joints."""
+    return np.broadcast_to(degrees[:, None], (len(degrees), len(points.columns))).copy()
+
+
+def check_between(
+    trajectory: Trajectory, limits: JointLimits, place: Callable[[int], str], codes: Codes
+) -> None:
+    """Refuse what is over a limit between points; `place` names a segment."""
+    top = limits.velocity * (1.0 + VELOCITY_TOLERANCE)
+    low, high = limits.lower - POSITION_TOLERANCE, limits.upper + POSITION_TOLERANCE
+    count = len(trajectory.degrees)
+    for begin in range(0, count, _CHUNK):
+        span = slice(begin, min(begin + _CHUNK, count))
+        durations = trajectory.durations(span)
+        steps = np.diff(trajectory.positions[span.start : span.stop + 1], axis=0)
+        for i, j in first_place(np.abs(steps) > top * durations[:, None]):
+            raise TrajectoryError(
+                codes.speed,
+                f"{place(begin + i)}, {limits.names[j]} has {durations[i]:.6g} s for "
+                f"{abs(steps[i, j]):.4f} rad: {abs(steps[i, j]) / durations[i]:.4g} rad/s; "
+                f"limit {limits.velocity[j]:.4f} rad/s",
+            )
+        with np.errstate(over="ignore", invalid="ignore"):  # absurd accelerations overflow, and are refused
+            for what, unit, code, control, lower, upper in (
+                ("velocity", "rad/s", codes.velocity, trajectory.velocity_control(span), -top, top),
+                ("position", "rad", codes.position, trajectory.position_control(span), low, high),
+            ):
+                excess = first_excess(control, lower, upper)
+                if excess is None:
+                    continue
+                segment, j = begin + excess.segment, excess.joint
+                moment = trajectory.times[segment] + excess.fraction * durations[excess.segment]
+                raise TrajectoryError(
+                    code,
+                    f"{place(segment)}, the curve through the given points takes {limits.names[j]} to a "
+                    f"{what} of {excess.value:.6g} {unit}, {moment:.3f} s after the start; it must stay "
+                    f"within {lower[j]:.4f} .. {upper[j]:.4f}",
+                )
+
+
+def first_place(bad: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """The first place where it is true, if any: (point, joint)."""
+    flat = int(np.argmax(bad))
+    return [(flat // bad.shape[1], flat % bad.shape[1])] if bad.flat[flat] else []

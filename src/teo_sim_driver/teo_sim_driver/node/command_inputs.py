@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Where trajectories come in: a topic and an action of the whole body, and of each limb."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from functools import partial
+from typing import NamedTuple
+
+from builtin_interfaces.msg import Time
+from rclpy.node import Node
+from trajectory_msgs.msg import JointTrajectory
+
+from teo_description import LEG_JOINTS
+from teo_sim_driver.checking.intake import MOST_WAITING, Checked, Intake
+from teo_sim_driver.errors import Refusal, TrajectoryError
+from teo_sim_driver.follower_report import Source
+from teo_sim_driver.goal_monitor import ResultCode
+from teo_sim_driver.groups import LIMBS, WHOLE_BODY, JointGroup
+from teo_sim_driver.joint_follower import JointFollower
+from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.node.follow_action import End, FollowAction, Goal
+
+
+class _Sender(NamedTuple):
+    """Where a trajectory came from."""
+
+    group: JointGroup
+    goal: Goal | None
+    """None for the topic."""
+
+
+class CommandInputs:
+    """Has trajectories checked beside the steps, and hands them to the follower between two steps."""
+
+    def __init__(
+        self,
+        node: Node,
+        follower: JointFollower,
+        *,
+        step_rate: int,
+        report: Callable[[TrajectoryError], None],
+    ) -> None:
+        """Listen.
+
+        Args:
+            node: Which listens.
+            follower: Executes them, and has the rules for them.
+            step_rate: How often `step` is called [Hz].
+            report: Tells people of a refusal.
+        """
+        self._node, self._follower, self._report = node, follower, report
+        self._intake: Intake[_Sender] = Intake(follower.limits, LEG_JOINTS)
+        self._actions = {}
+        for group in (WHOLE_BODY, *LIMBS):
+            node.create_subscription(
+                JointTrajectory,
+                f"{group.prefix}joint_trajectory",
+                partial(self._on_trajectory, _Sender(group, None)),
+                MOST_WAITING,
+                raw=True,
+            )
+            self._actions[group.name] = FollowAction(
+                node,
+                group,
+                step_rate=step_rate,
+                most_points=lambda: self._follower.rules.max_points,
+                receive=partial(self._on_goal, group),
+                refused=self._on_refused,
+                cancel=lambda command: self._follower.cancel(self._now(), command),
+            )
+
+    def take_checked(self, now: int) -> None:
+        """Let what has been checked take over [ns]."""
+        for checked in self._intake.take():
+            try:
+                self._take(checked, now)
+            except TrajectoryError as refusal:
+                if checked.sender.goal is not None:
+                    checked.sender.goal.refuse(refusal)
+                self._report(refusal)
+
+    def step(self, desired: MotionState, measured: MotionState, stamp: Time) -> None:
+        """Watch the goals that are being executed; arguments as those of `FollowAction.step`."""
+        report = self._follower.report()
+        for action in self._actions.values():
+            action.step(desired, measured, report, stamp)
+
+    def close(self) -> None:
+        """End the thread that checks, and serve no longer."""
+        self._intake.close()
+        for action in self._actions.values():
+            action.destroy()
+
+    def _now(self) -> int:
+        now: int = self._node.get_clock().now().nanoseconds
+        return now
+
+    def _on_trajectory(self, sender: _Sender, message: bytes) -> None:
+        try:
+            self._intake.put(message, self._follower.rules, sender, sender.group)
+        except TrajectoryError as refusal:
+            self._on_refused(refusal)
+
+    def _on_goal(self, group: JointGroup, goal: Goal) -> None:
+        self._intake.put(goal.points, self._follower.rules, _Sender(group, goal), group)
+
+    def _on_refused(self, refusal: TrajectoryError) -> None:
+        self._follower.count_refusal(refusal)
+        self._report(refusal)
+
+    def _take(self, checked: Checked[_Sender], now: int) -> None:
+        """Let a checked trajectory take over.
+
+        Raises:
+            TrajectoryError: refused, and counted.
+        """
+        group, goal = checked.sender
+        if goal is not None and goal.handle.is_cancel_requested:
+            goal.finish(End.CANCELED, ResultCode.SUCCESSFUL, "canceled before it began")
+            return
+        try:
+            points = checked.result.result()
+        except TrajectoryError as refusal:
+            self._follower.count_refusal(refusal)
+            raise
+        except Exception as error:
+            # A fault of the driver's own; the robot must go on holding, whatever a message brought to light.
+            self._node.get_logger().error("".join(traceback.format_exception(error)))
+            fault = TrajectoryError(Refusal.INTERNAL, f"fault in the driver: {type(error).__name__}: {error}")
+            self._follower.count_refusal(fault)
+            raise fault from error
+        source = Source.TOPIC if goal is None else Source.ACTION
+        command = self._follower.take(points, now, source, group.name)
+        if goal is not None:
+            self._actions[group.name].begin(goal, command)
+        self._node.get_logger().info(
+            f"executing {len(points.times)} points ({command.name}), at rest in {command.end:.2f} s"
+        )

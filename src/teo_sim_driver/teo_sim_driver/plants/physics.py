@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Joints with mass, gravity and contact: MuJoCo simulates the URDF, and position servos hold the joints.
+
+Each joint has a servo of its own, a spring and a damper between where it is told to be and where it is. The
+phalanges beyond the first follow theirs as the URDF says (`mimic`). The pelvis hangs on the world.
+
+Needs `mujoco` (requirements/physics.txt).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, urdf_text
+from teo_description.joints import BODY_JOINTS
+from teo_sim_driver.motion.bezier import FloatArray
+from teo_sim_driver.motion.trajectory import MotionState
+from teo_sim_driver.plants.servos import SERVOS
+
+# [s]; ten to a step of the driver. The servos' time constant is 16 of them.
+TIMESTEP = 0.001
+
+# Of a phalanx that its tendon moves with another one [kg m^2]: keeps its bond to that one well conditioned.
+_FOLLOWER_INERTIA = 1e-3
+
+# Natural frequency of a servo [rad/s], 10 Hz, critically damped: a fifth of the rate at which the real drives
+# hear of set-points (50 Hz).
+SERVO_FREQUENCY = 2.0 * np.pi * 10.0
+
+# Of an arm that signs [rad], for the inertia about its shoulder and wrist.
+_BENT_ELBOW = -1.5
+
+
+# Where the hands begin among the joints.
+_HANDS = len(BODY_JOINTS)
+
+
+class Contact(NamedTuple):
+    """Two parts of the robot that touch."""
+
+    first: str
+    second: str
+    force: float
+    """Normal force [N]."""
+    depth: float
+    """How far they are in each other [m]."""
+
+
+class PhysicsPlant:
+    """The whole robot; see `Plant`."""
+
+    def __init__(self) -> None:
+        """Stand still at HOME."""
+        self._model = model = _model()
+        self._data = mujoco.MjData(model)
+        self._columns = np.array([model.joint(name).qposadr[0] for name in COMMANDED_JOINTS])
+        self._speeds = np.array([model.joint(name).dofadr[0] for name in COMMANDED_JOINTS])
+        self._actuators = np.array([model.actuator(name).id for name in COMMANDED_JOINTS])
+        # A servo is a spring about its set-point and a damper about 0: this much of the velocity that is
+        # asked for, added to the set-point, makes it a damper about that velocity.
+        self._lead = -model.actuator_biasprm[self._actuators, 2] / model.actuator_gainprm[self._actuators, 0]
+        self._told = MotionState.at_rest(np.array([HOME[name] for name in COMMANDED_JOINTS]))
+        _stand(model, self._data)
+        self._behind = 0.0
+
+    def step(self, asked: MotionState, duration: float) -> MotionState:
+        """Move for so long; what is asked for is interpolated, as the real drives do.
+
+        Hands say that they are where they were told to be: the real Dextra measures nothing.
+        """
+        self._behind += duration
+        steps = round(self._behind / TIMESTEP)
+        self._behind -= steps * TIMESTEP
+        before, self._told = self._told, asked
+        for i in range(1, steps + 1):
+            part = i / steps
+            position = before.positions + part * (asked.positions - before.positions)
+            velocity = before.velocities + part * (asked.velocities - before.velocities)
+            self._data.ctrl[self._actuators] = position + self._lead * velocity
+            mujoco.mj_step(self._model, self._data)
+        moved = self._data.qpos, self._data.qvel, self._data.qacc
+        places = self._columns, self._speeds, self._speeds
+        return MotionState(
+            *(
+                np.concatenate([values[place[:_HANDS]], told[_HANDS:]])
+                for values, place, told in zip(moved, places, asked, strict=True)
+            )
+        )
+
+    @property
+    def positions(self) -> FloatArray:
+        """Where the joints are, hands too [rad]. Shape (joints,)."""
+        positions: FloatArray = self._data.qpos[self._columns]
+        return positions
+
+    @property
+    def torques(self) -> FloatArray:
+        """Of the servos [N m]. Shape (joints,)."""
+        forces: FloatArray = self._data.actuator_force[self._actuators]
+        return forces
+
+    def contacts(self) -> list[Contact]:
+        """Parts that touch now."""
+        model, data = self._model, self._data
+        found = []
+        force: NDArray[np.float64] = np.zeros(6)
+        for i, contact in enumerate(data.contact[: data.ncon]):
+            mujoco.mj_contactForce(model, data, i, force)
+            first, second = _bodies(model, contact)
+            found.append(Contact(first, second, float(force[0]), float(-contact.dist)))
+        return found
+
+
+def _model() -> mujoco.MjModel:
+    """The URDF with servos, without contact between parts that are built into each other.
+
+    Those are the ones that two joints at most connect, whose boxes reach into each other when they turn, and
+    those that overlap at HOME.
+    """
+    spec = mujoco.MjSpec.from_string(urdf_text())
+    spec.option.timestep = TIMESTEP
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # damping of servos is stiff
+    for joint in spec.joints:
+        if joint.name in SERVOS:
+            joint.armature, joint.actfrclimited = SERVOS[joint.name].inertia, False
+        if joint.name not in BODY_JOINTS:
+            joint.frictionloss = 0.0  # a hand's is that of its motors; legs hang still
+        if joint.name not in ALL_JOINTS:
+            joint.armature = _FOLLOWER_INERTIA
+    bare = spec.compile()
+    data = mujoco.MjData(bare)
+    _stand(bare, data)
+    parent = bare.body_parentid
+    built = {_bodies(bare, contact) for contact in data.contact[: data.ncon]}
+    built |= {(bare.body(parent[parent[i]]).name, bare.body(i).name) for i in range(1, bare.nbody)}
+    for first, second in built:
+        spec.add_exclude(bodyname1=first, bodyname2=second)
+    inertias = _inertias(bare, data)
+    for name in ALL_JOINTS:
+        inertia = inertias[bare.joint(name).dofadr[0]]
+        stiffness, damping = inertia * SERVO_FREQUENCY**2, 2.0 * inertia * SERVO_FREQUENCY
+        actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        actuator.gainprm[0], actuator.biastype = stiffness, mujoco.mjtBias.mjBIAS_AFFINE
+        actuator.biasprm[:3] = 0.0, -stiffness, -damping
+        if name in SERVOS:
+            actuator.forcelimited, actuator.forcerange = True, (-SERVOS[name].torque, SERVOS[name].torque)
+    return spec.compile()
+
+
+def _inertias(model: mujoco.MjModel, data: mujoco.MjData) -> FloatArray:
+    """The most that each joint has to turn, elbows straight or bent [kg m^2]. Shape (nv,)."""
+    found = []
+    for angle in (0.0, _BENT_ELBOW):
+        for side in ("Left", "Right"):
+            data.joint(f"Frontal{side}Elbow").qpos[0] = angle
+        mujoco.mj_forward(model, data)
+        mass = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, data, mass)
+        found.append(mass.diagonal())
+    return np.asarray(np.max(found, axis=0))
+
+
+def _bodies(model: mujoco.MjModel, contact: mujoco.MjContact) -> tuple[str, str]:
+    """The parts that touch, by name."""
+    first, second = sorted(model.body(model.geom_bodyid[geom]).name for geom in contact.geom)
+    return first, second
+
+
+def _stand(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Put the robot to HOME, every phalanx where its tendon has it, and tell the servos so."""
+    for name, angle in HOME.items():
+        data.joint(name).qpos[0] = angle
+    for i in range(model.neq):
+        follower, driven = model.eq_obj1id[i], model.eq_obj2id[i]
+        angle = data.qpos[model.jnt_qposadr[driven]]
+        data.qpos[model.jnt_qposadr[follower]] = np.polynomial.polynomial.polyval(angle, model.eq_data[i, :5])
+    for i in range(model.nu):
+        data.ctrl[i] = data.qpos[model.jnt_qposadr[model.actuator_trnid[i, 0]]]
+    mujoco.mj_forward(model, data)

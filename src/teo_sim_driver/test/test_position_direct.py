@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The real robot's topics, against what its repositories say of them."""
+
+import math
+
+import numpy as np
+import pytest
+
+from teo_description import COMMANDED_JOINTS, HOME, DescriptionError
+from teo_sim_driver.position_direct import position_direct
+
+# axesNames of wholeBody.ini of teo-configuration-files, and of the Dextra's Synapse.cpp, board by board.
+BOARDS = {
+    "/teo/head/position_direct": "AxialNeck FrontalNeck",
+    "/teo/trunk/position_direct": "AxialTrunk FrontalTrunk",
+    "/teo/leftArm/position_direct": "FrontalLeftShoulder SagittalLeftShoulder AxialLeftShoulder "
+    "FrontalLeftElbow AxialLeftWrist FrontalLeftWrist",
+    "/teo/rightArm/position_direct": "FrontalRightShoulder SagittalRightShoulder AxialRightShoulder "
+    "FrontalRightElbow AxialRightWrist FrontalRightWrist",
+    "/teo/leftHand/position_direct": "LeftHandAbductor LeftThumbFinger LeftIndexFinger LeftMiddleFinger "
+    "LeftRingFinger LeftPinkyFinger",
+    "/teo/rightHand/position_direct": "RightHandAbductor RightThumbFinger RightIndexFinger "
+    "RightMiddleFinger RightRingFinger RightPinkyFinger",
+}
+
+
+def told(**angles):
+    """What the boards are told at HOME but for some joints [rad]."""
+    positions = np.array([{**HOME, **angles}[name] for name in COMMANDED_JOINTS])
+    return {each.topic: each for each in position_direct(positions)}
+
+
+def as_the_board_hears(message, joint):
+    """controlBoard_nws_ros2 makes degrees of every axis that calls itself revolute."""
+    return math.degrees(message.positions[message.names.index(joint)])
+
+
+def test_every_board_is_told_of_its_axes_in_its_order():
+    assert {topic: " ".join(each.names) for topic, each in told().items()} == BOARDS
+
+
+@pytest.mark.parametrize(
+    ("topic", "joint", "degrees"),
+    [
+        # The arm of "hello" and the trunk, as the robot was told them in degrees.
+        ("/teo/rightArm/position_direct", "FrontalRightShoulder", -56.0),
+        ("/teo/rightArm/position_direct", "FrontalRightElbow", -99.6),
+        ("/teo/trunk/position_direct", "FrontalTrunk", 10.0),
+    ],
+)
+def test_arms_and_trunk_hear_degrees(topic, joint, degrees):
+    assert as_the_board_hears(told(**{joint: math.radians(degrees)})[topic], joint) == pytest.approx(degrees)
+
+
+@pytest.mark.parametrize(
+    ("joint", "degrees", "setpoint"),
+    [
+        ("RightIndexFinger", 7.0, 0.0),  # a slack tendon [mm]
+        ("RightIndexFinger", 85.0, 20.0),  # all of it wound
+        ("RightThumbFinger", 0.0, 5.0),
+        ("RightHandAbductor", 90.0, 90.0),  # its servo [deg]
+    ],
+)
+def test_hands_hear_millimetres_of_tendon_and_degrees_of_the_servo(joint, degrees, setpoint):
+    heard = told(**{joint: math.radians(degrees)})["/teo/rightHand/position_direct"]
+    assert as_the_board_hears(heard, joint) == pytest.approx(setpoint, abs=1e-9)
+
+
+def test_a_finger_outside_the_range_of_its_tendon_is_refused():
+    with pytest.raises(DescriptionError, match="RightIndexFinger"):
+        told(RightIndexFinger=2.0)
