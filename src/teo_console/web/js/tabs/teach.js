@@ -36,10 +36,16 @@ export async function mount(element, context) {
     }
     const wanted = { gloss: name(), hands: hands.value || null };
     const told = await progress.finish(await api.post(`/api/recordings/${recording}/try`, wanted));
-    shown = await outcome(context, { told, wanted, film, recording, progress, again: discard });
+    shown = await outcome(context, { told, wanted, film, recording, progress, again: discard, forget });
     result.replaceChildren(shown.element);
     shown.element.querySelector("h2").focus();
     return null;
+  }
+
+  /** Deletes the film on this machine: what it showed is in the table. */
+  async function forget() {
+    await api.delete(`/api/recordings/${recording}`);
+    recording = null;
   }
 
   /** Deletes the film, here and on this machine. */

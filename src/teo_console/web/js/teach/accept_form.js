@@ -7,7 +7,7 @@ import { h } from "../dom.js";
 const LICENCES = ["CC-BY-4.0", "CC-BY-SA-4.0", "CC0-1.0", "for this laboratory alone"];
 
 /** The form; when the sign is in the table it becomes a button that has TEO sign it. */
-export function acceptForm(context, { gloss, hands, exists, failed, recording, progress, redo }) {
+export function acceptForm(context, { gloss, hands, exists, failed, recording, progress, redo, forget }) {
   const { api, socket, t, attempt, notify } = context;
   const name = gloss.replaceAll("_", " ");
   const licence = h("select", { id: "accept-licence" }, ...LICENCES.map((each) => h("option", { value: each }, t(`licence.${each}`))));
@@ -37,7 +37,7 @@ export function acceptForm(context, { gloss, hands, exists, failed, recording, p
         return;
       }
       if (keep.input.checked) await api.post(`/api/recordings/${recording}/keep`, { gloss });
-      await api.delete(`/api/recordings/${recording}`);
+      await forget();
       const sign = () => attempt(() => socket.ask("sign_glosses", { glosses: [gloss] }));
       form.replaceChildren(
         h("p", { role: "status", id: "accepted" }, t("teach.accepted", { name, standing: t(`evidence.${told.standing}`) })),

@@ -14,7 +14,7 @@ import { gateList } from "./gates.js";
  *   `progress` of jobs, and `again()`, which discards it.
  * @returns {Promise<{element: HTMLElement, close: Function}>}
  */
-export async function outcome(context, { told, wanted, film, recording, progress, again }) {
+export async function outcome(context, { told, wanted, film, recording, progress, again, forget }) {
   const { api, t, robotView } = context;
   const address = URL.createObjectURL(film);
   const video = h("video", { src: address, controls: true, loop: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("teach.demonstration") });
@@ -43,7 +43,7 @@ export async function outcome(context, { told, wanted, film, recording, progress
     h("p", {}, t("teach.compare")),
     h("h3", {}, t("teach.gates")), gateList(told.gates),
     h("h3", {}, t("teach.similar")), similar(t, told.similar),
-    acceptForm(context, { gloss: told.gloss, hands: wanted.hands, exists, failed, recording, progress, redo }),
+    acceptForm(context, { gloss: told.gloss, hands: wanted.hands, exists, failed, recording, progress, redo, forget }),
   );
   const view = await robotView(stage);
   view.play(motion);
