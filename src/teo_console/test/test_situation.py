@@ -165,9 +165,13 @@ def test_progress_follows_the_drivers_path_its_pace_and_its_pause(situation: Sha
     assert elapsed(situation, 150.0) == pytest.approx(2.0)
 
 
-def test_the_path_of_a_longer_motion_is_not_the_sentences(situation: SharedSituation) -> None:
+# The next sentence's, and the arms' first rise while the sentence is planned.
+@pytest.mark.parametrize("remaining", [30.0, 0.5])
+def test_the_path_of_another_motion_is_not_the_sentences(
+    situation: SharedSituation, remaining: float
+) -> None:
     situation.executor(report("signing", stamp=100.0))
-    situation.driver("moving", "", PathReport(stamp=101.0, speed=1.0, remaining=30.0))
+    situation.driver("moving", "", PathReport(stamp=101.0, speed=1.0, remaining=remaining))
     assert elapsed(situation, 101.5) == pytest.approx(1.5)
 
 

@@ -16,20 +16,25 @@ from teo_console.review.series import Answer
 class Anchor(Struct, frozen=True, kw_only=True):
     """A published figure to compare with. It was asked otherwise and of others: no more than a mark."""
 
+    name: str
+    """What a page has words for in its language: `anchor.<name>`."""
     what: str
     source: str
 
 
 ANCHORS = (
     Anchor(
+        name="letters",
         what="94.7 % of 26 letters recognised (American manual alphabet on the TATUM hand)",
         source="TATUM hand, IEEE EMBC 2021",
     ),
     Anchor(
+        name="words",
         what="most of 15 isolated signs recognised by most of 12 people (Italian Sign Language on Pepper)",
         source="Botta et al. 2025, arXiv:2509.09889",
     ),
     Anchor(
+        name="teo",
         what="TEO's fingerspelling and basic words shown to 16 deaf and hard of hearing people",
         source="Gago et al., Electronics 2019, 8(1) 57, arXiv:1901.05939",
     ),

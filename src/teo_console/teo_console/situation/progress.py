@@ -8,6 +8,11 @@ from dataclasses import dataclass
 
 from teo_console.protocol.to_page import Progress
 
+# A path whose end is farther than this from the sentence's is another one's [s]: the arms' first rise while
+# the sentence is planned, or one that the next sentence is already part of. Clock and speed are never so far
+# off: the driver tells each change of speed within a tenth of a second.
+_SAME_END = 1.0
+
 
 @dataclass(frozen=True, kw_only=True)
 class PathReport:
@@ -38,10 +43,11 @@ class SentenceProgress:
     def path(self, report: PathReport) -> None:
         """Take what the driver says."""
         elapsed = self.elapsed(report.stamp)
-        # A trajectory ends with the sentence's motion: what remains of both is the same, but not where more
-        # remains than the sentence has.
-        if report.remaining is not None and report.remaining <= self._duration:
-            elapsed = self._duration - report.remaining
+        # A trajectory ends with the sentence's motion: what remains of both is the same.
+        if report.remaining is not None:
+            told = self._duration - report.remaining
+            if abs(told - elapsed) <= _SAME_END:
+                elapsed = max(told, 0.0)
         self._progress = Progress(stamp=report.stamp, elapsed=elapsed, speed=report.speed)
 
     def elapsed(self, now: float) -> float:

@@ -29,6 +29,6 @@ export async function report(element, { api, t, attempt }, series) {
       h("p", { class: "faint" }, t("report.explained")),
       h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": t("report.table") }, h("table", {}, h("thead", {}, h("tr", {}, ...columns.map((name) => h("th", { scope: "col" }, t(`report.${name}`))))), h("tbody", {}, ...rows))),
       h("h3", {}, t("report.anchors")),
-      h("ul", { class: "plain", lang: "en" }, ...told.anchors.map(({ what, source }) => h("li", {}, `${what}: ${source}`)))),
+      h("ul", { class: "plain" }, ...told.anchors.map(({ name, source }) => h("li", {}, `${t(`anchor.${name}`)}: ${source}`)))),
   );
 }
