@@ -80,7 +80,7 @@ def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
     page.click("form button.primary")
     expect(page.locator("#status")).to_contain_text("SALUDAR")
 
-    # The same movement again is among the first (ADIÓS is waved too); another sign is not, and differs from it.
+    # The same movement again is among the first (ADIÓS is waved too); another sign is not, and differs.
     film = thinned(tmp_path)
     assert practised(page, "saludar", film) in ("practise.right", "practise.near")
     accessible(page)
