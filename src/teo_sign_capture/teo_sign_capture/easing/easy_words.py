@@ -96,7 +96,8 @@ class EasyWords:
             change = postures - word.postures
             for share in _SHARES:
                 found = word.postures + share * change
-                if word.excess(found) <= 1.0 and word.keeps_contacts(found):
+                kept = word.excess(found) <= 1.0 and word.keeps_places_at_head(found)
+                if kept and word.keeps_contacts(found):
                     return word.knots(found)
         return None
 

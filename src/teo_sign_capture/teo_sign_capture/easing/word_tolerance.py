@@ -47,6 +47,18 @@ _CONTACT, _SLIP = 0.025, 0.01
 # second distance are looked at.
 CLEARANCE, _NEAR = 0.006, 0.06
 
+# [m] Ends of fingers within the first distance of the middle of the face show a place of the head, of which
+# they are a hand's breadth away at most: they move by less than the second, what is just seen of a place.
+_AT_HEAD, _PLACE = 0.24, 0.028
+# [m] The middle of the face above the last joint of the neck, which is at 0.66 m: TEO's face reaches from
+# 0.625 to 0.80 m.
+_HEAD_LINK, _FACE_MIDDLE = "FrontalNeck_link", 0.055
+_ENDS = tuple(
+    f"{side}{finger}FingerTip"
+    for side in ("Right", "Left")
+    for finger in ("Thumb", "Index", "Middle", "Ring", "Pinky")
+)
+
 _JOINTS: Mapping[Side, tuple[str, ...]] = {"right": RIGHT_ARM + RIGHT_HAND, "left": LEFT_ARM + LEFT_HAND}
 _MIRROR = np.array([1.0, -1.0, 1.0])
 # How many of an arm's joints carry a link; a hand's parts are carried by all.
@@ -161,6 +173,16 @@ class WordTolerance:
                     return False
         return True
 
+    def keeps_places_at_head(self, postures: Array) -> bool:
+        """Whether fingers that show a place of the head still show it. Shape (p, m)."""
+        for posture in range(len(postures)):
+            captured, face = self._ends(posture, self.postures)
+            now, _ = self._ends(posture, postures)
+            shows = np.linalg.norm(captured - face, axis=1) < _AT_HEAD
+            if (np.linalg.norm(now - captured, axis=1)[shows] > _PLACE).any():
+                return False
+        return True
+
     def as_right(self, arms: Array) -> Array:
         """Arms as right arms, or back. Shape (n, m)."""
         parts = np.split(arms, len(self.sides), axis=1)
@@ -221,10 +243,18 @@ class WordTolerance:
         return [self._chain.poses(part[:, :_ARM]) for part in np.split(postures, len(self.sides), axis=1)]
 
     def _contacts(self, posture: int, postures: Array) -> list[Contact]:
+        return self._robot.contacts(self._configuration(posture, postures), _NEAR)
+
+    def _ends(self, posture: int, postures: Array) -> tuple[Array, Array]:
+        """Ends of all fingers, and the middle of the face [m]. Shapes (10, 3) and (3,)."""
+        poses = self._robot.placements(self._configuration(posture, postures), (*_ENDS, _HEAD_LINK))
+        return poses[:-1, :3, 3], poses[-1, :3, 3] + _FACE_MIDDLE * poses[-1, :3, 2]
+
+    def _configuration(self, posture: int, postures: Array) -> Array:
         names = [self.sign.joints[column] for column in self.columns]
         arms = self.as_right(postures[posture][None])[0]
         pose = self._others[posture] | dict(zip(names, arms.tolist(), strict=True))
-        return self._robot.contacts(self._robot.configuration(pose), _NEAR)
+        return self._robot.configuration(pose)
 
     def _of_side(self, number: int, matrix: Array) -> Array:
         """A matrix for one arm's joints as one for all. Shapes (r, 6) and (r, m)."""

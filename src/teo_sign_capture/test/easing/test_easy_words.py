@@ -21,6 +21,7 @@ from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
+FACE = np.array([0.0, 0.0, 0.715])  # the middle of it, upright [m]
 _FRAMES = {
     side: (f"{side}_palm", *(f"{side.capitalize()}{finger}FingerTip" for finger in _FINGERS))
     for side in ("right", "left")
@@ -60,6 +61,9 @@ def assert_shows_the_same(robot: Robot, sign: Sign, knots: Array) -> None:
             for found, palm in zip((before, after), palms, strict=True)
         ]
         assert np.linalg.norm(local[1] - local[0], axis=2).max() <= 0.0155, sign.gloss
+        ends = [found[side][:, 1:, :3, 3] for found in (before, after)]
+        moved, at_face = np.linalg.norm(ends[1] - ends[0], axis=2), np.linalg.norm(ends[0] - FACE, axis=2)
+        assert moved[at_face < 0.23].max(initial=0.0) <= 0.0285, f"{sign.gloss} points elsewhere"
         for first, second in pairwise(range(len(knots))):
             way = [palm[second, :3, 3] - palm[first, :3, 3] for palm in palms]
             allowed = max(0.014, 0.3 * float(np.linalg.norm(way[0])))
