@@ -1,17 +1,30 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""All of /api beside the robot's description."""
+"""All of /api beside the robot's description: the routes of every tab, and of the jobs that they begin."""
 
 from __future__ import annotations
 
+from typing import Any
+
 from aiohttp import web
 
-from teo_console.api import dictionary, job_routes, reviewing, teaching
+from teo_console.api import dictionary, reviewing, teaching
+from teo_console.api.requests import answering
 from teo_console.api.workbench import Workbench
 
 
 def all_routes(workbench: Workbench) -> list[web.RouteDef]:
-    """The routes of every tab."""
+    """The routes of every tab, and GET and DELETE /api/jobs/ID: how far a job is, and an end to it."""
+
+    async def look(request: web.Request) -> Any:
+        return workbench.jobs.get(request.match_info["id"]).told()
+
+    async def cancel(request: web.Request) -> Any:
+        workbench.jobs.cancel(request.match_info["id"])
+        return {}
+
     return [
-        route for room in (job_routes, dictionary, teaching, reviewing) for route in room.routes(workbench)
+        web.get("/api/jobs/{id}", answering(look)),
+        web.delete("/api/jobs/{id}", answering(cancel)),
+        *(route for tab in (dictionary, teaching, reviewing) for route in tab.routes(workbench)),
     ]
