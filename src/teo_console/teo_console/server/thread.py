@@ -54,8 +54,7 @@ class ServerThread:
         """End, and wait for it."""
         if self.loop.is_closed():
             return
-        if self._runner is not None:
-            asyncio.run_coroutine_threadsafe(self._runner.cleanup(), self.loop).result(_PATIENCE)
+        asyncio.run_coroutine_threadsafe(self._end(), self.loop).result(_PATIENCE)
         self.loop.call_soon_threadsafe(self.loop.stop)
         self._thread.join(_PATIENCE)
         self.loop.close()
@@ -67,6 +66,15 @@ class ServerThread:
         site = web.TCPSite(self._runner, address, port)
         await site.start()
         return int(self._runner.addresses[0][1])
+
+    async def _end(self) -> None:
+        if self._runner is not None:
+            await self._runner.cleanup()
+        # Connections that a browser keeps open have a task each, which would be lost with the loop.
+        left = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in left:
+            task.cancel()
+        await asyncio.gather(*left, return_exceptions=True)
 
     def _run(self) -> None:
         asyncio.set_event_loop(self.loop)
