@@ -13,6 +13,7 @@ from pathlib import Path
 
 import av
 import pytest
+from page_film import Film
 from playwright.sync_api import Browser, ConsoleMessage, Page, sync_playwright
 
 from teo_bringup.graph import CONSOLE, Graph, executable_of
@@ -124,3 +125,11 @@ def pictures() -> Path:
     folder = Path(__file__).parents[3] / "out" / "console"
     folder.mkdir(parents=True, exist_ok=True)
     return folder
+
+
+@pytest.fixture(scope="session")
+def film(pictures: Path) -> Iterator[Film]:
+    """What the tests film, one after the other, goes into one film."""
+    film = Film()
+    yield film
+    film.save(pictures / "console.webp")
