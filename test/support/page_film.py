@@ -40,7 +40,7 @@ class Film:
         session.on("Page.screencastFrame", take)
         session.send(
             "Page.startScreencast",
-            {"format": "jpeg", "quality": 85, "maxWidth": WIDTH, "maxHeight": HEIGHT, "everyNthFrame": 3},
+            {"format": "jpeg", "quality": 85, "maxWidth": WIDTH, "maxHeight": HEIGHT},
         )
         try:
             yield
