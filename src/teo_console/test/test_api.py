@@ -126,11 +126,11 @@ def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api
 
 
 def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(
-    api: Api, browser: Browser, pictures: Path
+    api: Api, brief_browser: Browser, pictures: Path
 ) -> None:
     words = ("CASA", *(f"PALABRA_{number}" for number in range(1, 15)))
     series = api.add_series("comprehension", "CASA", "PERRO", choices=words)
-    page = browser.new_page(viewport={"width": 390, "height": 844}, locale="es-ES")
+    page = brief_browser.new_page(viewport={"width": 390, "height": 844}, locale="es-ES")
     try:
         page.goto(f"{api.url}/#review/{series}")
         page.fill("#reviewer", "Ana")
