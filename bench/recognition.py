@@ -36,15 +36,15 @@ from teo_synthetic_signer.body.body_shapes import BODIES
 
 BODIES |= random_people(3, 61_409, "learner")
 
-KNOWN = score_clips.KNOWN._replace(signs=15)
+KNOWN = score_clips.KNOWN._replace(signs=12)
 NEW = Draw(
     seed=60_331,
-    signs=15,
+    signs=12,
     bodies=("learner_0", "learner_1", "learner_2"),
     distance=1.9,
     without=(score_clips.KNOWN, score_clips.NEW),
 )
-FILMS = 12
+FILMS = 8
 _SEED = 1
 _THOUSAND = 1000
 

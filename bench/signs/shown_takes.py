@@ -84,7 +84,7 @@ def shown_takes(robot: Robot, draw: Draw, films: int) -> list[ShownTake]:
 def sign_joints(sign: Sign) -> Array:
     """TEO's joints over a sign of the table. Shape (MOMENTS, 26) [rad]."""
     moments = np.linspace(0.0, sign.duration, MOMENTS)
-    limbs = {}
+    limbs: dict[str, Array] = {}
     for side, names in _LIMBS.items():
         if set(names) <= set(sign.joints):
             columns = [sign.knots[:, sign.joints.index(joint)] for joint in names]
@@ -124,7 +124,7 @@ def _track_joints(robot: Robot, track: SkeletonTrack) -> Array:
     stroke = smooth.between(span.start, span.end)
     free = free_motion(robot, stroke, handedness=span.handedness, person=measure_person(track))
     moments = np.linspace(0.0, float(stroke.times[-1]), MOMENTS)
-    limbs = {}
+    limbs: dict[str, Array] = {}
     for at, side in enumerate(free.sides):
         arm = free.arms[:, JOINTS * at : JOINTS * (at + 1)]
         limb = np.hstack([arm if side == "right" else mirrored(arm), free.shapes[side].axes])
