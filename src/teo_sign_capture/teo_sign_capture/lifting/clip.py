@@ -36,8 +36,8 @@ _OPTIMISED, _LOST = 3, 0
 _SIDES = ("right", "left")
 # [m] Standard deviation of shoulders and hips along the view: that of a trunk that is turned by 15 deg.
 _TRUNK_SIGMA = 0.04
-# [m] From the camera to the person, as which nearer points are taken to be shown larger about the shoulders.
-# Nothing in the points tells it: phones and webcams stand 1.5 to 2.5 m away to show a person from the hips up.
+# [m] From the camera to the shoulders: what is nearer is shown larger about them. Nothing in the points tells
+# it; phones and webcams stand 1.5 to 2.5 m away to show a person from the hips up.
 _CAMERA = 2.0
 # [m] Standard deviation of a point of the body across the view.
 _ACROSS_SIGMA = 0.01
