@@ -14,7 +14,13 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.depth.filtered_keypoints import points_of
-from teo_skeleton_retriever.depth.skin import BODY_CAPS, BODY_DEPTHS, along_ray
+from teo_skeleton_retriever.depth.skin import (
+    BODY_CAPS,
+    BODY_DEPTHS,
+    FOREARM_LEAST_SINE,
+    FOREARM_RADIUS,
+    along_ray,
+)
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
 from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_sigma
 from teo_skeleton_retriever.layouts.layout import BODY_25
@@ -52,6 +58,7 @@ _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
 _ACROSS[[ROW[f"{side}Ear"] for side in "LR"]] = 0.035  # seen at the cheek, 2 cm beside and below
 _SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
 _ELBOWS = [rows[1] for rows in ARMS.values()]
+_WRISTS = [rows[2] for rows in ARMS.values()]
 _HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
 
 
@@ -157,6 +164,14 @@ class BodyDepth:
         limb = np.full((_N, 3), np.nan)
         limb[_LIMBS[:, 0]] = points[_LIMBS[:, 1]] - points[_LIMBS[:, 0]]
         behind = along_ray(radius, limb, points, BODY_CAPS)
+        in_forearm = along_ray(
+            np.full(len(_ELBOWS), FOREARM_RADIUS * size.scale),
+            points[_WRISTS] - points[_ELBOWS],
+            points[_ELBOWS],
+            np.ones(len(_ELBOWS)),
+            least_sine=FOREARM_LEAST_SINE,
+        )
+        behind[_ELBOWS] = np.maximum(behind[_ELBOWS], in_forearm)
         return behind, behind - radius
 
     def _solve_arms(
