@@ -81,8 +81,6 @@ def along_ray(
     squares = (limb * limb).sum(axis=1) * (ray * ray).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         away = np.where(squares > 0.0, (limb * ray).sum(axis=1) / np.sqrt(squares), 0.0)
-    shares = np.where(
-        away < 0.0, np.maximum(1.0 - away**2, least_sine**2), 1.0 + away**2 * (cap**-2.0 - 1.0)
-    )
+    shares = np.where(away < 0.0, np.maximum(1.0 - away**2, least_sine**2), 1.0 + away**2 * (cap**-2.0 - 1.0))
     behind: FloatArray = radius / np.sqrt(shares)
     return behind
