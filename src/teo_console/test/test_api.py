@@ -35,7 +35,10 @@ class Api:
 
     def __init__(self, folder: Path) -> None:
         self.folders = Folders(
-            kept=folder / "kept", reviews=folder / "reviews.sqlite", cache=folder / "cache"
+            kept=folder / "kept",
+            reviews=folder / "reviews.sqlite",
+            signwriting=folder / "signwriting",
+            cache=folder / "cache",
         )
         self.thread = ServerThread(self._app, "127.0.0.1", 0)
         self.url = f"http://127.0.0.1:{self.thread.port}"

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 TEO signing project
 // SPDX-License-Identifier: Apache-2.0
-// A sign as it is written in SignWriting, for those entries of the table that were made from it.
+// A sign as it is written in SignWriting, where this machine's user has drawn it with `draw_signwriting`.
 
+import { api } from "../api.js";
 import { h } from "../dom.js";
 import { t } from "../i18n.js";
 
@@ -15,15 +16,25 @@ const KINDS = [
 
 let written = null; // one download for all signs
 
+/** What is drawn, by gloss; nothing where nobody has drawn any, or while the console does not answer. */
+async function drawn() {
+  written ??= api.get("/signwriting/signs.json");
+  try {
+    return (await written) || {};
+  } catch {
+    written = null; // to be asked for again
+    return {};
+  }
+}
+
 /**
  * Draws a sign.
  * @param {string} gloss
  * @param {string} source Of the table's entry: one that was recorded since is not the one that is written.
- * @returns {Promise<?HTMLElement>} Null where nothing is written.
+ * @returns {Promise<?HTMLElement>} Null where nothing is drawn.
  */
 export async function signWriting(gloss, source) {
-  written ??= fetch("/signwriting/signs.json").then((response) => response.json());
-  const sign = (await written).signs[gloss];
+  const sign = (await drawn())[gloss];
   if (!sign || !source.includes(`"${sign.entry}"`)) return null;
   const drawing = document.createElementNS(SVG, "svg");
   drawing.setAttribute("role", "img");
