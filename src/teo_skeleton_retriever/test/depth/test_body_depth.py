@@ -15,7 +15,7 @@ from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
 
 
 def test_an_elbow_that_another_arm_was_taken_for_is_found_again_once_it_is_seen_beside_it() -> None:
-    """The elbow is expected 30 cm before where it is; around it are the other arm, there, and its own skin."""
+    """The elbow is expected 30 cm too near, where the other arm is; both are seen around its keypoint."""
     truth = pose((-0.4, 0.45, -0.05), (0.4, 0.45, -0.05)).body
     n, elbow = len(truth), ROW["RElbow"]
     rays = truth[:, :2] / np.where(truth[:, 2:] > 0.0, truth[:, 2:], 1.0)
