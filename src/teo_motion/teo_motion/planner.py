@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
@@ -109,6 +110,7 @@ class Planner:
         self._avoidance = CollisionAvoidance(
             SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
             motion_clearance,
+            None if robot is None else dextra_table(robot),
             limits=self.limits,
             least_clearance=least_clearance,
             arm_rest=self.style.arm_rest,
