@@ -3,9 +3,10 @@
 """What becomes of sentences when a process is killed with SIGKILL at a random moment, and started again.
 
 Each time a text of two short sentences is typed; at a random moment translator, executor, its planner or the
-driver is killed, and started again a second later, as a supervisor would. Then the robot must come to rest,
-having kept its speed limits, and every sentence that the translator published must have been signed or named.
-A text that dies with the translator before it was answered can be named by nobody: it is counted.
+driver is killed, and started again a second later, as a supervisor would. Another text is typed meanwhile,
+unless it is the translator that is dead. Then the robot must come to rest, having kept its speed limits, and
+every sentence that the translator published must have been signed or named. A text that dies with the
+translator before it was answered can be named by nobody: it is counted.
 """
 
 from __future__ import annotations
@@ -37,7 +38,6 @@ from teo_motion.sentence.rest_posture import REST_POSITIONS
 
 KILLS = 20
 _TEXT = "Hola. Sí."
-_SENTENCES = 2
 _LONGEST = 8.0  # [s] until the text is signed, about
 _VICTIMS = ("translator", "executor", "planner", "driver")
 _SEED = 13
@@ -53,7 +53,7 @@ class _Witness(Node):
         super().__init__("witness")
         self.sentences: set[tuple[str, int]] = set()
         self.accounted: dict[tuple[str, int], str] = {}
-        self.answered = 0
+        self.answered: set[str] = set()  # utterances that the translator has made of texts
         self.heard: set[str] = set()  # nodes that have told how they are
         self.state: int | None = None
         self.states: list[tuple[float, np.ndarray]] = []
@@ -66,13 +66,14 @@ class _Witness(Node):
         self.texts = self.create_publisher(String, "text", 10)
 
     def _on_sentence(self, message: SignSentence) -> None:
+        self.answered.add(message.utterance_id)
         self.sentences.add((message.utterance_id, message.sentence_index))
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         self.heard |= {status.name.split(":")[0] for status in message.status}
 
-    def _on_answer(self, _: TranslationStatus) -> None:
-        self.answered += 1
+    def _on_answer(self, message: TranslationStatus) -> None:
+        self.answered.add(message.utterance_id)
 
     def _on_status(self, message: ExecutorStatus) -> None:
         self.state = message.state
@@ -87,7 +88,7 @@ class _Witness(Node):
 
     def forget(self) -> None:
         """Know nothing of sentences any more."""
-        self.answered = 0
+        self.answered.clear()
         self.sentences.clear()
         self.accounted.clear()
 
@@ -148,15 +149,19 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
                 wait(lambda: witness.at_rest, _TIMEOUT)
                 victim, moment = _VICTIMS[index % len(_VICTIMS)], dice.uniform(0.0, _LONGEST)
                 witness.texts.publish(String(data=_TEXT))
+                typed = 1
                 wait(lambda: False, moment)
                 _kill(victim, processes)
+                if victim != "translator":
+                    witness.texts.publish(String(data=_TEXT))
+                    typed += 1
                 wait(lambda: False, _RESTART)
                 witness.heard.clear()  # what was restarted is there when it is heard again
                 if victim != "planner":
                     start(victim, journal)
                 if not wait(lambda: witness.at_rest, _TIMEOUT):
                     restless.append(f"{victim} after {moment:.1f} s")
-                unanswered += not witness.answered and len(witness.sentences) < _SENTENCES
+                unanswered += typed - len(witness.answered)
                 lost += [
                     f"{victim} after {moment:.1f} s" for _ in witness.sentences - witness.accounted.keys()
                 ]

@@ -410,6 +410,7 @@ def test_what_a_killed_executor_left_is_signed_or_named(
     left("NOD", 5.0, 0)
     left("TURN", 5.0, 2)
     left("A-N-A", 1e4, 0)
+    journal.begin()
     journal.close()
     overrides = [
         Parameter("lut_directory", value=str(table_directory)),
@@ -428,3 +429,44 @@ def test_what_a_killed_executor_left_is_signed_or_named(
     finally:
         second.destroy_node()
     assert Journal(folder / f"domain{domain_id}.executor.jsonl").left == ()
+
+
+def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_named(
+    graph: Graph, table_directory: Path, tmp_path: Path
+) -> None:
+    kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)  # as the translator's
+    graph.robot.tokens = graph.robot.create_publisher(SignSentence, "sign_tokens", kept)
+    graph.publish(graph.sentence("NOD"))
+    graph.publish(graph.sentence("Ω"))
+    graph.rest(signed=1)
+
+    def begin(journal_age: float) -> ExecutorNode:
+        graph.robot.statuses.clear()
+        overrides = [
+            Parameter("lut_directory", value=str(table_directory)),
+            Parameter("journal", value=str(tmp_path / "journal")),
+            Parameter("journal_age", value=journal_age),
+        ]
+        node = ExecutorNode(context=graph.node.context, parameter_overrides=overrides)
+        graph.executor.add_node(node)
+        assert node.start()
+        return node
+
+    graph.node.destroy_node()
+    graph.robot.tokens.publish(graph.sentence("TURN"))
+    second = begin(60.0)
+    try:
+        graph.rest(signed=1)
+        told = {(status.utterance_id, status.code) for status in graph.robot.statuses if status.utterance_id}
+        assert told == {("text 3", "")}
+    finally:
+        second.destroy_node()
+    graph.robot.tokens.publish(graph.sentence("LOOK"))
+    third = begin(0.0)
+    try:
+        graph.spin_until(lambda: bool(graph.refused()))
+        graph.spin_until(lambda: graph.robot.states()[-1] == ExecutorStatus.STATE_IDLE)
+        assert graph.refused() == [("expired", "text 4")]
+        assert ExecutorStatus.STATE_SIGNING not in graph.robot.states()
+    finally:
+        third.destroy_node()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from teo_lut_executor.execution.events import Sentence
-from teo_lut_executor.execution.journal import Journal, Kept
+from teo_lut_executor.execution.journal import Journal, Kept, MessageKey
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_signs.tokens import parse_printed
 
@@ -25,8 +25,15 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "folder" / "executor.jsonl"
 
 
-def test_what_was_accepted_and_not_ended_is_left_with_every_field(path: Path) -> None:
+def begun(path: Path) -> Journal:
+    """A journal in place of the one before."""
     journal = Journal(path)
+    journal.begin()
+    return journal
+
+
+def test_what_was_accepted_and_not_ended_is_left_with_every_field(path: Path) -> None:
+    journal = begun(path)
     assert journal.left == ()
     for ticket, text in enumerate(("TÚ", "A-N _ 352", "AYUDAR[2>1]")):
         journal.accepted(ticket, sentence(text), 10.0 + ticket)
@@ -41,7 +48,7 @@ def test_what_was_accepted_and_not_ended_is_left_with_every_field(path: Path) ->
 
 
 def test_a_torn_last_line_costs_that_line_alone(path: Path) -> None:
-    journal = Journal(path)
+    journal = begun(path)
     journal.accepted(1, sentence("TÚ"), 1.0)
     journal.accepted(2, sentence("A"), 2.0)
     journal.close()
@@ -49,13 +56,38 @@ def test_a_torn_last_line_costs_that_line_alone(path: Path) -> None:
     assert [kept.sentence.utterance_id for kept in Journal(path).left] == ["TÚ"]
 
 
-def test_what_is_taken_over_is_not_left_twice(path: Path) -> None:
-    first = Journal(path)
+def test_what_is_taken_over_is_not_left_twice_nor_lost_if_it_is_not_taken_over(path: Path) -> None:
+    first = begun(path)
     first.accepted(1, sentence("TÚ"), 1.0)
     first.close()
-    second = Journal(path)
+    Journal(path).close()  # killed before it had taken over
+    second = begun(path)
     second.close()
     assert len(second.left) == 1 and Journal(path).left == ()
+
+
+def test_a_message_is_known_after_a_restart_whether_it_was_accepted_or_refused(path: Path) -> None:
+    first = begun(path)
+    accepted, refused, other = (MessageKey(1700000000123456789, "text", index) for index in range(3))
+    first.accepted(1, sentence("TÚ"), 1.0, message=accepted)
+    first.ended(1)
+    first.refused(refused)
+    first.close()
+    for _ in range(2):  # by the next executor, and by the one after that
+        journal = begun(path)
+        assert [journal.knows(key) for key in (accepted, refused, other)] == [True, True, False]
+        assert journal.left == ()
+        journal.close()
+
+
+def test_the_latest_thousand_messages_are_known(path: Path) -> None:
+    journal = begun(path)
+    for time in range(1001):
+        journal.refused(MessageKey(time, "text", 0))
+    journal.close()
+    again = Journal(path)
+    assert [again.knows(MessageKey(time, "text", 0)) for time in (0, 1, 1000)] == [False, True, True]
+    again.close()
 
 
 def test_two_executors_do_not_share_a_journal(path: Path) -> None:

@@ -10,15 +10,32 @@ from __future__ import annotations
 
 import fcntl
 import json
-from collections.abc import Iterator
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from teo_common.atomic_files import write_atomically
 from teo_lut_executor.execution.events import Sentence
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
 from teo_signs.tokens import Kind, Token
+
+# Messages that are recognised when they come again: ten times as many as a translator keeps for an executor
+# that begins late, since several may keep as many.
+_MOST_MESSAGES = 1000
+
+
+class MessageKey(NamedTuple):
+    """Names one publication of a sentence; the same sentence published again has another.
+
+    Attributes:
+        published: When, as the publisher's system clock had it [ns].
+        utterance_id: Of the sentence's text.
+        sentence_index: Of the sentence in it.
+    """
+
+    published: int
+    utterance_id: str
+    sentence_index: int
 
 
 class Kept(NamedTuple):
@@ -39,10 +56,11 @@ class Journal:
     """Writes down what becomes of sentences."""
 
     def __init__(self, path: Path) -> None:
-        """Open the journal of one executor, and take over what the one before it left.
+        """Open the journal of one executor, and read what the one before it left.
 
         Args:
-            path: The file; it is made with its folder if it is not there.
+            path: The file; it is made with its folder if it is not there. It stays as it is until `begin`:
+                what was left is still there if this executor is killed before it has taken it over.
 
         Raises:
             OSError: It cannot be read or written, or another executor uses it (`BlockingIOError`).
@@ -50,14 +68,50 @@ class Journal:
         path.parent.mkdir(parents=True, exist_ok=True)
         self._lock = path.with_suffix(".lock").open("w")
         fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        self.left = tuple(_left(path))
-        write_atomically(path, b"")
-        self._file = path.open("a", encoding="utf-8", buffering=1)  # a line at a time
+        before = _Contents(path)
+        self.left = tuple(before.kept.values())
+        self._messages = before.messages
+        self._path, self._new = path, path.with_suffix(".new")
+        self._file = self._new.open("w", encoding="utf-8", buffering=1)  # a line at a time
+        for message in self._messages:
+            self._write({"message": message})
 
-    def accepted(self, ticket: int, sentence: Sentence, now: float, *, attempts: int = 0) -> None:
-        """A sentence waits to be signed; `now` is of the system's clock [s]."""
+    def begin(self) -> None:
+        """Take the place of the journal before, now that all it left was accepted anew or ended."""
+        self._new.replace(self._path)
+
+    def knows(self, message: MessageKey) -> bool:
+        """Whether a message was accepted or refused before, perhaps by an executor before this one."""
+        return message in self._messages
+
+    def accepted(
+        self,
+        ticket: int,
+        sentence: Sentence,
+        now: float,
+        *,
+        attempts: int = 0,
+        message: MessageKey | None = None,
+    ) -> None:
+        """A sentence waits to be signed.
+
+        Args:
+            ticket: Names it in `begun` and `ended`.
+            sentence: The sentence.
+            now: Time of the system's clock [s].
+            attempts: How often it was begun already.
+            message: That it came with; None if it came as a goal.
+        """
         entry = {"accepted": ticket, "time": now, "attempts": attempts, "sentence": asdict(sentence)}
+        if message is not None:
+            _remember(self._messages, message)
+            entry["message"] = message
         self._write(entry)
+
+    def refused(self, message: MessageKey) -> None:
+        """What came with a message is not accepted, and that was told."""
+        _remember(self._messages, message)
+        self._write({"message": message})
 
     def begun(self, ticket: int) -> None:
         """The robot begins to sign it."""
@@ -76,24 +130,43 @@ class Journal:
         self._file.write(json.dumps(entry, ensure_ascii=False) + "\n")
 
 
-def _left(path: Path) -> Iterator[Kept]:
-    """Sentences of a journal that were accepted and not ended, in their order."""
-    kept: dict[int, Kept] = {}
-    lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if path.exists() else []
-    for line in lines:
-        try:
-            entry = json.loads(line)
-            if "accepted" in entry:
-                sentence = _sentence(entry["sentence"])
-                kept[entry["accepted"]] = Kept(sentence, float(entry["time"]), int(entry["attempts"]))
-            elif "begun" in entry:
-                before = kept[entry["begun"]]
-                kept[entry["begun"]] = before._replace(attempts=before.attempts + 1)
-            else:
-                kept.pop(entry["ended"], None)
-        except (ValueError, KeyError, TypeError):
-            continue  # torn, or of another version: the others still count
-    yield from kept.values()
+class _Contents:
+    """What a journal says.
+
+    Attributes:
+        kept: Sentences that were accepted and not ended, in their order, by their ticket.
+        messages: The latest that were accepted or refused, in their order.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.kept: dict[int, Kept] = {}
+        self.messages: dict[MessageKey, None] = {}
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines() if path.exists() else []
+        for line in lines:
+            try:
+                self._add(json.loads(line))
+            except (ValueError, KeyError, TypeError):
+                continue  # torn, or of another version: the others still count
+
+    def _add(self, entry: Mapping[str, Any]) -> None:
+        if "message" in entry:
+            published, utterance_id, sentence_index = entry["message"]
+            _remember(self.messages, MessageKey(int(published), str(utterance_id), int(sentence_index)))
+        if "accepted" in entry:
+            sentence = _sentence(entry["sentence"])
+            self.kept[entry["accepted"]] = Kept(sentence, float(entry["time"]), int(entry["attempts"]))
+        elif "begun" in entry:
+            before = self.kept[entry["begun"]]
+            self.kept[entry["begun"]] = before._replace(attempts=before.attempts + 1)
+        elif "ended" in entry:
+            self.kept.pop(entry["ended"], None)
+
+
+def _remember(messages: dict[MessageKey, None], message: MessageKey) -> None:
+    """Add a message, and forget the oldest if there are too many."""
+    messages[message] = None
+    if len(messages) > _MOST_MESSAGES:
+        del messages[next(iter(messages))]
 
 
 def _sentence(entry: dict[str, Any]) -> Sentence:

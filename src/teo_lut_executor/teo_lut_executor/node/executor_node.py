@@ -8,15 +8,12 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.action.server import ServerGoalHandle
 from rclpy.context import Context
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
-from teo_sign_msgs.msg import ExecutorStatus, SignSentence
-from teo_sign_msgs.srv import ListQueue
+from teo_sign_msgs.msg import ExecutorStatus
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
 from teo_common.self_starting_node import SelfStartingNode, run_self_starting
@@ -36,9 +33,10 @@ from teo_lut_executor.execution.events import (
 from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_lut_executor.node.diagnostics import Statistics, diagnose
 from teo_lut_executor.node.driver_link import DriverLink
-from teo_lut_executor.node.messages import to_sentence, to_status, to_stop, to_trajectory
+from teo_lut_executor.node.messages import to_status, to_stop, to_trajectory
 from teo_lut_executor.node.parameters import PARAMETERS, planner_settings_from, queue_settings_from
-from teo_lut_executor.node.sentence_goals import SentenceGoals
+from teo_lut_executor.node.queue_services import QueueServices
+from teo_lut_executor.node.sentence_intake import SentenceIntake
 from teo_lut_executor.node.sentence_journal import SentenceJournal
 from teo_lut_executor.node.sign_services import SignServices
 from teo_lut_executor.planning.planning_process import PlanningProcess
@@ -46,10 +44,6 @@ from teo_lut_executor.planning.worker import NotPlanned, Opened, Planned
 from teo_motion.planner import Planner
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
-
-# Sentences that DDS keeps while a callback runs: far more than arrive in that time, so that it is our own
-# queue that is full first, and that says so.
-_TOKENS_DEPTH = 1000
 
 # How often the queue looks at the clock and the robot [Hz], and feedback is sent [Hz].
 _STEP_RATE = 50.0
@@ -96,7 +90,7 @@ class ExecutorNode(SelfStartingNode):
         self._communicate()
         self._entities.append(answered)
         self._configured = True
-        self._take_over_journal()
+        self._intake.take_over_journal()
         self.get_logger().info(f"ready with {len(self._lut)} signs of {self._lut.place}")
         return TransitionCallbackReturn.SUCCESS
 
@@ -124,7 +118,7 @@ class ExecutorNode(SelfStartingNode):
     def destroy_node(self) -> None:
         """Name what is not signed, then end."""
         if self._configured:
-            self._goals.forget()  # nobody runs callbacks any more: clients see the server go
+            self._intake.forget_goals()  # nobody runs callbacks any more: clients see the server go
         self._let_go()
         super().destroy_node()
 
@@ -139,25 +133,25 @@ class ExecutorNode(SelfStartingNode):
             on_refused=self._on_driver_refused,
         )
         self._statuses = self.create_publisher(ExecutorStatus, "executor_status", latched)
-        tokens = QoSProfile(depth=_TOKENS_DEPTH, reliability=reliable)
         # Best effort takes reliable publishers as well as those of sensor data; only the latest state counts.
         sensor = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
         self._entities: list[Any] = [
             self._statuses,
-            self.create_subscription(SignSentence, "sign_tokens", self._on_tokens, tokens),
             self.create_subscription(JointState, "joint_states", self._on_joint_states, sensor),
-            self.create_service(ListQueue, "list_queue", self._on_list_queue),
-            self.create_service(Trigger, "clear_queue", self._on_clear_queue),
             self.create_timer(1.0 / _STEP_RATE, self._step),
             self.create_timer(1.0 / _FEEDBACK_RATE, self._give_feedback),
             self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics),
         ]
         self._signs = SignServices(self, self._lut)
-        self._goals = SentenceGoals(
+        self._queueing = QueueServices(self, self._queue, now=self._now, carry_out=self._carry_out)
+        self._intake = SentenceIntake(
             self,
-            accepts=self._accepts,
-            take=lambda sentence, goal: self._submit(sentence, goal=goal),
-            cancel=lambda ticket: self._carry_out(self._queue.cancel(ticket, self._now())),
+            self._queue,
+            self._journal,
+            journal_age=self._value("journal_age"),
+            check=self._check_sentence,
+            now=self._now,
+            carry_out=self._take,
         )
 
     def _let_go(self) -> None:
@@ -167,52 +161,33 @@ class ExecutorNode(SelfStartingNode):
         self._carry_out(self._queue.deactivate(self._now()))
         self._carry_out(self._queue.clear(self._now()))
         self._planning.close()
-        self._journal.close()
+        self._intake.close()
         self._driver.close()
-        self._goals.close()
         self._signs.close()
+        self._queueing.close()
         for entity in self._entities:
             for destroy in (
                 self.destroy_publisher,
                 self.destroy_subscription,
-                self.destroy_service,
                 self.destroy_timer,
                 self.destroy_guard_condition,
             ):
                 if destroy(entity):
                     break
 
-    def _on_tokens(self, message: SignSentence) -> None:
-        sentence = to_sentence(message)
-        if self._accepts(sentence):
-            self._submit(sentence)
+    def _check_sentence(self, sentence: Sentence) -> None:
+        """See whether a sentence is one, as far as that is known without planning it.
 
-    def _accepts(self, sentence: Sentence) -> bool:
-        """Whether a sentence is one, as far as that is known without planning it; if not, that is told."""
+        Raises:
+            PlanError: It is none.
+        """
         self._signs.refresh()
-        try:
-            self._checker.check(sentence.tokens, form=sentence.form)
-        except PlanError as error:
-            self._carry_out(self._queue.refuse(sentence, error, self._now()))
-            return False
-        return True
+        self._checker.check(sentence.tokens, form=sentence.form)
 
-    def _submit(self, sentence: Sentence, *, attempts: int = 0, goal: ServerGoalHandle | None = None) -> None:
-        ticket, events = self._queue.submit(sentence, self._now(), attempts=attempts)
-        if goal is not None:
-            self._goals.add(ticket, goal)
-        self._journal.accepted(ticket, sentence, attempts)
+    def _take(self, events: Sequence[Event]) -> None:
+        """A sentence was taken or refused: begin with it now if nothing is before it."""
         self._carry_out(events)
         self._step()
-
-    def _take_over_journal(self) -> None:
-        """Sign what an executor before this one was killed with, or name it."""
-        most, age = self._queue.settings.attempts, self._value("journal_age")
-        for kept, error in self._journal.left(attempts=most, age=age):
-            if error is None:
-                self._submit(kept.sentence, attempts=kept.attempts)
-            else:
-                self._carry_out(self._queue.refuse(kept.sentence, error, self._now()))
 
     def _on_joint_states(self, message: JointState) -> None:
         problem = self._queue.joint_states(message.name, message.position, message.velocity, self._now())
@@ -253,9 +228,8 @@ class ExecutorNode(SelfStartingNode):
                 case Status():
                     self._publish(event)
                 case Finished():
-                    self._journal.ended(event.ticket)
                     self._statistics.ended[event.outcome] += 1
-                    self._goals.finish(event)
+                    self._intake.finish(event)
 
     def _on_answers(self) -> None:
         """Take what the process that plans has answered."""
@@ -290,7 +264,7 @@ class ExecutorNode(SelfStartingNode):
     def _give_feedback(self) -> None:
         progress = self._queue.progress(self._now())
         if progress is not None:
-            self._goals.give_feedback(progress)
+            self._intake.give_feedback(progress)
 
     def _publish_diagnostics(self) -> None:
         self._diagnostics.publish(
@@ -301,19 +275,6 @@ class ExecutorNode(SelfStartingNode):
                 planner_restarts=self._planning.restarts,
             )
         )
-
-    def _on_list_queue(self, _: ListQueue.Request, response: ListQueue.Response) -> ListQueue.Response:
-        sentences, response.current = self._queue.sentences()
-        response.utterance_ids = [sentence.utterance_id for sentence in sentences]
-        response.sentence_indices = [sentence.index for sentence in sentences]
-        response.texts = [sentence.text for sentence in sentences]
-        return response
-
-    def _on_clear_queue(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        before = self._queue.queued
-        self._carry_out(self._queue.clear(self._now()))
-        response.success, response.message = True, f"{before} sentences forgotten"
-        return response
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         values = self._values() | {item.name: item.value for item in parameters}

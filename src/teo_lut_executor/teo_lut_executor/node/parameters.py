@@ -62,7 +62,7 @@ PARAMETERS = (
         default=60.0,  # later nobody waits for them, and a robot that signs out of the blue frightens people
         low=0.0,
         high=86_400.0,
-        description="Age up to which sentences of the journal are signed after a restart; older ones are "
+        description="Age up to which sentences from before the executor began are signed; older ones are "
         "named only [s].",
         read_only=True,
     ),

@@ -12,7 +12,7 @@ from pathlib import Path
 from rclpy.node import Node
 
 from teo_lut_executor.execution.events import Sentence
-from teo_lut_executor.execution.journal import Journal, Kept
+from teo_lut_executor.execution.journal import Journal, Kept, MessageKey
 from teo_signs.errors import PlanError
 
 
@@ -40,6 +40,11 @@ class SentenceJournal:
         else:
             self._left = self._journal.left
 
+    @property
+    def kept(self) -> bool:
+        """Whether there is a journal."""
+        return self._journal is not None
+
     def left(self, *, attempts: int, age: float) -> Iterator[tuple[Kept, PlanError | None]]:
         """What an executor before this one was killed with, and why it is not signed; None where it is.
 
@@ -52,16 +57,32 @@ class SentenceJournal:
             if kept.attempts >= attempts:
                 error = PlanError("interrupted", "the executor ended while it signed it: send it again")
             elif waited > age:
-                error = PlanError("expired", f"it waited for {waited:.0f} s: send it again")
+                error = expired(waited)
             else:
                 yield kept, None
                 continue
             yield kept, error
 
-    def accepted(self, ticket: int, sentence: Sentence, attempts: int = 0) -> None:
+    def begin(self) -> None:
+        """Forget what was left: it was accepted anew or ended."""
+        if self._journal is not None:
+            self._journal.begin()
+
+    def knows(self, message: MessageKey) -> bool:
+        """Whether a message was accepted or refused before."""
+        return self._journal is not None and self._journal.knows(message)
+
+    def accepted(
+        self, ticket: int, sentence: Sentence, *, attempts: int = 0, message: MessageKey | None = None
+    ) -> None:
         """A sentence waits to be signed."""
         if self._journal is not None:
-            self._journal.accepted(ticket, sentence, time.time(), attempts=attempts)
+            self._journal.accepted(ticket, sentence, time.time(), attempts=attempts, message=message)
+
+    def refused(self, message: MessageKey) -> None:
+        """What came with a message is not accepted."""
+        if self._journal is not None:
+            self._journal.refused(message)
 
     def begun(self, ticket: int) -> None:
         """The robot begins to sign it."""
@@ -77,3 +98,8 @@ class SentenceJournal:
         """Write no more."""
         if self._journal is not None:
             self._journal.close()
+
+
+def expired(waited: float) -> PlanError:
+    """Why a sentence is not signed that has waited for so long [s]."""
+    return PlanError("expired", f"it waited for {waited:.0f} s: send it again")

@@ -14,7 +14,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from std_msgs.msg import String
 from teo_sign_msgs.msg import SignSentence, TranslationStatus
@@ -42,6 +42,8 @@ _STOP_TIMEOUT = 5.0
 
 # Refusals of a flood are logged so often [s]; each is counted and published.
 _LOG_PERIOD = 1.0
+
+_UNHEARD = "nobody listens to sign_tokens: the text is signed once an executor does, if that is soon"
 
 _NOT_ACTIVE = TranslationError(
     "not_active", "the translator is being stopped: activate it, then send the text again"
@@ -92,9 +94,11 @@ class TranslatorNode(SelfStartingNode):
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
             return TransitionCallbackReturn.FAILURE
         reliable = ReliabilityPolicy.RELIABLE
-        self._tokens = self.create_lifecycle_publisher(
-            SignSentence, "sign_tokens", QoSProfile(depth=SIGN_TOKENS_DEPTH, reliability=reliable)
+        # Kept for an executor that begins to listen later: it knows what it has signed already.
+        kept = QoSProfile(
+            depth=SIGN_TOKENS_DEPTH, reliability=reliable, durability=DurabilityPolicy.TRANSIENT_LOCAL
         )
+        self._tokens = self.create_lifecycle_publisher(SignSentence, "sign_tokens", kept)
         self._outcomes = self.create_publisher(
             TranslationStatus, "translation_status", QoSProfile(depth=STATUS_DEPTH, reliability=reliable)
         )
@@ -179,10 +183,11 @@ class TranslatorNode(SelfStartingNode):
             return
         for sentence in self._messages(item, translation):
             self._tokens.publish(sentence)
-        self._tell(item, sentences=len(translation.sentences))
+        unheard = "" if self._tokens.get_subscription_count() else _UNHEARD
+        self._tell(item, sentences=len(translation.sentences), message=unheard)
         self._note(item, translation)
-        if self._tokens.get_subscription_count() == 0:
-            self.get_logger().warning("nobody listens to sign_tokens: this text will not be signed")
+        if unheard:
+            self.get_logger().warning(unheard)
 
     def _on_translate(self, request: Translate.Request, response: Translate.Response) -> Translate.Response:
         item = self._received(request.text)
