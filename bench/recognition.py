@@ -42,7 +42,7 @@ NEW = Draw(
     signs=12,
     bodies=("learner_0", "learner_1", "learner_2"),
     distance=1.9,
-    without=(score_clips.KNOWN, score_clips.NEW),
+    without=(score_clips.KNOWN, score_clips.KNOWN_SINCE),
 )
 FILMS = 8
 _SEED = 1
