@@ -48,6 +48,19 @@ def test_a_posture_that_drifts_to_another_sign_is_taken_for_it(
     assert found == ["", "", "NOVENO", "NOVENO"]
 
 
+def test_alternatives_of_the_table_look_more_like_their_own_sign_than_any_other() -> None:
+    lut = Lut.open(default_lut_directory())
+    table = EasyTable(Robot.load(), lut)
+    words = [lut[gloss] for gloss in sorted(lut)[::5] if lut[gloss].kind == "lexical"]
+    taken = {
+        sign.gloss: other
+        for sign in words
+        for knots in sign.alternatives
+        if (other := table.taken_for_another(sign, knots))
+    }
+    assert taken == {}
+
+
 def test_a_slow_word_becomes_quicker_and_its_palm_turns_by_at_least_sixty_percent(
     table: EasyTable, signs: dict[str, Sign]
 ) -> None:
