@@ -51,6 +51,7 @@ def measure() -> list[Figure]:
             *_performed(robot, Path(folder)),
             *_letters(robot, Path(folder)),
             *score_clips.measure(robot, "known", score_clips.KNOWN),
+            *score_clips.measure(robot, "known since", score_clips.KNOWN_SINCE),
             *score_clips.measure(robot, "new", score_clips.NEW),
         ]
 

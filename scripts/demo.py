@@ -43,6 +43,14 @@ RECORDED = (
     "robot_description",
     "executor_status",
 )
+#: Who must listen to what before the text is published: processes of the graph, and the spectator.
+LISTENERS = {
+    "text": {"translator", "rosbag2_recorder"},
+    "sign_tokens": {"executor", "rosbag2_recorder", "demo_spectator"},
+    "joint_trajectory": {"teo_sim_driver", "rosbag2_recorder"},
+    "joint_states": {"executor", "rosbag2_recorder", "demo_spectator"},
+    "executor_status": {"rosbag2_recorder", "demo_spectator"},
+}
 # The tests use domains 20 to 101, people 0 unless they say otherwise.
 DOMAIN = "18"
 START_TIMEOUT = 30.0  # [s] for every process to be there: a loaded machine takes 10 s
@@ -90,6 +98,11 @@ class Spectator(Node):
         self.create_subscription(JointState, "joint_states", self._on_state, 100)
         self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, 100)
         self.create_subscription(ExecutorStatus, "executor_status", self.progress.on_status, status_qos)
+
+    def is_heard(self, topic: str) -> bool:
+        """Whether everybody who is to hear a topic listens to it."""
+        found = {endpoint.node_name for endpoint in self.get_subscriptions_info_by_topic(topic)}
+        return found >= LISTENERS[topic]
 
     def start_filming(self) -> None:
         """Keep and film every state from now on."""
@@ -232,20 +245,10 @@ def perform(
             executor.spin_once(timeout_sec=0.1)
 
     with console.status("starting translator, executor, driver and recorder"):
-        listeners = {
-            "text": 2,
-            "sign_tokens": 3,
-            "joint_trajectory": 2,
-            "joint_states": 3,
-            "executor_status": 2,
-        }
         wait(
-            lambda: (
-                bool(spectator.states)
-                and all(spectator.count_subscribers(topic) >= count for topic, count in listeners.items())
-            ),
+            lambda: bool(spectator.states) and all(map(spectator.is_heard, LISTENERS)),
             START_TIMEOUT,
-            f"every process to listen ({', '.join(listeners)})",
+            f"every process to listen ({', '.join(LISTENERS)})",
             "executor",
         )
     if view:

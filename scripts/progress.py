@@ -11,8 +11,12 @@ from teo_sign_msgs.msg import ExecutorStatus, SignSentence, TokenTiming
 
 @dataclass
 class Progress:
-    """What is known of the sentences of one text, from the messages that the nodes publish."""
+    """What is known of the sentences of one text, from the messages that the nodes publish.
 
+    The text is the one whose sentence is heard first; what others have signed meanwhile is not counted.
+    """
+
+    utterance: str = ""
     sentences: dict[int, SignSentence] = field(default_factory=dict)
     started: dict[int, ExecutorStatus] = field(default_factory=dict)
     refusals: list[str] = field(default_factory=list)
@@ -20,18 +24,23 @@ class Progress:
 
     def on_tokens(self, sentence: SignSentence) -> None:
         """Take a sentence that the translator published."""
+        self.utterance = self.utterance or sentence.utterance_id
+        if sentence.utterance_id != self.utterance:
+            return
         self.sentences[sentence.sentence_index] = sentence
 
     def on_status(self, status: ExecutorStatus) -> None:
         """Take what the executor says it is doing."""
-        if status.state == ExecutorStatus.STATE_SIGNING:
+        if status.state == ExecutorStatus.STATE_IDLE:
+            self.at_rest = bool(self.started or self.refusals)
+        elif status.utterance_id != self.utterance:
+            return
+        elif status.state == ExecutorStatus.STATE_SIGNING:
             self.started[status.sentence_index] = status
             self.at_rest = False
         elif status.state == ExecutorStatus.STATE_REFUSED:
             self.refusals.append(f"{status.code}: {status.message}")
             self.at_rest = status.queued == 0
-        elif status.state == ExecutorStatus.STATE_IDLE:
-            self.at_rest = bool(self.started or self.refusals)
 
     @property
     def expected(self) -> int:

@@ -98,13 +98,15 @@ install_requirements() {
     options+=(-r requirements/run.txt)
     if [ "$level" != run ]; then
         options+=(-r requirements/console.txt -r requirements/retriever.txt -r requirements/capture.txt)
-        "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
     fi
     if [ "$level" = all ]; then
         options+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt
             -r requirements/physics.txt)
     fi
     "${pip[@]}" "${options[@]}"
+    if [ "$level" != run ]; then # last: pip would complain of what these ask for and do without
+        "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
+    fi
     wait $!
     echo "$want" >".venv/${stamps[0]}"
 }

@@ -18,8 +18,8 @@ from accuracy.takes import TakeSettings
 from teo_synthetic_signer import Companion
 from teo_synthetic_signer.body.body_shapes import BODIES
 
-BODIES |= random_people(12, 7_301, "known")
-BODIES |= random_people(18, 52_817, "held_out")
+BODIES |= random_people(12, 314_159, "known")
+BODIES |= random_people(12, 660_719, "held_out")
 BODIES |= random_people(8, 5_517, "beside")
 
 _SCENES = ("office", "studio", "living_room", "near_wall")
@@ -47,7 +47,7 @@ def _other_people(name: str, *, count: int, cameras: int, seed: int) -> tuple[Ta
             camera_height=round(float(random.uniform(0.9, 1.8)), 2),
             camera_roll=round(math.radians(float(random.uniform(-12.0, 12.0))), 3),
             start=round(float(random.uniform(0.4, 3.0)), 1),
-            seconds=1.7,
+            seconds=1.2,
             rate=10.0,
             seed=seed + i,
         )
@@ -55,8 +55,8 @@ def _other_people(name: str, *, count: int, cameras: int, seed: int) -> tuple[Ta
     )
 
 
-KNOWN_TAKES = _other_people("known", count=12, cameras=40_961, seed=70_000)
-HELD_OUT_TAKES = _other_people("held_out", count=18, cameras=91_153, seed=80_000)
+KNOWN_TAKES = _other_people("known", count=12, cameras=271_828, seed=120_000)
+HELD_OUT_TAKES = _other_people("held_out", count=12, cameras=577_215, seed=200_000)
 OCCLUDED_TAKES: tuple[TakeSettings, ...] = tuple(
     TakeSettings(
         script="before_face",

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 import yaml
+from accuracy.people import random_people
 from report import Figure
 
 from signs.pictured import pictured
@@ -32,9 +33,12 @@ from teo_sign_capture.notation.score_file import default_scores_directory, read_
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
+from teo_synthetic_signer.body.body_shapes import BODIES
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.script_file import read_script
+
+BODIES |= random_people(3, 19_447, "pupil")
 
 _RATE = 25.0  # [Hz]
 _QUALITY = (
@@ -58,9 +62,17 @@ class Draw(NamedTuple):
 
 # Looked at while the capture was built.
 KNOWN = Draw(seed=11, signs=30, bodies=("woman_average", "man_average"), distance=2.0)
-# Drawn when the capture was finished: other signs, bodies and camera. Looked at, it is known: draw another.
-NEW = Draw(
+# Drawn when the capture was finished, and looked at since: other signs, bodies and camera.
+KNOWN_SINCE = Draw(
     seed=4711, signs=18, bodies=("woman_small", "man_heavy", "woman_old"), distance=1.6, without=(KNOWN,)
+)
+# Never looked at: other signs and people. Looked at, it is known: draw another.
+NEW = Draw(
+    seed=80_221,
+    signs=18,
+    bodies=("pupil_0", "pupil_1", "pupil_2"),
+    distance=1.8,
+    without=(KNOWN, KNOWN_SINCE),
 )
 
 

@@ -134,7 +134,7 @@ def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api
         ("DELETE", "/api/jobs/nobody", None, 404, "unknown_job"),
         ("GET", "/api/films/..%2F..%2Freviews.sqlite", None, 404, "unknown_sign"),
         ("POST", "/api/recordings/nobody/try", {"gloss": "A"}, 404, "unknown_recording"),
-        ("GET", "/api/recordings/..%2Fkept/picture", None, 404, "unknown_recording"),
+        ("GET", "/api/recordings/..%2Fkept/trial", None, 404, "unknown_recording"),
         ("POST", "/api/recordings", b"<script>alert(1)</script>" * 9, 400, "bad_film"),
         ("POST", "/api/recordings", b"", 400, "bad_film"),
     ],

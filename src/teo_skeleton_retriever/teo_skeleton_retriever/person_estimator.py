@@ -153,7 +153,7 @@ class PersonEstimator:
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
         )
-        self._size.step(np.where(hidden[BODY, None], np.nan, body.measured))
+        self._size.step(body.measured)
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
         away = np.minimum(output.age, self._parameters.hold_time)
         carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))

@@ -77,8 +77,8 @@ class RetrievalReport:
         if told := left_out_sentence(self.people_left_out):
             said.append(told)
         if not self.images:
-            left_out = dict(self.left_out) or "there is none"
-            said.append(f"no image of {self.topics.color} could be used: {left_out}")
+            counts = ", ".join(f"{count} left out, {reason}" for reason, count in self.left_out.items())
+            said.append(f"no image of {self.topics.color} could be used: {counts or 'there is none'}")
         return tuple(said)
 
 

@@ -42,7 +42,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         told: dict[str, Any] = {"film": f"/api/films/{path.name}", "job": None}
         if not path.exists():
             films.mkdir(parents=True, exist_ok=True)
-            told["job"] = workbench.jobs.submit(project_commands.film(sign.gloss, path)).told()
+            told["job"] = workbench.jobs.told(workbench.jobs.submit(project_commands.film(sign.gloss, path)))
         return told
 
     async def film(request: web.Request) -> Any:
@@ -56,7 +56,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
 
     async def coverage(request: web.Request) -> Any:
         wanted = await body(request, _WantCoverage)
-        return workbench.jobs.submit(project_commands.coverage(wanted.text)).told()
+        return workbench.jobs.told(workbench.jobs.submit(project_commands.coverage(wanted.text)))
 
     return [
         web.get("/api/signs", answering(signs)),

@@ -17,7 +17,7 @@ def all_routes(workbench: Workbench) -> list[web.RouteDef]:
     """The routes of every tab, and GET and DELETE /api/jobs/ID: how far a job is, and an end to it."""
 
     async def look(request: web.Request) -> Any:
-        return workbench.jobs.get(request.match_info["id"]).told()
+        return workbench.jobs.told(workbench.jobs.get(request.match_info["id"]))
 
     async def cancel(request: web.Request) -> Any:
         workbench.jobs.cancel(request.match_info["id"])

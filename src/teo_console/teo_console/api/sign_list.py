@@ -37,12 +37,14 @@ class ListedSign(Struct, frozen=True, kw_only=True):
 class SignList:
     """Lists the table when it is asked for."""
 
-    def __init__(self, jobs: JobQueue) -> None:
+    def __init__(self, lookups: JobQueue, jobs: JobQueue) -> None:
         """List nothing yet.
 
         Args:
-            jobs: Runs the command.
+            lookups: Lists the table.
+            jobs: Compares all of its signs, which takes longer.
         """
+        self._lookups = lookups
         self._jobs = jobs
         self._signs: dict[str, ListedSign] = {}
         self._listed = -_FRESH
@@ -56,7 +58,7 @@ class SignList:
             ConsoleError: The command failed.
         """
         if time.monotonic() - self._listed > _FRESH:
-            job = await self._jobs.run(project_commands.list_signs())
+            job = await self._lookups.run(project_commands.list_signs())
             listed = msgspec.convert(job.result["signs"], list[ListedSign])
             self._signs = {sign.gloss: sign for sign in listed}
             self._listed = time.monotonic()

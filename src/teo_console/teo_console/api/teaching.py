@@ -49,7 +49,7 @@ class _Recognise(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
 
 def routes(workbench: Workbench) -> list[web.RouteDef]:
-    """POST /api/recordings; DELETE ID; below ID: POST try, accept, keep, recognise; GET trial, picture."""
+    """POST /api/recordings; DELETE ID; below ID: POST try, accept, keep, recognise; GET trial."""
 
     async def receive(request: web.Request) -> Any:
         recording = await workbench.recordings.receive(
@@ -74,22 +74,15 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         command = project_commands.capture(
             recording.path, _cache(recording), teaching, trial=_trial(recording)
         )
-        return workbench.jobs.submit(command).told()
+        return workbench.jobs.told(workbench.jobs.submit(command))
 
     async def trial(request: web.Request) -> Any:
         entry = _entry(_of(request))
         content = json.loads(entry.read_text("utf-8"))
         return {
             "gloss": content["gloss"],
-            "exists": content["gloss"] in await workbench.signs.signs(),
             "motion": {"joints": content["joints"], "times": content["times"], "positions": content["knots"]},
         }
-
-    async def picture(request: web.Request) -> Any:
-        path = _entry(_of(request)).with_suffix(".png")
-        if not path.is_file():
-            raise ConsoleError("not_ready", "expected a picture of the trial, none was drawn")
-        return web.FileResponse(path)
 
     async def accept(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, _Accept)
@@ -107,10 +100,10 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
             replace=wanted.replace,
         )
         job = workbench.jobs.submit(
-            project_commands.capture(recording.path, _cache(recording), teaching, trial=None)
+            project_commands.capture(recording.path, _cache(recording), teaching, trial=None),
+            then=workbench.signs.changed,
         )
-        workbench.signs.changed()  # jobs run in their order: a list that is asked for now is made after this
-        return job.told()
+        return workbench.jobs.told(job)
 
     async def keep(request: web.Request) -> Any:
         name = _gloss_key((await body(request, _Keep)).gloss)
@@ -120,7 +113,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
     async def recognise(request: web.Request) -> Any:
         recording, wanted = _of(request), await body(request, _Recognise)
         command = project_commands.recognise(recording.path, _cache(recording), _gloss_key(wanted.gloss))
-        return workbench.jobs.submit(command).told()
+        return workbench.jobs.told(workbench.jobs.submit(command))
 
     def _of(request: web.Request) -> Recording:
         return workbench.recordings.get(request.match_info["id"])
@@ -131,7 +124,6 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         web.delete(one, answering(discard)),
         web.post(f"{one}/try", answering(attempt)),
         web.get(f"{one}/trial", answering(trial)),
-        web.get(f"{one}/picture", answering(picture)),
         web.post(f"{one}/accept", answering(accept)),
         web.post(f"{one}/keep", answering(keep)),
         web.post(f"{one}/recognise", answering(recognise)),

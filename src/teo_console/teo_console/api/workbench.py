@@ -72,11 +72,13 @@ class Workbench:
         """
         self.folders = folders
         self.jobs = JobQueue()
+        # What takes a second or two, and what nobody is told of, waits for no film that is looked through.
+        self.lookups = JobQueue()
         _delete_what_was_left(folders.cache)
         # One console of a user each: several do not delete each other's recordings.
-        self.recordings = Recordings(folders.cache / f"{_RECORDINGS}{os.getpid()}", self.jobs)
+        self.recordings = Recordings(folders.cache / f"{_RECORDINGS}{os.getpid()}", self.lookups)
         self.reviews = ReviewStore(folders.reviews)
-        self.signs = SignList(self.jobs)
+        self.signs = SignList(self.lookups, self.jobs)
         self.preparations: dict[str, Preparation] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
@@ -110,6 +112,7 @@ class Workbench:
         for task in self._tasks:
             task.cancel()
         await self.jobs.close()
+        await self.lookups.close()
         self.recordings.close()
         self.reviews.close()
 

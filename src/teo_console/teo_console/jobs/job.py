@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import secrets
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -60,16 +61,18 @@ class Progress:
 class Job:
     """One run of a command. Fields change as it goes; `ended` is set when nothing will change any more."""
 
-    def __init__(self, command: Command, number: int) -> None:
+    def __init__(self, command: Command, number: int, then: Callable[[], None]) -> None:
         """A job that waits.
 
         Args:
             command: What to run.
             number: Counts the jobs of the queue.
+            then: To be called when it has run.
         """
         self.id = secrets.token_urlsafe(12)  # who has it may look at it and cancel it
         self.command = command
         self.number = number
+        self.then = then
         self.state: State = "waiting"
         self.progress = Progress()
         self.result: Any = None
@@ -86,13 +89,18 @@ class Job:
         """Whether it ended, in whatever way."""
         return self.state in ("done", "failed", "cancelled")
 
-    def told(self) -> dict[str, Any]:
-        """What a page is told of it."""
+    def told(self, ahead: int) -> dict[str, Any]:
+        """What a page is told of it.
+
+        Args:
+            ahead: Jobs that come before it.
+        """
         progress = {"what": self.progress.what, "done": self.progress.done, "total": self.progress.total}
         return {
             "id": self.id,
             "name": self.command.name,
             "state": self.state,
+            "ahead": ahead,
             "progress": progress,
             "result": self.result,
             "code": self.code,

@@ -100,8 +100,9 @@ def capture(recording: Path, cache: Path, teaching: Teaching, *, trial: Path | N
     options += ["--hands", teaching.hands] if teaching.hands else []
     options += ["--accept"] if teaching.accept else []
     options += ["--replace"] if teaching.replace else []
-    options += ["--trial", str(trial)] if trial else ["--no-draw"]
-    return _looking("capture", "capture", str(recording), *options)
+    options += ["--trial", str(trial)] if trial else []
+    # The page shows the film itself, and the robot in motion.
+    return _looking("capture", "capture", str(recording), "--no-draw", *options)
 
 
 def recognise(recording: Path, cache: Path, meant: str) -> Command:

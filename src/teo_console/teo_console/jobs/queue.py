@@ -8,7 +8,9 @@ import asyncio
 import shutil
 import tempfile
 from collections import OrderedDict
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from teo_console.errors import ConsoleError
 from teo_console.jobs.job import Command, Job
@@ -32,8 +34,12 @@ class JobQueue:
         self._current: Job | None = None
         self._count = 0
 
-    def submit(self, command: Command) -> Job:
+    def submit(self, command: Command, then: Callable[[], None] = lambda: None) -> Job:
         """Put a command at the end of the queue.
+
+        Args:
+            command: What to run.
+            then: Called when it has run, however it ended.
 
         Raises:
             ConsoleError: "busy": too many wait already.
@@ -43,7 +49,7 @@ class JobQueue:
                 "busy", f"expected at most {MOST_WAITING} jobs that wait: try again when some are done"
             )
         self._count += 1
-        job = Job(command, self._count)
+        job = Job(command, self._count, then)
         self._jobs[job.id] = job
         self._forget_old()
         self._waiting.put_nowait(job)
@@ -79,6 +85,10 @@ class JobQueue:
                 "unknown_job", "expected a job that this console remembers, it knows none of that name"
             )
         return job
+
+    def told(self, job: Job) -> dict[str, Any]:
+        """What a page is told of a job: itself, and how many come before it."""
+        return job.told(sum(each.number < job.number and not each.is_over for each in self._jobs.values()))
 
     def cancel(self, identifier: str) -> None:
         """End a job at once if it has not ended; what it has written goes away.
@@ -133,6 +143,7 @@ async def _run_in_a_folder(job: Job) -> None:
         job.state, job.code, job.message = "failed", "not_started", f"{job.command.name}: {error}"
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+        job.then()
         if job.is_over:
             job.ended.set()
 

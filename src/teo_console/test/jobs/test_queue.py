@@ -70,7 +70,7 @@ def test_a_command_ends_with_what_it_printed_and_its_last_object() -> None:
     with_queue(act)
 
 
-def test_commands_run_one_at_a_time_in_their_order(tmp_path: Path) -> None:
+def test_commands_run_one_at_a_time_and_each_knows_how_many_come_before(tmp_path: Path) -> None:
     log = tmp_path / "log"
     program = (
         "import sys, time; f = open(sys.argv[1], 'a', buffering=1); "
@@ -78,10 +78,14 @@ def test_commands_run_one_at_a_time_in_their_order(tmp_path: Path) -> None:
     )
 
     async def act(queue: JobQueue) -> None:
-        jobs = [queue.submit(python(program, str(log), name)) for name in "123"]
-        for job in jobs:
+        jobs = [queue.submit(python(program, str(log), name), lambda: ended.append(1)) for name in "123"]
+        assert [queue.told(job)["ahead"] for job in jobs] == [0, 1, 2]
+        for number, job in enumerate(jobs, start=1):
             await job.ended.wait()
+            assert len(ended) >= number
+        assert [queue.told(job)["ahead"] for job in jobs] == [0, 0, 0]
 
+    ended: list[int] = []
     with_queue(act)
     assert log.read_text() == "b1e1b2e2b3e3"
 

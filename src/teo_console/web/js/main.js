@@ -44,6 +44,13 @@ async function attempt(action) {
   }
 }
 
+// Resolves when the page has shown its first words: reading what draws the robot would hold them up.
+const painted = new Promise((resolve) => {
+  new PerformanceObserver(resolve).observe({ type: "paint", buffered: true });
+});
+
+painted.then(() => document.documentElement.classList.add("painted"));
+
 const context = {
   socket,
   live,
@@ -52,8 +59,11 @@ const context = {
   settings,
   notify,
   attempt,
-  /** Places the robot in an element: see robot_view.js, which is loaded when it is first wanted. */
-  robotView: async (place, options) => (await import("./robot_view.js")).robotView(place, { socket, live, t, ...options }),
+  /** Places the robot in an element: see robot_view.js, which is loaded when it is first wanted, and after the words. */
+  robotView: async (place, options) => {
+    await painted;
+    return (await import("./robot_view.js")).robotView(place, { socket, live, t, ...options });
+  },
 };
 
 function tabNow() {

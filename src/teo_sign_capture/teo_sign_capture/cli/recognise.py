@@ -92,7 +92,7 @@ def recognise(
     for match in matches:
         table.add_row(match.gloss, f"{match.distance:.2f}")
     _output.print(table)
-    _output.print("distance: 1 is two differences that are just seen, all through the sign", soft_wrap=True)
+    _output.print("distance: a person's sign is 2 to 4 from its own entry", soft_wrap=True)
     if compared is not None:
         parts = ("handshape", "orientation", "place", "movement")
         differences = ", ".join(f"{part} {getattr(compared, part):.2f}" for part in parts)

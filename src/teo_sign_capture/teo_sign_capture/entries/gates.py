@@ -38,7 +38,8 @@ _GATES = (
         20.0,
         " %",
         "frames in which a hand that signs is lost",
-        "record it again with both hands in the picture and in good light",
+        "record it again with both hands in the picture, neither behind the other for long, in good light "
+        "and nearer to the camera",
     ),
     _Gate(
         "palm_off",
@@ -70,7 +71,8 @@ _GATES = (
         6.0,
         " times",
         "a stretch",
-        "show it slower and without a tremble, or record it at a higher rate of images",
+        "show it slower and without a tremble, or record it nearer to the camera or at a higher rate of "
+        "images",
     ),
 )
 # [s] A shorter stroke is a piece of one: four frames of a hand's beat at 15 Hz.

@@ -3,9 +3,13 @@
 """What both hands show over a sign, the same of a table's sign and of a person's demonstration.
 
 In each frame, of each hand: where the palm is, the ways palm and fingers point, how the fingers are bent. A
-person's places are those that they have on TEO (`BodyMap`), so that bodies of any size are compared; no arm
-is solved for it, which takes most of the time of a capture. All is in differences that are just seen
-(`teo_signs.likeness`), places in the air excepted: see `_PLACE`.
+person's hand is taken half-way between where it belongs on TEO (`BodyMap`) and where TEO's arm brings it,
+collisions left aside, which take most of the time of a capture. Signs that were written down are nearer to
+the one, signs that were captured are the other; where TEO's arm falls short both are 20 cm apart.
+
+Numbers are in units of what a person's sign differs by from its own entry: what a film of one camera tells
+badly, as how far forward a hand is, counts less than what it tells well, as which fingers are bent. Of units
+around what was measured of known takes (`bench/recognition.py`) those by which the right entry is nearest.
 """
 
 from __future__ import annotations
@@ -14,36 +18,28 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
-from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Side, mirrored
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_capture.retarget.body_map import BodyMap
-from teo_sign_capture.retarget.hand_goals import hand_goals
-from teo_sign_capture.retarget.hand_motion import follow_hand
-from teo_sign_capture.retarget.head_motion import follow_head
-from teo_sign_capture.retarget.robot_motion import arm_keypoints, hand_keypoints
-from teo_sign_capture.signing_space.hand_points import MIRROR, teo_hand_points
-from teo_sign_capture.tracks.head_pose import head_pose
+from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
+from teo_sign_capture.retarget.free_motion import free_motion
+from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.tracks.person import Person, measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
-from teo_signs.likeness import SEEN_ANGLE, SEEN_PLACE
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness
 
 # Moments of a sign, evenly spread: of a sign of 1.5 s every 50 ms.
 MOMENTS = 32
-# [m] Unit of places: TEO's hands are 6 cm from where a person's belong in half of the table's signs, which is
-# two neighbouring places on the face.
-_PLACE = 2.0 * SEEN_PLACE
-# [rad] Unit of ways of palm and fingers: TEO's wrist bends to the side only, and costs twice what is seen.
-_TURN = 2.0 * SEEN_ANGLE
-# [rad] Unit of bends: two thirds of a right angle. The six axes together count as one way, and TEO's coupled
-# joints bend otherwise than a person's. Of 1, 2 and 4 times what is seen the best on the 50 performances
-# that `bench/recognition.py` names as tuned on.
-_BEND = 4.0 * SEEN_ANGLE
+# [m] Units of places forwards, left and up. Forwards is what a film does not show, and where TEO's hand goes
+# if its elbow does not fold as far as a person's.
+_PLACE = np.array([0.16, 0.056, 0.056])
+# [rad] Units of the ways of palm and fingers. TEO's wrist bends to the side only, for which the fingers pay.
+_PALM, _FINGERS = 0.35, 0.6
+# [rad] Units of the bends: of the thumb's two axes, whose joints are the farthest from a person's, and of the
+# four fingers.
+_BENDS = np.array([0.6, 0.6, 0.35, 0.35, 0.35, 0.35])
 # What a hand that takes part differs by from one that does not [units].
 _PRESENT = 4.0
 # Numbers of a hand: presence, place, way of the palm, way of the fingers, six bends.
@@ -71,7 +67,7 @@ def sign_appearance(robot: Robot, sign: Sign) -> Array:
         joints = positions[:, [sign.joints.index(joint) for joint in arm]]
         poses = chain.poses(joints if side == "right" else mirrored(joints))
         bends = positions[:, [sign.joints.index(joint) for joint in hand]]
-        hands[side] = _hand(poses.place, poses.rotation[:, :, 2], poses.rotation[:, :, 0], bends)
+        hands[side] = _of_arm(poses, bends)
     return _both(hands)
 
 
@@ -121,29 +117,31 @@ def demonstration_appearance(
     Raises:
         LutError: "no_arm" or "no_hand" if what is needed was never seen.
     """
-    chain, table = ArmKinematics(robot), dextra_table(robot)
-    head = follow_head(robot, head_pose(track, person.head_shape), person)
-    body = BodyMap(robot, chain, person)
+    free = free_motion(robot, track, handedness=handedness, person=person)
     moments = np.linspace(0.0, float(track.times[-1]), MOMENTS)
     hands: dict[str, Array] = {}
-    sides: tuple[Side, ...] = ("right", "left") if handedness == "both" else (handedness,)
-    for side in sides:
-        points = hand_keypoints(track, side)
-        flip = np.ones(3) if side == "right" else MIRROR
-        bends = follow_hand(table, track.times, points * flip, person.straight).axes
-        teo = teo_hand_points(table, bends)
-        goals = hand_goals(body, head, side, points, arm_keypoints(track, side), teo)
-        across = np.cross(goals.palm, goals.fingers)
-        rotation = np.stack([goals.fingers, across, goals.palm], axis=2)
-        place = goals.place - np.einsum("tij,tj->ti", rotation, goals.local)
-        shown = _hand(place, goals.palm, goals.fingers, bends)
+    for side in free.sides:
+        bends = free.shapes[side].axes
+        shown = (_wanted(free.goals[side], bends) + _of_arm(free.poses(side, free.arms), bends)) / 2.0
         hands[side] = np.column_stack([np.interp(moments, track.times, column) for column in shown.T])
     return _both(hands)
 
 
+def _wanted(goals: HandGoals, bends: Array) -> Array:
+    """A hand where it belongs. Shape (T, HAND)."""
+    rotation = np.stack([goals.fingers, np.cross(goals.palm, goals.fingers), goals.palm], axis=2)
+    place = goals.place - np.einsum("tij,tj->ti", rotation, goals.local)
+    return _hand(place, goals.palm, goals.fingers, bends)
+
+
+def _of_arm(poses: ArmPoses, bends: Array) -> Array:
+    """A hand where an arm has it. Shape (T, HAND)."""
+    return _hand(poses.place, poses.rotation[:, :, 2], poses.rotation[:, :, 0], bends)
+
+
 def _hand(place: Array, palm: Array, fingers: Array, bends: Array) -> Array:
     present = np.full((len(place), 1), _PRESENT)
-    return np.concatenate([present, place / _PLACE, palm / _TURN, fingers / _TURN, bends / _BEND], axis=1)
+    return np.concatenate([present, place / _PLACE, palm / _PALM, fingers / _FINGERS, bends / _BENDS], axis=1)
 
 
 def _both(hands: dict[str, Array]) -> Array:

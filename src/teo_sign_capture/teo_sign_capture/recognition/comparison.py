@@ -19,7 +19,8 @@ class Comparison:
     """How what was shown differs from a sign, by the parts of which signs are made (Stokoe 1960).
 
     Differences are root mean squares over the sign, its time warped, of the hand that differs more, in the
-    unit of `Match.distance`: two differences that are just seen.
+    units of `appearance`: 1 is what a person's sign differs by from its entry in half of the known takes, 4
+    what another sign does.
 
     Attributes:
         gloss: The sign.

@@ -33,8 +33,8 @@ class Match:
 
     Attributes:
         gloss: Its name.
-        distance: Root mean square over the warped sign of what differs [differences that are just seen, two
-            of them as a unit].
+        distance: Root mean square over the warped sign of all that differs, in the units of `appearance`: 2
+            to 4 between a person's sign and its own entry.
     """
 
     gloss: str

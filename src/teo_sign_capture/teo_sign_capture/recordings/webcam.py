@@ -52,10 +52,16 @@ def film_webcam(
     from teo_skeleton_retriever.errors import RetrieverError
     from teo_skeleton_retriever.output.overlay_video import overlay_video
 
+    # A camera that is not there is said below, in one sentence.
+    cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     opened = cv2.VideoCapture(camera)
     try:
         if not opened.isOpened():
-            raise LutError("no_camera", f"expected a webcam of number {camera}, got none that opens")
+            raise LutError(
+                "no_camera",
+                f"expected a webcam of number {camera}, got none that opens: plug one in, try --camera 1, "
+                "or film the sign with a phone and give its film instead",
+            )
         out.parent.mkdir(parents=True, exist_ok=True)
         _count_down(opened, countdown, on_state)
         on_state("sign now")

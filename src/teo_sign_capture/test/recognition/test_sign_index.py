@@ -93,14 +93,14 @@ def test_a_warped_distance_is_that_of_the_textbook() -> None:
     assert match.distance == pytest.approx(np.sqrt(total[-1, -1] / MOMENTS))
 
 
-def test_what_was_captured_of_one_take_is_among_the_first_for_another(robot: Robot, tmp_path: Path) -> None:
+def test_what_was_captured_of_one_take_is_the_first_for_another(robot: Robot, tmp_path: Path) -> None:
     bags = [write_bag(tmp_path / f"{seed}.mcap", signing(seed=seed, rate=15.0)) for seed in range(2)]
     captured = run("capture", bags[0], "--gloss", "INVENTADA", "--no-draw")
     assert captured.exit_code == 0, captured.output
     result = run("recognise", bags[1])
     assert result.exit_code == 0, result.output
     named = [line.split()[0] for line in result.output.split("\n")[1:6]]
-    assert "INVENTADA" in named[:3]
+    assert named[0] == "INVENTADA"
     told = json.loads(run("recognise", bags[1], "--json").stdout)
     assert [match["gloss"] for match in told["matches"]] == named
     refused = run("recognise", write_bag(tmp_path / "still.mcap", signing(moves=[], rate=15.0)))

@@ -13,7 +13,7 @@ from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import Topics
 from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, stamp_of
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
-from teo_skeleton_retriever.camera.synchroniser import NO_COLOR, NO_DEPTH, Pair, Synchroniser
+from teo_skeleton_retriever.camera.synchroniser import GREATEST_SLOP, NO_COLOR, NO_DEPTH, Pair, Synchroniser
 from teo_skeleton_retriever.errors import BagError, RetrieverError
 
 # In a recording nothing is late: this bounds the memory where a topic has long gaps.
@@ -102,10 +102,12 @@ class BagImages:
             return
         gaps = sorted(synchroniser.misses)
         most = math.ceil(gaps[int(_MOST * (len(gaps) - 1))] * 1e-6) * 1e-3
+        advice = f"--slop {most:.3f} pairs nine of ten, and what moves meanwhile is that much out of place"
+        if most > GREATEST_SLOP:
+            advice = "their stamps are of different clocks, and have to be mended in the recording"
         self.reasons[NO_DEPTH] = (
             f"expected a depth image within {self._slop * 1e-9:.3g} s of each colour image, got the nearest "
-            f"{gaps[0] * 1e-9:.3f} s away; --slop {most:.3f} pairs nine of ten, and what moves "
-            "meanwhile is that much out of place"
+            f"{gaps[0] * 1e-9:.3f} s away; {advice}"
         )
 
     def _image(self, pair: Pair, info: Any) -> RgbdImage:

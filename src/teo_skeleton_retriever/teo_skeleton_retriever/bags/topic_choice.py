@@ -42,7 +42,7 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
 
     Raises:
         TopicError: None or several may be meant.
-        BagError: One that is named is not there.
+        BagError: One that is named is not there, or the only colour images are raw mosaics.
     """
     names = [topic for topic, kind in bag.kinds.items() if kind in _IMAGES and bag.counts.get(topic)]
     first = {topic: bag.first(topic) for topic in names}
@@ -52,7 +52,7 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
     unread = [f"{topic} ({of})" for topic, of in encodings.items() if of.startswith(BAYER)]
     if unread and not colors and not color:
         sentence = f"expected a topic of color, got the raw mosaic of {', '.join(unread)}: {DEBAYER}"
-        raise TopicError("no_color", sentence, "color_topic")
+        raise BagError("no_color", sentence)
     coloured = [topic for topic in colors if encodings[topic] not in _GREY]
     infos = [topic for topic, kind in bag.kinds.items() if kind == "sensor_msgs/msg/CameraInfo"]
     chosen_color = _choose(bag, "color", color, COLOR_TOPIC, coloured or colors)

@@ -16,6 +16,8 @@ OVERTAKEN = "overtaken"
 
 # [s] Half the time between images at 30 Hz: cameras that run on their own are never farther apart.
 DEFAULT_SLOP = 0.017
+# [s] Who allows more pairs images of different poses: such stamps are of different clocks.
+GREATEST_SLOP = 1.0
 
 _MISSES = 300  # Ten seconds at 30 Hz say how far apart two cameras are.
 _BACKWARDS = 1_000_000_000  # [ns] A stamp so much earlier is a clock or a bag set back, not a late message.
@@ -64,6 +66,7 @@ class Synchroniser:
         self._colors: list[_Stamped] = []
         self._depths: list[_Stamped] = []
         self._given: int | None = None
+        self._latest = {"color": 0, "depth": 0}  # stamps, each of its own clock if the two differ
         self.dropped: Counter[str] = Counter()
         """How many images were dropped, by reason."""
         self.misses: deque[int] = deque(maxlen=_MISSES)
@@ -71,8 +74,7 @@ class Synchroniser:
 
     def add_color(self, stamp: int, color: Any) -> list[Pair]:
         """Take a colour image; give the pairs that it completes, at most one."""
-        if self._set_back(stamp):
-            self._restart()
+        self._note("color", stamp)
         if (self._given is not None and stamp <= self._given) or any(c.stamp == stamp for c in self._colors):
             self.dropped[OVERTAKEN] += 1
             return []
@@ -81,8 +83,7 @@ class Synchroniser:
 
     def add_depth(self, stamp: int, depth: Any) -> list[Pair]:
         """Take a depth image; give the pairs that it completes, the oldest first."""
-        if self._set_back(stamp):
-            self._restart()
+        self._note("depth", stamp)
         if any(d.stamp == stamp for d in self._depths):
             self.dropped[NO_COLOR] += 1
             return []
@@ -126,16 +127,17 @@ class Synchroniser:
         self._given = color.stamp
         return Pair(color.stamp, nearest.stamp, color.item, nearest.item)
 
-    def _set_back(self, stamp: int) -> bool:
-        latest = max([s.stamp for s in (*self._colors, *self._depths)], default=self._given)
-        if self._given is not None and latest is not None:
-            latest = max(latest, self._given)
-        return latest is not None and stamp < latest - _BACKWARDS
+    def _note(self, kind: str, stamp: int) -> None:
+        """Start anew if the stamps of a kind were set back."""
+        if stamp < self._latest[kind] - _BACKWARDS:
+            self._restart()
+        self._latest[kind] = max(self._latest[kind], stamp)
 
     def _restart(self) -> None:
         self.dropped[NO_DEPTH] += len(self._colors)
         self.dropped[NO_COLOR] += len(self._depths)
         self._colors, self._depths, self._given = [], [], None
+        self._latest = {"color": 0, "depth": 0}
 
 
 def _insert(waiting: list[_Stamped], new: _Stamped) -> None:

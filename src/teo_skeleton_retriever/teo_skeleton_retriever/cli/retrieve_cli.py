@@ -19,7 +19,7 @@ from rich.table import Table
 from teo_skeleton_retriever.bags.bag_images import BagImage
 from teo_skeleton_retriever.camera.image_files import read_rgbd_image
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
-from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS, make_detector
 from teo_skeleton_retriever.empty_space import nobody_in_space
 from teo_skeleton_retriever.errors import RetrieverError, TopicError
@@ -73,7 +73,7 @@ def _retrieve(
         typer.Option("--parameter", "-p", help="NAME=VALUE of the retriever; see the node's. Repeatable."),
     ] = None,
     slop: Annotated[
-        float, typer.Option(min=0.0, max=1.0, help="Between the stamps of colour and depth [s].")
+        float, typer.Option(min=0.0, max=GREATEST_SLOP, help="Between the stamps of colour and depth [s].")
     ] = DEFAULT_SLOP,
     rectified: Annotated[
         bool, typer.Option("--rectified", help="The images were rectified: use P of camera_info.")

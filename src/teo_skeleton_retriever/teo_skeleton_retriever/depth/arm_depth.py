@@ -30,7 +30,9 @@ _HIDING = 6.0  # what it costs to suppose that a joint is hidden: as much as len
 _BEHIND_SIGMA = 0.12  # [m] and how far behind what hides it: a hand or an arm lies on what it hides
 _FREE = 9.0  # beyond it an expectation does not speak against a depth any more: arms move fast
 _ACCEPTED = 6.0  # a cost below it is no reason to suppose anything: 95 % of unhidden arms (chi-squared, 2)
-_STEPS = 2  # of Gauss-Newton from a good start; more changed no figure
+# Of Gauss-Newton. Elbows may be seen far off along the upper arm: after 2 steps those of known takes were
+# 36 mm off the truth, after 3 as after 8 steps 30 mm.
+_STEPS = 3
 _GUESSED = 2.0  # errors over sigma of hidden joints, on rendered people: the lengths are estimates, too
 _HIDDEN_ACROSS = 2.5  # a detector guesses hidden joints so many times worse
 

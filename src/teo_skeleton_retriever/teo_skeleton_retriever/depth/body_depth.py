@@ -5,16 +5,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
-from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolver
+from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolution, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.depth.filtered_keypoints import points_of
-from teo_skeleton_retriever.depth.skin import BODY_CAPS, BODY_DEPTHS, along_ray
+from teo_skeleton_retriever.depth.skin import (
+    BODY_CAPS,
+    BODY_DEPTHS,
+    FOREARM_LEAST_SINE,
+    FOREARM_RADIUS,
+    along_ray,
+)
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
 from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_sigma
 from teo_skeleton_retriever.layouts.layout import BODY_25
@@ -52,6 +58,7 @@ _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
 _ACROSS[[ROW[f"{side}Ear"] for side in "LR"]] = 0.035  # seen at the cheek, 2 cm beside and below
 _SLOPE = 0.5  # of a body's surface beside a joint that is not where it is seen
 _ELBOWS = [rows[1] for rows in ARMS.values()]
+_WRISTS = [rows[2] for rows in ARMS.values()]
 _HAND_ACROSS = 0.012  # [m] the hand's own keypoints are nearer
 
 
@@ -66,6 +73,15 @@ class WristView(NamedTuple):
     """its standard deviation [m]"""
     certain: bool
     """whether so much of the hand was measured that nothing hides it"""
+
+
+class _ElbowView(NamedTuple):
+    """What is seen around an elbow."""
+
+    along: float
+    """standard deviation along the upper arm, in the image [m]"""
+    depths: FloatArray
+    """of the elbow if its skin is each of the surfaces there [m]; NaN where there are fewer. Shape (3,)"""
 
 
 class BodyDepths(NamedTuple):
@@ -110,17 +126,19 @@ class BodyDepth:
             size: Of the person.
             wrists: The left ("L") and right ("R") wrist by the hand; only those that are known.
         """
-        depth, sigma = self._measure(surfaces, before, size)
+        behind, slanted = self._behind_skin(before, size)
+        sample = surfaces.closest(before.depth - behind)
+        depth, sigma = sample.depth + behind, np.hypot(sample.sigma, np.hypot(_SKIN_SIGMA, slanted))
         rays, across = seen.rays.copy(), _ACROSS.copy()
-        elbows = {side: float(across[ARMS[side][1]]) for side in ARMS}
+        along = dict.fromkeys(ARMS, float(across[_ELBOWS[0]]))
         if self._parameters.detector == "mediapipe":
             across = body_sigma(across, seen.confidence)
             for side, (_, elbow, wrist) in ARMS.items():
                 forearm = _part_across(seen.rays[[elbow, wrist]], before.depth[wrist], size)
-                elbows[side] = elbow_sigma(float(seen.confidence[elbow]), forearm)
+                along[side] = elbow_sigma(float(seen.confidence[elbow]), forearm)
             # Beside the joint is another depth than at it.
             beside = across - _ACROSS
-            beside[_ELBOWS] = [elbows[side] - _ACROSS[ARMS[side][1]] for side in ARMS]
+            beside[_ELBOWS] = [along[side] - _ACROSS[ARMS[side][1]] for side in ARMS]
             sigma = np.hypot(sigma, _SLOPE * np.maximum(beside, 0.0))
         for side, view in wrists.items():
             row = ARMS[side][2]
@@ -134,16 +152,12 @@ class BodyDepth:
         found = BodyDepths(rays, depth, across, sigma, points, replaced)
         if self._parameters.optimise_limbs:
             certain = {side: side in wrists and wrists[side].certain for side in ARMS}
+            elbows = {
+                side: _ElbowView(along[side], surfaces.depth[row] + behind[row])
+                for side, (_, row, _) in ARMS.items()
+            }
             self._solve_arms(elbows, certain, found, before, size)
         return found
-
-    def _measure(
-        self, surfaces: Surfaces, before: FilterOutput, size: BodySize
-    ) -> tuple[FloatArray, FloatArray]:
-        """Give the depths of the joints by what is seen at them, and their sigmas [m]. Shapes (25,)."""
-        behind, slanted = self._behind_skin(before, size)
-        sample = surfaces.closest(before.depth - behind)
-        return sample.depth + behind, np.hypot(sample.sigma, np.hypot(_SKIN_SIGMA, slanted))
 
     def _behind_skin(self, before: FilterOutput, size: BodySize) -> tuple[FloatArray, FloatArray]:
         """Give how far behind the skin the joints are along the optical axis, and how uncertain that is [m].
@@ -157,11 +171,19 @@ class BodyDepth:
         limb = np.full((_N, 3), np.nan)
         limb[_LIMBS[:, 0]] = points[_LIMBS[:, 1]] - points[_LIMBS[:, 0]]
         behind = along_ray(radius, limb, points, BODY_CAPS)
+        in_forearm = along_ray(
+            np.full(len(_ELBOWS), FOREARM_RADIUS * size.scale),
+            points[_WRISTS] - points[_ELBOWS],
+            points[_ELBOWS],
+            np.ones(len(_ELBOWS)),
+            least_sine=FOREARM_LEAST_SINE,
+        )
+        behind[_ELBOWS] = np.maximum(behind[_ELBOWS], in_forearm)
         return behind, behind - radius
 
     def _solve_arms(
         self,
-        elbows: Mapping[str, float],
+        elbows: Mapping[str, _ElbowView],
         certain: Mapping[str, bool],
         found: BodyDepths,
         before: FilterOutput,
@@ -169,11 +191,12 @@ class BodyDepth:
     ) -> None:
         """Solve both arms and enter their depths."""
         lengths, sigmas = zip(*(size.length(limb) for limb in ("upper arm", "forearm")), strict=True)
-        arms = [
-            Arm(
+        readings: list[tuple[str, Arm]] = []
+        for side, rows in ARMS.items():
+            arm = Arm(
                 rays=found.rays[rows],
                 across=found.across[rows],
-                elbow_along=elbows[side],
+                elbow_along=elbows[side].along,
                 measured=found.depths[rows],
                 sigma=found.sigma[rows],
                 certain=np.array([False, False, certain[side]]),
@@ -182,9 +205,10 @@ class BodyDepth:
                 lengths=np.array(lengths),
                 length_sigma=np.array(sigmas),
             )
-            for side, rows in ARMS.items()
-        ]
-        for rows, solution in zip(ARMS.values(), self._arms.solve(arms), strict=True):
+            readings += [(side, reading) for reading in _readings(arm, elbows[side].depths)]
+        solved = self._arms.solve([reading for _, reading in readings])
+        for side, rows in ARMS.items():
+            solution = _likeliest(one for (of, _), one in zip(readings, solved, strict=True) if of == side)
             if solution is None:
                 continue
             found.rays[rows] = solution.points[:, :2] / solution.points[:, 2:]
@@ -193,6 +217,22 @@ class BodyDepth:
             hidden = np.array(rows)[solution.hidden]
             found.optimised[hidden] = True
             found.measured[hidden] = np.nan
+
+
+def _readings(arm: Arm, depths: FloatArray) -> Iterator[Arm]:
+    """Give an arm by each surface around its elbow, that of `measured` first.
+
+    Which is the elbow's is not told by where it was before alone: once another arm was taken for it, that
+    would be expected again.
+    """
+    yield arm
+    for depth in depths[np.isfinite(depths) & (depths != arm.measured[1])]:
+        yield arm._replace(measured=np.array([arm.measured[0], depth, arm.measured[2]]))
+
+
+def _likeliest(solutions: Iterable[ArmSolution | None]) -> ArmSolution | None:
+    known = (solution for solution in solutions if solution is not None)
+    return min(known, key=lambda solution: solution.cost, default=None)
 
 
 def _part_across(forearm: FloatArray, depth: float, size: BodySize) -> float:

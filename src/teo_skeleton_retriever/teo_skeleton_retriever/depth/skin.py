@@ -43,6 +43,12 @@ HAND_DEPTH: dict[str, float] = {
 
 _LEAST_SINE = 0.65  # of the angle between ray and limb: a limb that points at the camera ends in its tip
 
+# [m] Half the thickness of a forearm between elbow and wrist, of an average adult. The ray to an elbow whose
+# forearm comes towards the camera goes through the forearm: its skin is what is seen there.
+FOREARM_RADIUS = 0.035
+# Of the angle between ray and forearm: of a steeper one the ray leaves through the hand, 0.24 m before it.
+FOREARM_LEAST_SINE = 0.15
+
 # How far a limb reaches beyond a joint, of the depth under the skin across the limb: a bent elbow's tip is 2
 # cm from its axis, a kneecap 5 cm from the knee's. A shoulder is a ball.
 _CAP = {"Elbow": 0.5, "Knee": 0.6}
@@ -52,7 +58,14 @@ BODY_CAPS: FloatArray = np.array([_CAP.get(name[1:], 1.0) for name in BODY_25.ke
 HAND_DEPTHS: FloatArray = np.array([HAND_DEPTH[name] for name in HAND_21.keypoints])
 
 
-def along_ray(radius: FloatArray, limb: FloatArray, ray: FloatArray, cap: FloatArray) -> FloatArray:
+def along_ray(
+    radius: FloatArray,
+    limb: FloatArray,
+    ray: FloatArray,
+    cap: FloatArray,
+    *,
+    least_sine: float = _LEAST_SINE,
+) -> FloatArray:
     """Give how far behind the skin joints lie, along the optical axis [m].
 
     A limb that comes towards the camera is a tube: the ray is longer in it the more it slants. Of one that
@@ -63,12 +76,11 @@ def along_ray(radius: FloatArray, limb: FloatArray, ray: FloatArray, cap: FloatA
         limb: Way from each joint along its limb, of any length; NaN or zero if not known. Shape (n, 3).
         ray: From the camera to each joint, of any length. Shape (n, 3).
         cap: How far the limb's end reaches beyond the joint, of the radius. Shape (n,).
+        least_sine: Of the angle between ray and limb: below it the ray leaves through the limb's far end.
     """
     squares = (limb * limb).sum(axis=1) * (ray * ray).sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         away = np.where(squares > 0.0, (limb * ray).sum(axis=1) / np.sqrt(squares), 0.0)
-    shares = np.where(
-        away < 0.0, np.maximum(1.0 - away**2, _LEAST_SINE**2), 1.0 + away**2 * (cap**-2.0 - 1.0)
-    )
+    shares = np.where(away < 0.0, np.maximum(1.0 - away**2, least_sine**2), 1.0 + away**2 * (cap**-2.0 - 1.0))
     behind: FloatArray = radius / np.sqrt(shares)
     return behind

@@ -8,7 +8,7 @@ import json
 from collections.abc import Mapping, Sequence
 
 from teo_common.parameters import ParameterRow, Value
-from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
+from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS
 from teo_skeleton_retriever.errors import ParameterError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
@@ -71,7 +71,7 @@ _NODE = (
         name="slop",
         default=DEFAULT_SLOP,
         low=0.0,
-        high=1.0,
+        high=GREATEST_SLOP,
         description="Greatest difference between the stamps of colour and depth [s]; with more than half the "
         "time between images the depth of another image could be taken.",
         read_only=True,

@@ -228,6 +228,16 @@ def test_stamps_too_far_apart_are_told_with_the_bound_that_pairs_them(tmp_path, 
     assert run(bag, "--slop", proposed, *seen)[0] == 0
 
 
+@pytest.mark.parametrize("seconds", [-5, 5])
+def test_stamps_of_different_clocks_are_told_and_no_slop_is_proposed(tmp_path, seen, seconds):
+    bag = changed(tmp_path, "clocks", lambda time: take.depth_message(time + seconds * 10**9))
+    code, _, stderr = run(bag, *seen)
+    assert code == 1
+    assert "different clocks" in stderr
+    assert "--slop" not in stderr
+    assert f"no image of {bag_take.COLOR} could be used: {IMAGES} left out, no_depth" in stderr
+
+
 def test_a_raw_mosaic_is_explained(tmp_path, seen):
     stored = [
         (
@@ -244,3 +254,4 @@ def test_a_raw_mosaic_is_explained(tmp_path, seen):
     for options in ([], ["--color-topic", bag_take.COLOR]):
         code, _, stderr = run(bag, *options, *seen)
         assert (code, "debayer" in stderr) == (1, True)
+        assert "name it" not in stderr  # the name is not what is wrong

@@ -87,6 +87,26 @@ def test_an_elbow_that_may_be_short_along_the_upper_arm_is_put_right_along_it() 
     assert off[1] < 0.7 * off[0]
 
 
+def test_lengths_that_are_known_are_met_however_short_the_upper_arm_is_seen() -> None:
+    points = joints((math.pi / 2, 0.6), (-0.4, -0.3))
+    short = points.copy()
+    short[1] -= 0.45 * (points[1] - points[0])
+    (solution,) = SOLVER.solve(
+        [
+            arm(
+                points,
+                rays=short[:, :2] / short[:, 2:],
+                elbow_along=0.1,
+                sigma=np.array([0.008, 0.03, 0.008]),
+                length_sigma=np.array([0.002, 0.002]),
+            )
+        ]
+    )
+    assert solution is not None
+    lengths = np.linalg.norm(np.diff(solution.points, axis=0), axis=1)
+    np.testing.assert_allclose(lengths, LENGTHS, atol=5e-4)
+
+
 def test_noise_of_depth_is_evened_out_by_the_lengths() -> None:
     random = np.random.default_rng(1)
     before, after = [], []

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS, along_ray
+from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, FOREARM_LEAST_SINE, HAND_DEPTHS, along_ray
 
 RAY = np.array([[0.0, 0.0, 1.0]])
 
@@ -29,6 +29,19 @@ def test_of_a_limb_that_comes_slanting_towards_the_camera_it_is_farther() -> Non
 
 def test_of_a_limb_that_points_at_the_camera_it_is_less_than_twice_the_radius() -> None:
     assert 0.04 < behind([0.0, 0.0, -1.0]) < 0.08
+
+
+def test_the_way_out_of_a_forearm_that_points_at_the_camera_ends_at_its_hand() -> None:
+    """Steps along the ray from the elbow until it is 0.035 m from the axis, or beyond the hand."""
+    for lean in (1.2, 0.4, 0.17, 0.05):
+        axis = np.array([math.sin(lean), 0.0, -math.cos(lean)])
+        inside = next(
+            step
+            for step in np.arange(0.0, 1.0, 1e-4)
+            if step * math.sin(lean) >= 0.035 or step * math.cos(lean) >= 0.236
+        )
+        found = along_ray(np.array([0.035]), axis[None], RAY, np.ones(1), least_sine=FOREARM_LEAST_SINE)
+        assert float(found[0]) == pytest.approx(inside, abs=0.003)
 
 
 def test_of_a_limb_that_leads_away_the_ray_meets_the_round_end() -> None:

@@ -34,7 +34,7 @@ export class JobProgress {
     this.element.hidden = false;
     try {
       for (;;) {
-        this.#show(job.name, job.state, job.progress);
+        this.#show(job);
         if (job.state === "done") return job.result;
         if (job.state === "failed" || job.state === "cancelled") throw new Refused(job.code, job.message);
         await pause(LOOK);
@@ -56,7 +56,7 @@ export class JobProgress {
     try {
       for (;;) {
         const { done, total, result, code, message } = await this.#api.get(`/api/preparations/${name}`);
-        this.#show("prepare", "running", { done, total, what: "" });
+        this.#show({ name: "prepare", state: "running", progress: { done, total, what: "" } });
         if (result) return result;
         if (code) throw new Refused(code, message);
         await pause(LOOK);
@@ -70,16 +70,16 @@ export class JobProgress {
   begin(name) {
     this.#stop.hidden = true;
     this.element.hidden = false;
-    this.#show(name, "running", { done: 0, total: 0, what: "" });
+    this.#show({ name, state: "running", progress: { done: 0, total: 0, what: "" } });
   }
 
   end() {
     this.element.hidden = true;
   }
 
-  #show(name, state, { what, done, total }) {
+  #show({ name, state, ahead, progress: { what, done, total } }) {
     const key = what ? `job.what.${what.split(" ")[0]}` : `job.${name}`;
-    const words = state === "waiting" ? t("job.waiting") : has(key) ? t(key) : what || t("job.running");
+    const words = state === "waiting" ? t(ahead > 0 ? "job.waiting" : "job.next", { ahead }) : has(key) ? t(key) : what || t("job.running");
     if (this.#words.textContent !== words) this.#words.textContent = words; // else it would be read aloud again
     if (total > 0 && state === "running") {
       this.#bar.max = total;

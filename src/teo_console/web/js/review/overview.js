@@ -35,9 +35,11 @@ function row({ t, notify }, { id, kind, title, items, reviewers, created }) {
 }
 
 function exports({ api, t, attempt, notify }) {
+  const progress = new JobProgress(api);
   const said = h("pre", { hidden: true, tabindex: "0", "aria-label": t("review.entered") });
   const enter = () => attempt(async () => {
-    const { output } = await api.post("/api/reviews/enter");
+    progress.begin("enter");
+    const { output } = await api.post("/api/reviews/enter").finally(() => progress.end());
     said.textContent = output;
     said.hidden = false;
     notify(t("review.entered"));
@@ -48,7 +50,7 @@ function exports({ api, t, attempt, notify }) {
       h("a", { class: "button", href: "/api/reviews.json", download: "reviews.json" }, "JSON"),
       h("a", { class: "button", href: "/api/reviews.csv", download: "reviews.csv" }, "CSV"),
       h("button", { type: "button", on: { click: enter } }, t("review.enter"))),
-    h("p", { class: "faint" }, t("review.rule")), said);
+    h("p", { class: "faint" }, t("review.rule")), progress.element, said);
 }
 
 function newSeries({ api, t, attempt, notify }, refresh) {

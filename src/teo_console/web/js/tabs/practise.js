@@ -8,8 +8,8 @@ import { JobProgress } from "../parts/jobs.js";
 import { wordField } from "../parts/word_field.js";
 import { refusalText } from "../status.js";
 
-// Differences by their size, in the unit of recognition: two that are just seen. What a person cannot help differs by
-// one; from two on another handshape, place or movement is seen.
+// Differences by their size, in the unit of recognition: half of all people's right signs differ by less than one; from
+// two on another handshape, place or movement is seen.
 const SMALL = 1;
 const LARGE = 2;
 const MOST = 4; // the bar is full

@@ -15,7 +15,7 @@ import { gateList } from "./gates.js";
  * @returns {Promise<{element: HTMLElement, close: Function}>}
  */
 export async function outcome(context, { told, wanted, film, recording, progress, again, forget }) {
-  const { api, t, robotView } = context;
+  const { api, socket, t, robotView } = context;
   const address = URL.createObjectURL(film);
   const video = h("video", { src: address, controls: true, loop: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("teach.demonstration") });
   video.muted = true;
@@ -33,7 +33,8 @@ export async function outcome(context, { told, wanted, film, recording, progress
     );
     return { element, close };
   }
-  const { motion, exists } = await api.get(`/api/recordings/${recording}/trial`);
+  const { motion } = await api.get(`/api/recordings/${recording}/trial`);
+  const exists = await socket.ask("get_sign", { gloss: told.gloss }).then(() => true, () => false);
   const stage = h("div", { class: "small-stage" });
   const failed = told.gates.filter(({ passed }) => !passed);
   const element = h(
