@@ -16,10 +16,11 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 
 from teo_ros2cli.bags.bag import Bag, open_bag
+from teo_ros2cli.bags.file_writer import PRESETS
 from teo_ros2cli.bags.metadata import NO_START, TopicRecord, read_metadata
 from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.summary import moment_text, size_text, summary
-from teo_ros2cli.bags.writer import PRESETS, BagWriter
+from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.definitions import installed_type_hash, schema_of
 from teo_ros2cli.errors import Ros2CliError
 
