@@ -313,6 +313,10 @@ def test_a_killed_recorder_leaves_what_came_before_the_last_second(
     messages = list(open_bag(tmp_path / "bag").messages())
     assert 150 <= len(messages) <= 300
     assert [m.data[8:-1].rstrip(b"\0").decode() for m in messages] == [str(i) for i in range(len(messages))]
+    assert ros2("bag", "reindex", str(tmp_path / "bag"), "-o", str(tmp_path / "whole")).returncode == 0
+    with AnyReader([tmp_path / "whole"]) as reader:
+        assert [bytes(data) for _, _, data in reader.messages()] == [m.data for m in messages]
+    assert not (tmp_path / "bag" / "metadata.yaml").exists()
 
 
 def test_topics_that_appear_and_publishers_that_differ_are_recorded(
