@@ -86,3 +86,19 @@ def test_a_newer_text_that_takes_over_keeps_every_limit(table: Mapping[str, Sign
     world.run_until(lambda: len(world.sent) == 3)
     world.run(1.0)
     assert_within_limits(executed(world), world.planner.limits)
+
+
+# Seconds after the sentence came: in its opening, just before its plan takes over, and while it signs.
+@pytest.mark.parametrize("moment", [0.2, 0.47, 0.9, 1.31, 1.7, 2.2, 2.53, 2.8])
+def test_a_stop_keeps_every_limit(table: Mapping[str, Sign], moment: float) -> None:
+    world = World(table)
+    world.run(0.2)
+    world.opening_time, world.planning_time = 0.4, 0.31
+    ticket = world.sign("CASA A-N")
+    world.run(moment)
+    moving = np.abs(world.velocities).max()
+    world.cancel(ticket)
+    world.obstacle = "it is to stand"
+    world.run(1.5)
+    assert moving > 0.1 and not world.velocities.any()
+    assert_within_limits(executed(world), world.planner.limits)

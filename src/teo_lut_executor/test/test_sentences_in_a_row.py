@@ -271,10 +271,10 @@ def test_a_queue_that_is_deactivated_stops_the_robot_and_names_the_sentence(worl
     world.run(3.0)
     world.take(world.queue.deactivate(world.now))
     world.obstacle = "not active"
-    assert len(world.stops) == 1 and world.finished() == [(first, Outcome.CANCELED)]
+    assert len(world.sent) == 2 and world.finished() == [(first, Outcome.CANCELED)]
     assert [status.code for status in world.statuses() if status.code] == ["inactive"]
-    world.run(3.0)
-    assert not world.velocities.any() and len(world.sent) == 1
+    world.run(1.0)
+    assert not world.velocities.any() and len(world.sent) == 2
     world.obstacle = ""
     world.run_until(lambda: len(world.finished()) == 2)
     assert world.finished()[1] == (second, Outcome.SUCCESS)

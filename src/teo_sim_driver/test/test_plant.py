@@ -3,11 +3,15 @@
 import numpy as np
 import pytest
 
+from teo_description import JointLimits
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.plants.faults import Faults, FaultyPlant, StateLine
 from teo_sim_driver.plants.plant import IdealPlant
 
-NAMES = ("neck", "elbow")
+SPEED = 20.0  # [rad/s]
+LIMITS = JointLimits(
+    names=("neck", "elbow"), lower=np.full(2, -9.0), upper=np.full(2, 9.0), velocity=np.full(2, SPEED)
+)
 SECOND = 1_000_000_000
 
 
@@ -17,7 +21,7 @@ def at(*positions):
 
 @pytest.fixture
 def plant():
-    return FaultyPlant(IdealPlant(), NAMES, np.zeros(2))
+    return FaultyPlant(IdealPlant(), LIMITS, np.zeros(2))
 
 
 def run(plant, goal, steps):
@@ -31,12 +35,14 @@ def test_without_faults_the_joints_are_where_they_were_told_to_be(plant):
     assert plant.step(asked, 0.01) is asked
 
 
-def test_a_frozen_joint_stays_and_goes_on_when_it_is_freed(plant):
+def test_a_frozen_joint_stays_and_catches_up_no_faster_than_it_can_when_it_is_freed(plant):
     plant.step(at(0.1, 0.1), 0.01)
     plant.faults = Faults(frozen=("elbow",))
-    assert run(plant, at(0.3, 0.4), 3).tolist() == [0.3, 0.1]
+    assert run(plant, at(0.3, 0.6), 3).tolist() == [0.3, 0.1]
     plant.faults = Faults()
-    assert run(plant, at(0.3, 0.4), 1).tolist() == [0.3, 0.4]
+    went = [run(plant, at(0.3, 0.6), 1)[1] for _ in range(4)]
+    np.testing.assert_allclose(went, [0.3, 0.5, 0.6, 0.6], rtol=1e-5)
+    assert plant.step(at(0.3, 0.6), 0.01).velocities.tolist() == [0.0, 0.0]
 
 
 def test_a_lag_is_of_first_order(plant):

@@ -49,6 +49,10 @@ class Halt:
         self._due = situation.now + lead
         return [StopReady(number=number, end=end, lead=lead)]
 
+    def expect(self, duration: float) -> None:
+        """Expect the robot to stand in so much time, as it was sent a way to [s]."""
+        self._due = self._situation.now + duration
+
     @property
     def stands(self) -> bool:
         """Whether the robot has come to a standstill."""

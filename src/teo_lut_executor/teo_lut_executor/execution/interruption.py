@@ -7,7 +7,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from teo_lut_executor.execution.announcements import finished
-from teo_lut_executor.execution.events import Activity, DriverMode, Event, Outcome
+from teo_lut_executor.execution.braking import brake
+from teo_lut_executor.execution.events import Activity, DriverMode, Event, Outcome, TrajectoryReady
 from teo_lut_executor.execution.job import Job, Phase
 from teo_lut_executor.execution.work import Work
 from teo_signs.errors import PlanError
@@ -78,21 +79,39 @@ class Interruption:
                 return []
         return self.stop_all()
 
-    def stop_all(self, *, send: bool = True) -> list[Event]:
-        """Drop every plan, and have the robot stop."""
-        motion = self._work.motions.present
-        if self._work.motions.continuation is not None and self._work.waiting:
-            self._work.waiting[0].plan = None
-        moving = self._work.situation.robot.state()
+    def stop_all(self, *, send: bool = True, follows: bool = True) -> list[Event]:
+        """Drop every plan, and have the robot stop.
+
+        Args:
+            send: Whether it has to be told.
+            follows: Whether it does what it was sent last: then it stops from there, within every limit. Else
+                from where joint states show it.
+        """
+        work = self._work
+        stopping = self._stop(follows) if send else []
+        if work.motions.continuation is not None and work.waiting:
+            work.waiting[0].plan = None
+        work.motions.clear()
+        work.joining.drop()
+        work.asked = 0
+        work.astray = True
+        work.phase = Phase.STOPPING
+        return stopping
+
+    def _stop(self, follows: bool) -> list[Event]:
+        work, motion = self._work, self._work.motions.present
+        work.halt.begin()
+        situation = work.situation
+        way = brake(work.motions, situation.limits) if follows and situation.may_continue else None
+        if way is not None:
+            work.halt.expect(way.ahead + way.plan.duration)
+            start = situation.now + way.ahead
+            number = next(work.numbers)
+            return [TrajectoryReady(number=number, plan=way.plan, samples=way.samples, start=start)]
+        moving = situation.robot.state()
         if motion is not None:  # joint states tell no acceleration
             moving = replace(moving, acceleration=motion.state_at(motion.elapsed).acceleration)
-        self._work.motions.clear()
-        self._work.joining.drop()
-        self._work.asked = 0
-        self._work.astray = True
-        self._work.phase = Phase.STOPPING
-        self._work.halt.begin()
-        return [*self._work.halt.stop(moving, next(self._work.numbers))] if send else []
+        return [*work.halt.stop(moving, next(work.numbers))]
 
     def await_standstill(self) -> list[Event]:
         """See whether the robot that was told to stop stands; tell it again if it should."""
@@ -121,9 +140,9 @@ class Interruption:
             and current.attempts < self._work.situation.settings.attempts
         )
         if current is None or not again:
-            return self._end(Outcome.NOT_REACHED, error) + self.stop_all()
+            return self._end(Outcome.NOT_REACHED, error) + self.stop_all(follows=False)
         self._work.current, current.plan = None, None
-        halting = self.stop_all()
+        halting = self.stop_all(follows=False)
         self._work.waiting.appendleft(current)
         error = PlanError(error.code, f"{error}; the sentence will be signed again")
         return [*self._work.announcements.name(current.sentence, error, Activity.FAULT), *halting]

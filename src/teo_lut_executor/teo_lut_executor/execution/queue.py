@@ -71,7 +71,7 @@ class ExecutionQueue:
         return tuple(job.sentence for job in (*jobs, *self._waiting)), len(jobs) - 1
 
     def submit(self, sentence: Sentence, now: float, *, attempts: int = 0) -> tuple[int, list[Event]]:
-        """Take a sentence; it begins with one of the next steps if nothing is before it.
+        """Take a sentence; one of the next steps tells of it, and begins with it if nothing is before it.
 
         Args:
             sentence: What to sign.
@@ -91,7 +91,7 @@ class ExecutionQueue:
             error = PlanError("queue_full", f"expected at most {most} sentences to wait: send this one later")
             return job.ticket, events + self._announcements.refuse(job, Outcome.REFUSED, error)
         self._waiting.append(job)
-        return job.ticket, events + self._work.tell()
+        return job.ticket, events
 
     def refuse(self, sentence: Sentence, error: PlanError, now: float) -> list[Event]:
         """Name a sentence that is not taken."""

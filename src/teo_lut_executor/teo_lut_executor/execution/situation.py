@@ -106,6 +106,11 @@ class Situation:
         return "" if self.robot.is_still else "waiting for the robot to stand still"
 
     @property
+    def may_continue(self) -> bool:
+        """Whether the driver would take a motion that continues another."""
+        return self.pace == 1.0 and self.block is None and not self.is_stale
+
+    @property
     def may_join(self) -> bool:
-        """Whether a motion may continue another."""
-        return self.pace == 1.0 and not self.obstacle and self.block is None
+        """Whether a sentence may continue another."""
+        return self.may_continue and not self.obstacle

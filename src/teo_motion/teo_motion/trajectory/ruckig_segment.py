@@ -86,27 +86,7 @@ class RuckigSegment:
     @functools.cached_property
     def pieces(self) -> Pieces:
         """Row for row the pieces of each joint, in order; some have no length. Shape (m, k)."""
-        # The brake comes first: what brings a joint that starts beyond its limits back within them.
-        table = np.array(
-            [
-                (
-                    (*brake.t, *item.t),
-                    (*brake.p, *item.p[:-1]),
-                    (*brake.v, *item.v[:-1]),
-                    (*brake.a, *item.a[:-1]),
-                    (*brake.j, *item.j),
-                )
-                for brake, item in ((item.brake, item) for item in self._trajectory.profiles[0])
-            ]
-        )
-        lengths, positions = table[:, 0], table[:, 1]
-        return Pieces(
-            lengths=lengths,
-            positions=np.where(lengths > 0.0, positions, self._start.position[:, None]),
-            velocities=table[:, 2],
-            accelerations=table[:, 3],
-            jerks=table[:, 4],
-        )
+        return _pieces(self._trajectory, self._start)
 
 
 class RuckigSolver:
@@ -155,6 +135,33 @@ class RuckigSolver:
         found = result in (ruckig.Result.Working, ruckig.Result.Finished)
         return RuckigSegment(trajectory, start) if found else None
 
+    def brake(self, start: State, bounds: Bounds) -> Pieces:
+        """How each joint comes to a standstill by itself, as soon as it can.
+
+        Args:
+            start: Where the joints are.
+            bounds: Limits, all above 0; those of position are not looked at.
+
+        Returns:
+            Row for row the pieces of each joint, in order; some have no length. Shape (m, k).
+
+        Raises:
+            PlanError: An array is of the wrong length or holds a number that is not finite ("bad_state").
+        """
+        given = ruckig.InputParameter(self._joints)
+        given.control_interface = ruckig.ControlInterface.Velocity
+        given.synchronization = ruckig.Synchronization.No
+        given.current_position = self._list("start position", start.position)
+        given.current_velocity = self._list("start velocity", start.velocity)
+        given.current_acceleration = self._list("start acceleration", start.acceleration)
+        given.max_velocity = self._list("velocity limit", bounds.velocity, positive=True)
+        given.max_acceleration = self._list("acceleration limit", bounds.acceleration, positive=True)
+        given.max_jerk = self._list("jerk limit", bounds.jerk, positive=True)
+        trajectory = ruckig.Trajectory(self._joints)
+        # To a standstill there is a way from every state: it raises nothing and always finds one.
+        self._generator.calculate(given, trajectory)
+        return _pieces(trajectory, start)
+
     def _list(self, name: str, values: Array, *, positive: bool = False) -> list[float]:
         if values.shape != (self._joints,):
             raise PlanError("bad_state", f"{name}: expected {self._joints} numbers, got shape {values.shape}")
@@ -163,3 +170,28 @@ class RuckigSolver:
             raise PlanError("bad_state", f"{name}: expected {kind}, got {values.tolist()}")
         numbers: list[float] = values.tolist()
         return numbers
+
+
+def _pieces(trajectory: ruckig.Trajectory, start: State) -> Pieces:
+    """Row for row the pieces of each joint, in order; some have no length. Shape (m, k)."""
+    # The brake comes first: what brings a joint that starts beyond its limits back within them.
+    table = np.array(
+        [
+            (
+                (*brake.t, *item.t),
+                (*brake.p, *item.p[:-1]),
+                (*brake.v, *item.v[:-1]),
+                (*brake.a, *item.a[:-1]),
+                (*brake.j, *item.j),
+            )
+            for brake, item in ((item.brake, item) for item in trajectory.profiles[0])
+        ]
+    )
+    lengths, positions = table[:, 0], table[:, 1]
+    return Pieces(
+        lengths=lengths,
+        positions=np.where(lengths > 0.0, positions, start.position[:, None]),
+        velocities=table[:, 2],
+        accelerations=table[:, 3],
+        jerks=table[:, 4],
+    )

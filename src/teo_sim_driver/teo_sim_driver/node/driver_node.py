@@ -63,9 +63,10 @@ class DriverNode(LifecycleNode):
         home = np.array([HOME[name] for name in COMMANDED_JOINTS])
         self._follower = JointFollower(limits=limits, start=home, period=1.0 / self._rate, held=LEG_JOINTS)
         self._follower.block(Mode.INACTIVE, "not active", self._now())
-        self._plant = FaultyPlant(_plant(self.get_parameter("plant").value), COMMANDED_JOINTS, home)
+        self._plant = FaultyPlant(_plant(self.get_parameter("plant").value), limits, home)
         self._state_line = StateLine()
         self._asked = self._measured = MotionState.at_rest(home)
+        self._astray = False  # whether a joint did not follow, and the robot is not at rest since
         self.add_on_set_parameters_callback(self._check_parameters)
         self._apply_parameters()
         self.add_post_set_parameters_callback(lambda _: self._apply_parameters())
@@ -129,10 +130,6 @@ class DriverNode(LifecycleNode):
             raise DriverError("limit_switch", f"the limit switch of {', '.join(pressed)} is pressed")
         for mode in (Mode.STOPPED, Mode.FAULT):
             self._follower.release(mode)
-        if self._follower.trajectory is None:
-            where = where_to_hold(self._asked, self._measured, self._following_error)
-            if where is not None:
-                self._follower.move_rest(where)
 
     def _on_step(self) -> None:
         begin = time.monotonic()
@@ -152,13 +149,22 @@ class DriverNode(LifecycleNode):
         self._meter.step(begin, time.monotonic())
 
     def _watch(self, now: int) -> None:
-        """Stop when a joint does not do what it was told."""
+        """Stop when a joint does not do what it was told, and then let it hold where it is.
+
+        It would otherwise set out for where it was told to be as soon as nothing hinders it any more.
+        """
+        if self._astray and self._follower.trajectory is None:
+            self._astray = False
+            where = where_to_hold(self._asked, self._measured, self._following_error)
+            if where is not None:
+                self._follower.move_rest(where)
         pressed = self._plant.faults.limit_switches
         if (self._measured is self._asked and not pressed) or self._follower.mode is Mode.FAULT:
             return
         reason = fault(COMMANDED_JOINTS, self._asked, self._measured, self._following_error, pressed)
         if reason:
             self._follower.block(Mode.FAULT, reason, now)
+            self._astray = True
             self.get_logger().error(f"fault: {reason}")
 
     def _on_diagnostics(self) -> None:

@@ -9,9 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from teo_description import JointLimits
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.plants.plant import Plant
+
+# A step of a joint that follows at full speed is this much longer [1]: positions are differences, rounded.
+_ROUNDING = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,32 +41,36 @@ class Faults:
 class FaultyPlant:
     """Joints to which faults happen."""
 
-    def __init__(self, plant: Plant, names: tuple[str, ...], start: FloatArray) -> None:
+    def __init__(self, plant: Plant, limits: JointLimits, start: FloatArray) -> None:
         """Stand still, without faults.
 
         Args:
             plant: The joints.
-            names: Of the joints.
+            limits: Of the joints: one that a fault has held back catches up no faster.
             start: Their positions [rad]. Shape (joints,).
         """
         self._plant = plant
-        self._names = names
+        self._limits = limits
         self._told = start
+        self._behind = False  # whether a fault has held a joint back
         self._measured = MotionState.at_rest(start)
         self.faults = Faults()
         """What is wrong; may be exchanged at any time."""
 
     def step(self, asked: MotionState, duration: float) -> MotionState:
         """Move as told, as far as the faults allow, and return what the encoders say; see `Plant`."""
-        if self.faults == Faults():
+        if self.faults == Faults() and not self._behind:
             self._told, self._measured = asked.positions, self._plant.step(asked, duration)
             return self._measured
         goal = asked.positions
         if self.faults.lag > 0.0:
             goal = self._told + (goal - self._told) * -np.expm1(-duration / self.faults.lag)
         if self.faults.frozen:
-            stuck = np.isin(self._names, self.faults.frozen)
+            stuck = np.isin(self._limits.names, self.faults.frozen)
             goal = np.where(stuck, self._told, goal)
+        most = self._limits.velocity * duration * (1.0 + _ROUNDING)
+        goal = self._told + np.clip(goal - self._told, -most, most)
+        self._behind = bool(np.abs(asked.positions - goal).max() > 0.0)
         told = _moved(self._told, goal, duration)
         self._told = goal
         measured = self._plant.step(told, duration).positions + self.faults.tracking_error
