@@ -34,6 +34,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "dtaidistance": (None, "dtaidistance"),
     "embreex": (None, "embreex"),
     "flatbuffers": (None, "flatbuffers"),
+    "fontTools": (None, "fonttools"),
     "google": ("python3-protobuf", "protobuf"),
     "lazy_loader": (None, "lazy-loader"),
     "lz4": ("python3-lz4", "lz4"),

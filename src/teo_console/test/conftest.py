@@ -9,10 +9,12 @@ import re
 import shutil
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import av
 import pytest
+from page_film import Film
 from playwright.sync_api import Browser, ConsoleMessage, Page, sync_playwright
 
 from teo_bringup.graph import CONSOLE, Graph, executable_of
@@ -73,18 +75,30 @@ def camera_film(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-@pytest.fixture(scope="session")
-def browser(camera_film: Path) -> Iterator[Browser]:
+@contextmanager
+def launched(*options: str) -> Iterator[Browser]:
     """A browser without a window; without one there is nothing to test with."""
     path = next(filter(None, map(shutil.which, BROWSERS)), None)
     if path is None:
         pytest.skip(f"no browser: install one of {', '.join(BROWSERS)}")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=path, args=[*OPTIONS, f"--use-file-for-fake-video-capture={camera_film}"]
-        )
+        browser = playwright.chromium.launch(executable_path=path, args=[*OPTIONS, *options])
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="session")
+def browser(camera_film: Path) -> Iterator[Browser]:
+    """One for all tests of the page, before a person who greets."""
+    with launched(f"--use-file-for-fake-video-capture={camera_film}") as browser:
+        yield browser
+
+
+@pytest.fixture
+def brief_browser() -> Iterator[Browser]:
+    """One for a single test: while it is there, no other event loop can run in this thread."""
+    with launched() as browser:
+        yield browser
 
 
 @pytest.fixture
@@ -124,3 +138,11 @@ def pictures() -> Path:
     folder = Path(__file__).parents[3] / "out" / "console"
     folder.mkdir(parents=True, exist_ok=True)
     return folder
+
+
+@pytest.fixture(scope="session")
+def film(pictures: Path) -> Iterator[Film]:
+    """What the tests film, one after the other, goes into one film."""
+    film = Film()
+    yield film
+    film.save(pictures / "console.webp")

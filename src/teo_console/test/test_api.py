@@ -13,6 +13,7 @@ from typing import Any
 import aiohttp
 import pytest
 from aiohttp import web
+from playwright.sync_api import Browser, expect
 
 from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench
@@ -34,7 +35,10 @@ class Api:
 
     def __init__(self, folder: Path) -> None:
         self.folders = Folders(
-            kept=folder / "kept", reviews=folder / "reviews.sqlite", cache=folder / "cache"
+            kept=folder / "kept",
+            reviews=folder / "reviews.sqlite",
+            signwriting=folder / "signwriting",
+            cache=folder / "cache",
         )
         self.thread = ServerThread(self._app, "127.0.0.1", 0)
         self.url = f"http://127.0.0.1:{self.thread.port}"
@@ -52,11 +56,18 @@ class Api:
         app.on_cleanup.append(clear_up)
         return app
 
-    def add_series(self, kind: str, *meanings: str) -> str:
-        """A series whose motions need no planning."""
+    def add_series(self, kind: str, *meanings: str, choices: tuple[str, ...] = ()) -> str:
+        """A series whose motions need no planning; what is among the choices is chosen from them."""
         motion = Shown(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
         items = [
-            NewItem(kind="sign", meaning=meaning, language="lse", motion_hash="0" * 64, motion=motion)
+            NewItem(
+                kind="sign",
+                meaning=meaning,
+                language="lse",
+                motion_hash="0" * 64,
+                motion=motion,
+                choices=choices if meaning in choices else (),
+            )
             for meaning in meanings
         ]
 
@@ -115,6 +126,37 @@ def test_a_reviewer_says_what_it_was_before_reading_it_and_the_export_has_it(api
     _, figures = api.ask("GET", f"/api/series/{series}/report")
     assert figures["recognised"][0] == 1.0
     assert len(figures["anchors"]) == 3
+
+
+def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reported(
+    api: Api, brief_browser: Browser, pictures: Path
+) -> None:
+    words = ("CASA", *(f"PALABRA_{number}" for number in range(1, 15)))
+    series = api.add_series("comprehension", "CASA", "PERRO", choices=words)
+    page = brief_browser.new_page(viewport={"width": 390, "height": 844}, locale="es-ES")
+    try:
+        page.goto(f"{api.url}/#review/{series}")
+        page.fill("#reviewer", "Ana")
+        page.keyboard.press("Enter")
+        for number in (1, 2):
+            expect(page.locator("h2")).to_have_text(f"Signo {number} de 2", timeout=PATIENCE * 1e3)
+            if page.locator("[data-choice]").count():
+                assert page.locator("[data-choice]").count() == 15
+                page.screenshot(path=pictures / "choices_phone.png", full_page=True)
+                page.click("[data-choice=CASA]")
+            else:
+                page.fill("#understood", "gato")
+                page.keyboard.press("Enter")
+            assert page.locator(".meaning").count() == 0
+        expect(page.locator("#all-done")).to_be_visible(timeout=PATIENCE * 1e3)
+        page.goto(f"{api.url}/#review/{series}/report")
+        # One of two: Wilson's interval is (1 + z²/2 ± z √(1/2 + z²/4)) / (2 + z²) with z = 1.96.
+        expect(page.locator("dl")).to_contain_text("50\u00a0% (9\u00a0%–91\u00a0%)", timeout=PATIENCE * 1e3)
+        expect(page.locator("tr").filter(has_text="PERRO")).to_contain_text("gato ×1")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        page.screenshot(path=pictures / "comprehension_report_phone.png", full_page=True)
+    finally:
+        page.close()
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 import rclpy
 from axe_playwright_python.sync_playwright import Axe
+from page_film import Film
 from playwright.sync_api import Page, WebSocket, expect
 from rclpy.context import Context
 from rclpy.node import Node
@@ -70,7 +71,7 @@ def wait_until_ready(page: Page) -> None:
 
 
 def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
-    new_page: NewPage, pictures: Path
+    new_page: NewPage, pictures: Path, film: Film
 ) -> None:
     page = new_page()
     poses = Poses()
@@ -78,6 +79,16 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
     page.reload()
     wait_until_ready(page)
     page.evaluate(NOTE_LIT)
+    page.wait_for_selector(".stage .empty", state="hidden")
+    with film.scene(page):
+        sign_and_watch(page, pictures)
+    assert page.evaluate("window.lit") == ["YO", "A", "L"]
+    assert poses.farthest() > 0.5
+    expect(page.locator(".history li").first).to_contain_text("¿Soy Al?")
+    assert page.locator(".stage canvas").count() == 1
+
+
+def sign_and_watch(page: Page, pictures: Path) -> None:
     sign(page, "¿Soy Al?")
     expect(page.locator(".token.lit")).to_be_visible()
     assert page.inner_text("#status").startswith("Signando: ¿Soy Al?")
@@ -91,18 +102,19 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
     expect(page.locator(".explanation")).to_contain_text("«Al» se deletrea")
     page.screenshot(path=pictures / "watch_desktop.png")
     wait_until_ready(page)
-    assert page.evaluate("window.lit") == ["YO", "A", "L"]
-    assert poses.farthest() > 0.5
-    expect(page.locator(".history li").first).to_contain_text("¿Soy Al?")
-    assert page.locator(".stage canvas").count() == 1
 
 
-def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage) -> None:
+def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage, film: Film) -> None:
     page = new_page()
     poses = Poses()
     page.on("websocket", poses.listen)
     page.reload()
     wait_until_ready(page)
+    with film.scene(page):
+        stop_and_rearm(page, poses)
+
+
+def stop_and_rearm(page: Page, poses: Poses) -> None:
     sign(page, "Me llamo Bartolomé.")  # half a minute
     expect(page.locator(".token.lit")).to_be_visible()
     page.click("#stop")
@@ -127,6 +139,7 @@ def test_two_pages_see_one_robot_and_closing_one_changes_nothing(new_page: NewPa
     wait_until_ready(one)
     sign(one, "Me llamo Bartolomé.")  # half a minute
     expect(other.locator(".token.lit")).to_be_visible()
+    assert other.evaluate("document.documentElement.scrollWidth") <= 390  # whatever is signed
     other.click("#pause")
     expect(one.locator("#status")).to_have_text("En pausa.")
     other.locator("#speed").fill("50")

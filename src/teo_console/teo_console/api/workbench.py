@@ -29,11 +29,13 @@ class Folders:
     Attributes:
         kept: Recordings that were kept on purpose.
         reviews: The file of the reviews.
+        signwriting: What `draw_signwriting` has drawn; need not be there.
         cache: What can be made again: films of signs, recordings while they are looked at.
     """
 
     kept: Path
     reviews: Path
+    signwriting: Path
     cache: Path
 
     @classmethod
@@ -41,7 +43,12 @@ class Folders:
         """In the user's folders (XDG base directories)."""
         data = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "teo"
         cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "teo_console"
-        return cls(kept=data / "recordings", reviews=data / "reviews.sqlite", cache=cache)
+        return cls(
+            kept=data / "recordings",
+            reviews=data / "reviews.sqlite",
+            signwriting=data / "signwriting",
+            cache=cache,
+        )
 
 
 class Preparation:

@@ -91,9 +91,12 @@ async function show() {
 }
 
 function showStatus() {
-  const { text, tone } = statusOf(socket.connected, socket.situation);
+  const { text, tone, said } = statusOf(socket.connected, socket.situation);
   const status = element("status");
-  if (status.textContent !== text) status.textContent = text; // else it would be read aloud again
+  const whole = said ? `${text} ${said}` : text;
+  if (status.textContent !== whole) { // else it would be read aloud again
+    status.replaceChildren(text, ...(said ? [" ", h("span", { lang: "en" }, said)] : []));
+  }
   status.dataset.tone = tone;
   const mode = socket.situation?.robot.mode;
   element("rearm").disabled = !socket.connected || (mode !== "stopped" && mode !== "fault");

@@ -8,7 +8,7 @@ import { has, t } from "./i18n.js";
  * Says how things are.
  * @param {boolean} connected Whether the console answers.
  * @param {?Object} situation
- * @returns {{text: string, tone: "good"|"warn"|"bad"}}
+ * @returns {{text: string, tone: "good"|"warn"|"bad", said: ?string}} `said` are a node's own words, in English.
  */
 export function statusOf(connected, situation) {
   if (!connected || !situation) return { text: t("status.no_console"), tone: "bad" };
@@ -27,8 +27,8 @@ export function statusOf(connected, situation) {
   const unwell = nodes.find(({ state }) => state === "unwell");
   const signing = current ? t("status.signing", { text: current.text || t("untitled") }) : null;
   if (unwell) {
-    const text = t("status.unwell", { node: t(`node.${unwell.role}`), message: unwell.message });
-    return { text: signing ? `${signing} ${text}` : text, tone: "warn" };
+    const text = t("status.unwell", { node: t(`node.${unwell.role}`) });
+    return { text: signing ? `${signing} ${text}` : text, tone: "warn", said: unwell.message };
   }
   if (signing) return { text: signing, tone: "good" };
   if (robot.executor === "waiting" && queue.length) return { text: t("status.waiting"), tone: "good" };

@@ -5,18 +5,20 @@
 import { Refused } from "../api.js";
 import { h } from "../dom.js";
 import { has, t } from "../i18n.js";
+import { refusalText } from "../status.js";
 
 const LOOK = 400; // [ms] between two looks at a job
 
 const pause = (time) => new Promise((resolve) => setTimeout(resolve, time));
 
-/** Shows how far jobs are. `element` is to be placed; it is empty while nothing runs. */
+/** Shows how far jobs are, and why the last one failed. `element` is to be placed. */
 export class JobProgress {
   element = h("div", { class: "job", hidden: true });
   #bar = h("progress", { "aria-label": t("job.progress") });
   #words = h("p", { role: "status", class: "faint" });
   #stop = h("button", { type: "button" }, t("job.cancel"));
   #api;
+  #failed = "";
 
   constructor(api) {
     this.#api = api;
@@ -31,7 +33,6 @@ export class JobProgress {
   async finish(job) {
     this.#stop.hidden = false;
     this.#stop.onclick = () => this.#api.delete(`/api/jobs/${job.id}`);
-    this.element.hidden = false;
     try {
       for (;;) {
         this.#show(job);
@@ -40,8 +41,11 @@ export class JobProgress {
         await pause(LOOK);
         job = await this.#api.get(`/api/jobs/${job.id}`);
       }
+    } catch (error) {
+      this.#failed = refusalText(error.code, error.message);
+      throw error;
     } finally {
-      this.element.hidden = true;
+      this.end();
     }
   }
 
@@ -52,7 +56,6 @@ export class JobProgress {
    */
   async prepared(name) {
     this.#stop.hidden = true;
-    this.element.hidden = false;
     try {
       for (;;) {
         const { done, total, result, code, message } = await this.#api.get(`/api/preparations/${name}`);
@@ -61,25 +64,32 @@ export class JobProgress {
         if (code) throw new Refused(code, message);
         await pause(LOOK);
       }
+    } catch (error) {
+      this.#failed = refusalText(error.code, error.message);
+      throw error;
     } finally {
-      this.element.hidden = true;
+      this.end();
     }
   }
 
   /** Says that something goes on whose end is not known. */
   begin(name) {
     this.#stop.hidden = true;
-    this.element.hidden = false;
     this.#show({ name, state: "running", progress: { done: 0, total: 0, what: "" } });
   }
 
+  /** Nothing goes on any more; why it failed stays to be read. */
   end() {
-    this.element.hidden = true;
+    this.#bar.hidden = this.#stop.hidden = true;
+    this.#words.textContent = this.#failed;
+    this.element.hidden = !this.#failed;
+    this.#failed = "";
   }
 
   #show({ name, state, ahead, progress: { what, done, total } }) {
     const key = what ? `job.what.${what.split(" ")[0]}` : `job.${name}`;
     const words = state === "waiting" ? t(ahead > 0 ? "job.waiting" : "job.next", { ahead }) : has(key) ? t(key) : what || t("job.running");
+    this.element.hidden = this.#bar.hidden = false;
     if (this.#words.textContent !== words) this.#words.textContent = words; // else it would be read aloud again
     if (total > 0 && state === "running") {
       this.#bar.max = total;

@@ -9,13 +9,14 @@ let fields = 0;
 /**
  * Makes the field.
  * @param {string} label
- * @param {Object[]} signs Of the table; only words are offered.
+ * @param {Promise<Object[]>} signs Of the table; only words are offered, as soon as they are there.
  * @returns {{element: HTMLElement, value: function(): string}} `value` is the gloss as the table writes it.
  */
 export function wordField(label, signs) {
   const id = `word-${++fields}`;
-  const options = signs.filter(({ kind }) => kind === "lexical").map(({ gloss }) => h("option", { value: gloss.replaceAll("_", " ") }));
+  const words = h("datalist", { id: `${id}-words` });
+  signs.then((all) => words.append(...all.filter(({ kind }) => kind === "lexical").map(({ gloss }) => h("option", { value: gloss.replaceAll("_", " ") }))));
   const input = h("input", { type: "text", id, list: `${id}-words`, autocomplete: "off", maxlength: "60", spellcheck: "false" });
-  const element = h("div", { class: "field" }, h("label", { for: id }, label), input, h("datalist", { id: `${id}-words` }, ...options));
+  const element = h("div", { class: "field" }, h("label", { for: id }, label), input, words);
   return { element, input, value: () => input.value.trim().toUpperCase().replaceAll(/\s+/g, "_") };
 }

@@ -5,6 +5,7 @@
 import { h } from "../dom.js";
 import { has } from "../i18n.js";
 import { JobProgress } from "../parts/jobs.js";
+import { signWriting } from "../parts/sign_writing.js";
 
 const MOST_SHOWN = 120; // more names than that nobody reads: the search is for them
 const MOST_WANTED = 20; // an afternoon before the camera
@@ -57,6 +58,7 @@ function card({ socket, api, t, attempt, robotView }) {
     view?.remove();
     const stage = h("div", { class: "small-stage" });
     const film = h("div", {});
+    const written = await signWriting(sign.gloss, sign.source);
     const name = sign.gloss.replaceAll("_", " ");
     const facts = [
       ["dictionary.standing", t(`evidence.${sign.standing}`)], ["dictionary.source", sign.source], ["dictionary.licence", sign.licence],
@@ -68,17 +70,17 @@ function card({ socket, api, t, attempt, robotView }) {
       if (made.job) await progress.finish(made.job);
       film.replaceChildren(h("video", { src: made.film, controls: true, loop: true, muted: true, autoplay: true, playsInline: true, class: "film", "aria-label": t("dictionary.film_of", { name }) }));
     });
-    element.replaceChildren(
+    element.replaceChildren(...[
       h("h2", { tabindex: "-1" }, name),
       stage,
       h("div", { class: "row" },
         h("button", { type: "button", class: "primary", on: { click: () => attempt(() => socket.ask("sign_glosses", { glosses: [sign.gloss] })) } }, t("dictionary.robot")),
         h("button", { type: "button", on: { click: makeFilm } }, t("dictionary.film")),
         h("a", { class: "button", href: `#practise/${encodeURIComponent(sign.gloss)}` }, t("dictionary.practise"))),
-      progress.element, film,
+      progress.element, film, written,
       h("dl", {}, ...facts.flatMap(([key, value]) => [h("dt", {}, t(key)), h("dd", {}, value)])),
       h("p", { class: "faint" }, t(`evidence.${sign.standing}.means`)),
-    );
+    ].filter(Boolean));
     element.querySelector("h2").focus();
     view = await robotView(stage);
     const answer = await attempt(() => socket.ask("get_sign", { gloss: sign.gloss }));

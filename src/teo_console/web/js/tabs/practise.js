@@ -17,7 +17,7 @@ const MOST = 4; // the bar is full
 export async function mount(element, context) {
   const { api, socket, t, attempt, notify, robotView } = context;
   element.append(h("h1", {}, t("tab.practise")));
-  const signs = (await attempt(() => api.get("/api/signs"))) ?? [];
+  const signs = attempt(() => api.get("/api/signs")).then((all) => all ?? []);
   const word = wordField(t("practise.word"), signs);
   const given = decodeURIComponent(location.hash.split("/")[1] ?? "");
   const stage = h("div", { class: "small-stage" });
@@ -36,7 +36,7 @@ export async function mount(element, context) {
 
   async function look(film) {
     const gloss = word.value();
-    if (!signs.some((sign) => sign.gloss === gloss)) {
+    if (!(await signs).some((sign) => sign.gloss === gloss)) {
       word.input.focus();
       notify(t("practise.word_first"));
       return;

@@ -4,6 +4,7 @@
 
 import { h } from "../dom.js";
 import { has } from "../i18n.js";
+import { signWriting } from "../parts/sign_writing.js";
 import { mark } from "./marks.js";
 
 /** Makes the box; `show(caption, sentence)` fills it, `show(null)` empties it. */
@@ -28,15 +29,17 @@ export function explanation({ socket, t }) {
     if (sentence.negated) lines.push(t("explain.negated"));
     body.replaceChildren(...lines.map((line) => h("p", {}, line)));
     if (caption.kind === "pause") return;
-    let evidence;
+    let provenance;
     try {
       const { sign } = await socket.ask("get_sign", { gloss: caption.gloss });
-      const { standing, source } = JSON.parse(sign.entry).provenance;
-      evidence = t(`standing.${standing}`, { source });
+      ({ provenance } = JSON.parse(sign.entry));
     } catch {
       return; // no executor, or no entry of that name: the words above stand without it
     }
-    if (mine === turn) body.append(h("p", { class: "faint" }, evidence));
+    const { standing, source } = provenance;
+    const written = await signWriting(caption.gloss, source);
+    if (mine !== turn) return;
+    body.append(...(written ? [written] : []), h("p", { class: "faint" }, t(`standing.${standing}`, { source })));
   }
 
   return { element: h("section", { class: "card explanation", "aria-live": "polite" }, title, body), show };
