@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import multiprocessing
 import os
 from collections import Counter
@@ -14,7 +15,9 @@ from signs.second_look import SecondLook
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_motion.sentence.plan import sample_at
+from teo_motion.sentence.plan import Plan, sample_at
+from teo_sign_capture.recognition.appearance import MOMENTS, sign_appearance
+from teo_sign_capture.recognition.sign_index import SignIndex, distance_between
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
@@ -27,6 +30,7 @@ _WORST = 10
 _BATCH = 25  # sentences that one process plans in a row
 _STEP = 0.001  # [s] between two looks at a planned motion's limits
 _LOOK = 10  # shapes are looked at in every so manieth: a hand goes a few millimetres in 10 ms
+_ONE_MOTION = 1e-6  # distances that differ by less are those of one motion under two names
 _KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
 
 _ERRORS = {
@@ -56,13 +60,39 @@ def _standings(words: list[Sign]) -> Figure:
 
 
 def _stretches(lut: Lut, words: list[Sign]) -> list[Figure]:
-    planner = Planner(lut, least_standing="sketched")
-    stretch = {word.gloss: planner.plan([Token(gloss=word.gloss)]).stretch for word in words}
+    """How much slower than asked for words are, and which look more like another sign, as they are played."""
+    robot = Robot.load()
+    planner = Planner(lut, robot=robot, least_standing="sketched")
+    plans = {word.gloss: planner.plan([Token(gloss=word.gloss)]) for word in words}
+    stretch = {gloss: plan.stretch for gloss, plan in plans.items()}
     slowest = sorted(stretch, key=lambda gloss: -stretch[gloss])[:_WORST]
+    index = SignIndex.of_signs(robot, lut.values())
+    confused = []
+    for word in words:
+        shown = sign_appearance(robot, _played(word, plans[word.gloss]))
+        (nearest,) = index.nearest(shown, 1)
+        if nearest.distance < distance_between(shown, sign_appearance(robot, word)) - _ONE_MOTION:
+            confused.append(f"{word.gloss} for {nearest.gloss}")
     return [
         Figure("slower than written, of 50 deg/s", f"median {np.median(list(stretch.values())):.2f} times"),
         Figure("slowest words", ", ".join(f"{gloss} {stretch[gloss]:.1f}" for gloss in slowest)),
+        Figure(
+            "words above three times", f"{sum(value > 3.0 for value in stretch.values())} of {len(words)}"
+        ),
+        Figure(
+            "words that look more like another sign, as they are played",
+            f"{len(confused)}{': ' if confused else ''}{', '.join(confused)}",
+        ),
     ]
+
+
+def _played(word: Sign, plan: Plan) -> Sign:
+    """A word as a plan moves it."""
+    (timing,) = plan.timings
+    times = np.linspace(0.0, timing.duration, MOMENTS)
+    columns = [plan.names.index(joint) for joint in word.joints]
+    knots = sample_at(plan.motions, timing.start + times).positions[:, columns]
+    return dataclasses.replace(word, times=times, knots=knots, alternatives=())
 
 
 def _refusals() -> Figure:

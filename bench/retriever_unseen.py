@@ -5,7 +5,7 @@
 - held out: other people, lights and cameras (1 to 2.5 m, rolled) than those that anything was calibrated or
   looked at on. Joints are the centres about which limbs turn, fingertips lie in the finger (the README of
   teo_synthetic_signer says where); of the body shoulders, elbows and wrists count.
-- known: the same of takes that were held out before, and were looked at since.
+- known: others of that kind, on which changes were chosen.
 - occluded faces: forearms and hands before head and shoulders; these takes were looked at while that was
   built.
 - several people: two or three, the signer the nearest; likewise.

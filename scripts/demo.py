@@ -20,6 +20,7 @@ from typing import Annotated
 
 import numpy as np
 import rclpy
+import reservation
 import typer
 from film import FRAMES_PER_SECOND, LiveFilm
 from progress import Progress
@@ -51,8 +52,6 @@ LISTENERS = {
     "joint_states": {"executor", "rosbag2_recorder", "demo_spectator"},
     "executor_status": {"rosbag2_recorder", "demo_spectator"},
 }
-# The tests use domains 20 to 101, people 0 unless they say otherwise.
-DOMAIN = "18"
 START_TIMEOUT = 30.0  # [s] for every process to be there: a loaded machine takes 10 s
 TRANSLATION_TIMEOUT = 10.0  # [s] from the text to its tokens: a slow machine takes 1 s
 # [s] that a sentence may take: a thousand letters at two seconds each, the most that one message holds.
@@ -165,9 +164,8 @@ def sign(text: str, out: Path, console: Console, *, view: bool) -> bool:
         console: Where it says what happens.
         view: Whether to serve the console's page, and to go on until Ctrl-C.
     """
-    os.environ.update(ROS_DOMAIN_ID=DOMAIN, ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     shutil.rmtree(out / "bag", ignore_errors=True)
-    out.mkdir(parents=True, exist_ok=True)
     began = time.monotonic()
     with Graph(log_folder=out / "log") as graph:
         graph.start_nodes(view=view)
@@ -320,8 +318,10 @@ def main(
     """Sign TEXT with the simulated TEO."""
     console = Console()
     try:
-        signed = sign(text, out, console, view=view)
-    except (DemoError, GraphError) as error:
+        with reservation.folder(out), reservation.domain() as domain:
+            console.print(f"in domain {domain}: `export ROS_DOMAIN_ID={domain}` lets another shell see it")
+            signed = sign(text, out, console, view=view)
+    except (DemoError, GraphError, reservation.OccupiedError) as error:
         console.print(str(error), style="red", markup=False)
         signed = False
     if not signed:

@@ -4,7 +4,7 @@
 
 The held-out takes are of other people, lights and cameras than all others, and are for a last look: whoever
 changes a constant of the retriever looks at the others meanwhile. Once what was seen there has led to a
-change they are known, move to `KNOWN_TAKES`, and others are held out in their place.
+change they are known, move to `KNOWN_TAKES` or go, and others are held out in their place.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from teo_synthetic_signer import Companion
 from teo_synthetic_signer.body.body_shapes import BODIES
 
 BODIES |= random_people(12, 314_159, "known")
-BODIES |= random_people(12, 660_719, "held_out")
+BODIES |= random_people(10, 660_719, "held_out")
 BODIES |= random_people(8, 5_517, "beside")
 
 _SCENES = ("office", "studio", "living_room", "near_wall")
@@ -56,7 +56,7 @@ def _other_people(name: str, *, count: int, cameras: int, seed: int) -> tuple[Ta
 
 
 KNOWN_TAKES = _other_people("known", count=12, cameras=271_828, seed=120_000)
-HELD_OUT_TAKES = _other_people("held_out", count=12, cameras=577_215, seed=200_000)
+HELD_OUT_TAKES = _other_people("held_out", count=10, cameras=577_215, seed=200_000)
 OCCLUDED_TAKES: tuple[TakeSettings, ...] = tuple(
     TakeSettings(
         script="before_face",

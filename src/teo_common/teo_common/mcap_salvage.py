@@ -50,6 +50,7 @@ class StoredMessage(NamedTuple):
         log_time: Time of reception [ns since the epoch].
         publish_time: Time of publishing [ns since the epoch].
         data: Its bytes (CDR).
+        sequence: The publisher's number of it, 0 if there was none.
     """
 
     topic: str
@@ -57,6 +58,7 @@ class StoredMessage(NamedTuple):
     log_time: int
     publish_time: int
     data: bytes
+    sequence: int = 0
 
 
 @dataclass
@@ -155,6 +157,7 @@ def _messages_of(
                     record.log_time,
                     record.publish_time,
                     record.data,
+                    record.sequence,
                 )
         case Header():
             content.profile = record.profile

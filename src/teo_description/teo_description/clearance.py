@@ -40,6 +40,15 @@ class Contact(NamedTuple):
     normal: NDArray[np.float64]
     """Way along which the other link leaves the one, unit vector. Shape (3,)."""
 
+    @property
+    def may_be_meant(self) -> bool:
+        """Whether a signer may mean these to touch: a hand and anything, or both arms.
+
+        An upper arm or forearm is beside the own trunk in most postures and touches it in no sign.
+        """
+        links = {self.first, self.second}
+        return links.isdisjoint(_TORSO) or not links.isdisjoint(_HANDS)
+
 
 # What the joints of the head move.
 HEAD_LINKS = ("AxialNeck_link", "FrontalNeck_link")
@@ -76,6 +85,9 @@ def _hand(side: str) -> tuple[str, ...]:
     ]
     thumb = (f"{side}HandAbductor_link", f"{side}ThumbFinger_link", f"{side}ThumbFingerDistal_link")
     return (f"Frontal{side}Wrist_link", f"{side}Hand_link", *thumb, *fingers)
+
+
+_HANDS = frozenset((*_hand("Left"), *_hand("Right")))
 
 
 def watched_pairs() -> tuple[tuple[str, str], ...]:

@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from teo_description.hand_geometry import dextra_table
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
@@ -109,6 +110,7 @@ class Planner:
         self._avoidance = CollisionAvoidance(
             SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
             motion_clearance,
+            None if robot is None else dextra_table(robot),
             limits=self.limits,
             least_clearance=least_clearance,
             arm_rest=self.style.arm_rest,
@@ -162,9 +164,8 @@ class Planner:
         begin = self._checked(start)
         style = self.style.for_form(form)
         captured = self._lexicon.resolve(tokens)
-        signed = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
-        if self._size is not None:
-            signed = self._size.fitted(signed, captured)
+        chosen = choose_postures(captured, start=begin.position, end=self._rest, limits=self.limits)
+        smaller = chosen if self._size is None else self._size.fitted(chosen, captured)
 
         def planned(signed: Sequence[SignedToken]) -> Plan:
             composition = compose(
@@ -173,12 +174,19 @@ class Planner:
             plan = self._avoidance.plan(composition)
             return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
 
-        try:
-            return planned(signed)
-        except PlanError as error:
-            if error.code != "self_collision" or signed == captured:
-                raise
-            return planned(captured)  # slower, as the entries have the signs: they keep apart
+        # Signs in other postures and sizes may touch on their way where their entries keep apart.
+        tried: list[Sequence[SignedToken]] = []
+        for signed in (smaller, chosen, captured):
+            if signed in tried:
+                continue
+            tried.append(signed)
+            try:
+                return planned(signed)
+            except PlanError as error:
+                if error.code != "self_collision":
+                    raise
+                refused = error
+        raise refused
 
     def plan_opening(
         self, tokens: Sequence[Token], start: State, *, lasting: float

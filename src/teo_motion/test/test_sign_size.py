@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -108,6 +109,17 @@ def test_what_is_repeated_four_times_is_repeated_twice(robot: Robot, make_sign: 
     assert less.duration == pytest.approx(5 * 0.2)
 
 
+def touching(robot: Robot, pose: dict[str, float]) -> float:
+    """How near a hand is to anything, or one arm to the other [m]; far away is 1 m."""
+    near = [
+        item
+        for item in robot.contacts(robot.configuration(pose), 0.06)
+        if re.search("Hand|Finger|FrontalRightWrist|FrontalLeftWrist", item.first + item.second)
+        or not re.search("root|Trunk|Neck|Hip|Knee", item.first + item.second)
+    ]
+    return min((item.distance for item in near), default=1.0)
+
+
 def test_contacts_of_the_table_are_kept(robot: Robot) -> None:
     """Where a word touches the body or the other hand, it does so when it is smaller."""
     lut = Lut.open()
@@ -121,8 +133,8 @@ def test_contacts_of_the_table_are_kept(robot: Robot) -> None:
             continue
         for before, after in zip(sign.knots, smaller.knots, strict=True):
             poses = [dict(zip(sign.joints, row.tolist(), strict=True)) for row in (before, after)]
-            distances = [robot.clearance(robot.configuration(pose)).distance for pose in poses]
-            assert distances[1] >= 0.0, gloss
+            assert robot.clearance(robot.configuration(poses[1])).distance >= 0.0, gloss
+            distances = [touching(robot, pose) for pose in poses]
             if distances[0] < 0.025:
                 contacts += 1
                 assert distances[1] < distances[0] + 0.016, gloss  # 0.05 rad is the same contact

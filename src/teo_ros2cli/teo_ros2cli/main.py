@@ -17,6 +17,7 @@ COMMANDS = {
     "bag": Entry("teo_ros2cli.cli.bag", "Various rosbag related sub-commands"),
     "daemon": Entry("teo_ros2cli.cli.daemon", "Various daemon related sub-commands"),
     "interface": Entry("teo_ros2cli.cli.interface", "Show information about ROS interfaces"),
+    "lifecycle": Entry("teo_ros2cli.cli.lifecycle", "Various lifecycle related sub-commands"),
     "node": Entry("teo_ros2cli.cli.node", "Various node related sub-commands"),
     "param": Entry("teo_ros2cli.cli.param", "Various param related sub-commands"),
     "pkg": Entry("teo_ros2cli.cli.pkg", "Various package related sub-commands"),

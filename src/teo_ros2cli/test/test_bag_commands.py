@@ -313,6 +313,10 @@ def test_a_killed_recorder_leaves_what_came_before_the_last_second(
     messages = list(open_bag(tmp_path / "bag").messages())
     assert 150 <= len(messages) <= 300
     assert [m.data[8:-1].rstrip(b"\0").decode() for m in messages] == [str(i) for i in range(len(messages))]
+    assert ros2("bag", "reindex", str(tmp_path / "bag"), "-o", str(tmp_path / "whole")).returncode == 0
+    with AnyReader([tmp_path / "whole"]) as reader:
+        assert [bytes(data) for _, _, data in reader.messages()] == [m.data for m in messages]
+    assert not (tmp_path / "bag" / "metadata.yaml").exists()
 
 
 def test_topics_that_appear_and_publishers_that_differ_are_recorded(
@@ -324,10 +328,13 @@ def test_topics_that_appear_and_publishers_that_differ_are_recorded(
     wait_recording(recorder, "/text")
     # A subscription without a publisher, and a second publisher that offers less than the recorder asks for.
     graph.node.create_subscription(String, "waiting", lambda _: None, 10)
+    graph.node.create_subscription(JointState, "awaited", lambda _: None, LATCHED)
     weak = graph.node.create_publisher(
         String, "text", QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
     )
-    wait_recording(recorder, "/waiting")
+    wait_recording(recorder, "/waiting", "/awaited")
+    awaited = graph.node.create_publisher(JointState, "awaited", LATCHED)
+    awaited.publish(state(0))
 
     def reliabilities() -> list[ReliabilityPolicy]:
         return [info.qos_profile.reliability for info in graph.node.get_subscriptions_info_by_topic("text")]
@@ -346,9 +353,11 @@ def test_topics_that_appear_and_publishers_that_differ_are_recorded(
     late.publish(state(1))
     wait_recording(recorder, "/late")
     graph.wait_until(lambda: late.get_subscription_count() == 1, "the late topic is matched")
-    graph.wait_until(
-        lambda: late.wait_for_all_acked(Duration(seconds=0.1)), "the recorder has the late message"
-    )
+    for publisher in (late, awaited):
+        graph.wait_until(
+            lambda publisher=publisher: publisher.wait_for_all_acked(Duration(seconds=0.1)),
+            "the recorder has the late messages",
+        )
     assert recorder.stop() == 0
     found = [
         m.ros_msg.data
@@ -358,8 +367,16 @@ def test_topics_that_appear_and_publishers_that_differ_are_recorded(
     assert sorted(found) == sorted(
         ["latched", *(f"{who} {i}" for who in ("weak", "first") for i in range(10))]
     )
-    topics = {topic.name: n for topic, n in read_metadata(tmp_path / "bag").topics}
-    assert (topics["/late"], topics["/waiting"]) == (1, 0)
+    topics = {topic.name: (topic, n) for topic, n in read_metadata(tmp_path / "bag").topics}
+    assert (topics["/late"][1], topics["/awaited"][1], topics["/waiting"][1]) == (1, 1, 0)
+    # What publishers offer that came after the recorder is known as well: in the metadata and in the file.
+    for source in (
+        topics,
+        {t.name: (t, n) for t, n in open_bag(tmp_path / "bag" / "bag_0.mcap").metadata.topics},
+    ):
+        assert [qos.durability for qos in source["/awaited"][0].offered_qos] == ["transient_local"]
+        assert sorted(qos.reliability for qos in source["/text"][0].offered_qos)[-1:] == ["reliable"]
+        assert source["/waiting"][0].offered_qos == ()
 
 
 def test_a_recording_is_split_and_takes_qualities_from_a_file(graph: Any, start: Any, tmp_path: Path) -> None:

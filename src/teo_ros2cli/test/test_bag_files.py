@@ -16,10 +16,12 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 
 from teo_ros2cli.bags.bag import Bag, open_bag
+from teo_ros2cli.bags.file_writer import PRESETS
 from teo_ros2cli.bags.metadata import NO_START, TopicRecord, read_metadata
 from teo_ros2cli.bags.qos_record import QosRecord
+from teo_ros2cli.bags.reindex import reindex
 from teo_ros2cli.bags.summary import moment_text, size_text, summary
-from teo_ros2cli.bags.writer import PRESETS, BagWriter
+from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.definitions import installed_type_hash, schema_of
 from teo_ros2cli.errors import Ros2CliError
 
@@ -234,12 +236,13 @@ def test_metadata_that_promise_more_than_the_file_has_are_corrected(tmp_path: Pa
     assert {topic.name for topic, _ in bag.metadata.topics} == {"/text", "/plan", "/silent"}
 
 
-def test_a_damaged_chunk_is_left_out_and_the_others_are_read(tmp_path: Path) -> None:
-    def hurt(data: bytes) -> bytes:
-        middle = len(data) // 3
-        return data[:middle] + bytes(byte ^ 0x55 for byte in data[middle : middle + 40]) + data[middle + 40 :]
+def scratched(data: bytes) -> bytes:
+    middle = len(data) // 3
+    return data[:middle] + bytes(byte ^ 0x55 for byte in data[middle : middle + 40]) + data[middle + 40 :]
 
-    bag = damaged(tmp_path, hurt)
+
+def test_a_damaged_chunk_is_left_out_and_the_others_are_read(tmp_path: Path) -> None:
+    bag = damaged(tmp_path, scratched)
     assert any("damaged chunk" in problem for problem in bag.problems)
     assert bag.metadata.messages == 250
 
@@ -259,6 +262,62 @@ def test_any_damage_is_survived(tmp_path: Path, seed: int) -> None:
     assert len(list(bag.messages(on_problem=told.append))) == bag.metadata.messages <= 300
     assert bag.problems or bag.metadata.messages == 300
     assert "Topic information:" in summary(bag.metadata, bag.size)
+
+
+def read_by_others(directory: Path) -> list[tuple[str, int, bytes]]:
+    """Read a bag with two readers that share nothing with this package; both must see the same."""
+    with AnyReader([directory]) as reader:
+        read = [(c.topic, time, bytes(data)) for c, time, data in reader.messages()]
+    streams = [path.open("rb") for path in sorted(directory.glob("*.mcap"))]
+    found = [found for stream in streams for found in make_reader(stream).iter_messages()]
+    assert [(channel.topic, message.log_time, message.data) for _, channel, message in found] == read
+    for stream in streams:
+        stream.close()
+    return read
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("share", [0.3, 0.6])
+def test_a_repaired_bag_is_read_by_everybody(tmp_path: Path, preset: str, share: float) -> None:
+    written = write_bag(tmp_path / "bag", preset=preset, max_duration=2_000_000_000, custom_data={"a": "b"})
+    last = tmp_path / "bag" / "bag_1.mcap"
+    whole = (tmp_path / "bag" / "bag_0.mcap").read_bytes()
+    data = last.read_bytes()
+    last.write_bytes(data[: int(len(data) * share)])
+    with pytest.raises(Exception, match=r"(?i)magic|truncat|end"):
+        read_by_others(tmp_path / "bag")
+    told: list[str] = []
+    bag = reindex(tmp_path / "bag", told.append)
+    read = read_by_others(tmp_path / "bag")
+    assert read == written[: len(read)]
+    assert 200 + 100 * share - 50 <= len(read) < 300
+    assert (len(told), "bag_1.mcap" in told[0]) == (1, True)
+    assert (tmp_path / "bag" / "bag_0.mcap").read_bytes() == whole
+    assert any("messages that the metadata count" in problem for problem in bag.problems)
+    again = open_bag(tmp_path / "bag", verify=True)
+    assert (again.problems, again.metadata.messages) == ((), len(read))
+    assert again.metadata.custom_data == {"a": "b"}
+    latched = {t.name: [q.durability for q in t.offered_qos] for t, _ in again.metadata.topics}
+    assert latched["/text"] == ["volatile", "transient_local"]
+    assert reindex(tmp_path / "bag", told.append).problems == ()
+    assert len(told) == 1
+    with last.open("rb") as stream:
+        assert [m.sequence for _, _, m in make_reader(stream).iter_messages()] == list(range(200, len(read)))
+
+
+def test_a_damaged_chunk_is_cut_out_of_a_repaired_bag(tmp_path: Path) -> None:
+    written = write_bag(tmp_path / "bag")
+    path = tmp_path / "bag" / "bag_0.mcap"
+    data = path.read_bytes()
+    middle = len(data) // 3
+    path.write_bytes(
+        data[:middle] + bytes(byte ^ 0x55 for byte in data[middle : middle + 40]) + data[middle + 40 :]
+    )
+    (tmp_path / "bag" / "metadata.yaml").unlink()
+    reindex(tmp_path / "bag")
+    read = read_by_others(tmp_path / "bag")
+    assert len(read) == 250
+    assert set(read) < set(written)
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89MCAP", b"not a bag at all", b"\x00" * 1000])

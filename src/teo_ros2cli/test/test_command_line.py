@@ -175,7 +175,11 @@ def test_interfaces_are_shown(ros2: Callable[..., Any]) -> None:
     assert "\n    std_msgs/msg/String\n" in listing
     assert ros2("interface", "proto", "std_msgs/msg/Int8").stdout == '"data: 0\n"\n'
     assert "std_srvs/srv/Trigger" in ros2("interface", "package", "std_srvs").stdout
+    assert ros2("interface", "package", "std_srvs", "-m").stdout == ""
+    assert "std_msgs/msg/String" in ros2("interface", "package", "std_msgs", "-m").stdout
     assert ros2("interface", "show", "std_msgs/msg/Nothing").returncode == 1
+    twice = ros2("topic", "pub", "/t", "std_msgs/msg/String", "{data: a}", "--stdin", input="{data: b}")
+    assert (twice.returncode, "not both" in twice.stderr) == (1, True)
 
 
 def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) -> None:

@@ -7,10 +7,12 @@ from __future__ import annotations
 import re
 import subprocess
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rclpy.lifecycle import LifecycleNode
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -133,8 +135,61 @@ def test_parameters_are_listed_read_and_set(graph: Any, ros2: Command) -> None:
     described = ros2("param", "describe", "/tester", "speed").stdout
     assert "  Type: double\n  Description: speed [m/s]\n  Constraints:\n    Min value: 0.0\n" in described
     assert "    speed: 1.5\n" in ros2("param", "dump", "/tester").stdout
+    assert ros2("param", "list", "tester", "--filter", "^s.e+d$").stdout == "  speed\n"
+    assert ros2("param", "list", "tester", "--param-prefixes", "none").stdout == ""
     assert ros2("param", "get", "/tester", "nothing").stderr == "Parameter not set.\n"
     assert ros2("param", "get", "/nobody", "x").stderr == "Node not found\n"
+
+
+def test_parameters_are_loaded_from_a_file_and_deleted(graph: Any, ros2: Command, tmp_path: Path) -> None:
+    limits = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=2.0)])
+    graph.node.declare_parameter("speed", 1.0, limits)
+    graph.node.declare_parameter("grip.names", ["a", "b"])
+    graph.node.declare_parameter("loose", 1, ParameterDescriptor(dynamic_typing=True))
+    file = tmp_path / "parameters.yaml"
+    file.write_text(
+        "/**: {ros__parameters: {speed: 0.5}}\n"
+        "tester: {ros__parameters: {speed: 1.5, grip: {names: [c]}}}\n"
+        "/other: {ros__parameters: {speed: 0.1}}\n"
+    )
+    done = ros2("param", "load", "/tester", str(file))
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "Set parameter speed successful\nSet parameter grip.names successful\n"
+    assert graph.node.get_parameter("speed").value == 1.5
+    assert list(graph.node.get_parameter("grip.names").value) == ["c"]
+    file.write_text("/tester: {ros__parameters: {speed: 9.0}}\n")
+    refused = ros2("param", "load", "/tester", str(file))
+    assert (refused.returncode, refused.stderr.startswith("Set parameter speed failed: ")) == (1, True)
+    file.write_text("/other: {ros__parameters: {speed: 0.1}}\n")
+    assert "has no parameters for '/tester'" in ros2("param", "load", "/tester", str(file)).stderr
+    assert ros2("param", "delete", "/tester", "loose").stdout == "Deleted parameter successfully\n"
+    assert ros2("param", "get", "/tester", "loose").stderr == "Parameter not set.\n"
+    kept = ros2("param", "delete", "/tester", "speed")
+    assert (kept.returncode, kept.stderr.startswith("Deleting parameter failed: ")) == (1, True)
+
+
+def test_managed_nodes_are_taken_from_state_to_state(graph: Any, ros2: Command) -> None:
+    managed = LifecycleNode("managed", context=graph.context)
+    graph.executor.add_node(managed)
+    try:
+        assert ros2("lifecycle", "nodes").stdout == "/managed\n"
+        assert ros2("lifecycle", "get", "/managed").stdout == "unconfigured [1]\n"
+        listed = ros2("lifecycle", "list", "managed").stdout
+        assert listed.startswith("- configure [1]\n\tStart: unconfigured\n\tGoal: configuring\n")
+        assert "activate" not in listed
+        assert "\n- activate [3]\n" in ros2("lifecycle", "list", "managed", "-a").stdout
+        refused = ros2("lifecycle", "set", "managed", "activate")
+        assert (refused.returncode, refused.stdout) == (1, "")
+        assert refused.stderr.startswith(
+            "Unknown transition requested, available ones are:\n- configure [1]\n"
+        )
+        assert ros2("lifecycle", "set", "managed", "configure").stdout == "Transitioning successful\n"
+        assert ros2("lifecycle", "set", "managed", "3").returncode == 0
+        assert ros2("lifecycle", "get").stdout == "/managed: active [3]\n"
+        assert ros2("lifecycle", "get", "/tester").stderr == "Node '/tester' has no lifecycle\n"
+    finally:
+        graph.executor.remove_node(managed)
+        managed.destroy_node()
 
 
 def test_services_are_listed_and_called(graph: Any, ros2: Command) -> None:
@@ -152,6 +207,12 @@ def test_services_are_listed_and_called(graph: Any, ros2: Command) -> None:
         "requester: making request: std_srvs.srv.SetBool_Request(data=True)\n\n"
         "response:\nstd_srvs.srv.SetBool_Response(success=True, message='hecho')\n\n"
     )
+    assert ros2("service", "info", "/switch").stdout == (
+        "Type: std_srvs/srv/SetBool\nClients count: 0\nServices count: 1\n"
+    )
+    assert ros2("service", "info", "/nothing").stderr == "Unknown service '/nothing'\n"
+    piped = ros2("service", "call", "/switch", "std_srvs/srv/SetBool", "--stdin", input="data: true\n")
+    assert "success=True" in piped.stdout
     refused = ros2("service", "call", "/switch", "std_srvs/srv/SetBool", "{data: 7}")
     assert "field 'data' takes true or false" in refused.stderr
 

@@ -22,6 +22,7 @@ from scipy.optimize import least_squares
 from teo_common.arrays import Array
 from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits, mirrored_name
 from teo_description.robot import Robot
+from teo_signs.motion_hash import with_alternatives
 from teo_signs.sign import Sign
 from teo_signs.sign_file import LIMIT_TOLERANCE
 from teo_signs.sign_schema import Handedness
@@ -106,16 +107,16 @@ def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     place, turn = errors.tolist()
     figures = {"mirror_error_mm": round(1000.0 * place, 1), "mirror_error_deg": round(math.degrees(turn), 1)}
     notes = f"{sign.provenance.notes} Mirrored for a left-handed signer.".strip()
-    return replace(
+    mirrored = replace(
         sign,
         handedness=_OTHER_HAND[sign.handedness],
         joints=joints,
         knots=knots,
-        alternatives=tuple(alternatives),
         provenance=sign.provenance.model_copy(update={"notes": notes}),
         quality={**sign.quality, **figures} if turn else sign.quality,
         forms=forms,
     )
+    return with_alternatives(mirrored, tuple(alternatives))
 
 
 def _mirrored_knots(

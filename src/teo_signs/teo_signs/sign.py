@@ -47,6 +47,8 @@ class Sign:
             What `times` and `knots` hold is the citation form.
         alternatives: Other postures of the same sign that are read as well, for the planner to choose from:
             each as `knots`, at the same times. Read-only.
+        alternatives_of: `motion_hash.citation_hash` of the sign that they were made for; empty without. An
+            entry that changed since has the hash, or "unknown", and no alternatives.
     """
 
     gloss: str
@@ -60,6 +62,7 @@ class Sign:
     quality: Mapping[str, float]
     forms: Mapping[str, Form] = field(default_factory=lambda: MappingProxyType({}))
     alternatives: tuple[NDArray[np.float64], ...] = ()
+    alternatives_of: str = ""
 
     @property
     def duration(self) -> float:
@@ -104,5 +107,11 @@ def sign_warnings(sign: Sign) -> tuple[str, ...]:
         warnings.append(
             f"{sign.gloss}: provenance.review: expected a review of the motion as it is, got one of another "
             f"motion; the sign is {sign.provenance.standing} until it is reviewed again"
+        )
+    if sign.alternatives_of and not sign.alternatives:
+        warnings.append(
+            f"{sign.gloss}: alternatives_of: expected alternatives made for the motion as it is, got some "
+            f"made for {sign.alternatives_of[:12]}…; they are not used: make them anew (`lut ease "
+            f"{sign.gloss}`, letters `ease_letters`)"
         )
     return tuple(warnings)

@@ -18,7 +18,7 @@ from pydantic_core import ErrorDetails
 from teo_common.atomic_files import write_atomically
 from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_signs.errors import LutError
-from teo_signs.motion_hash import with_standing_in_force
+from teo_signs.motion_hash import with_alternatives_in_force, with_standing_in_force
 from teo_signs.sign import Form, Sign, gloss_key
 from teo_signs.sign_schema import SCHEMA_VERSION, FormFile, Provenance, SignFile
 
@@ -40,7 +40,7 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
 
     Returns:
         The sign, with read-only arrays. A review of another motion than the entry's leaves the standing
-        before it in force; `sign_warnings` says so.
+        before it in force, alternatives of another motion are left out; `sign_warnings` says so.
 
     Raises:
         LutError: The entry is not a good one; the message names file, field, expected and got.
@@ -62,8 +62,9 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         quality=MappingProxyType(dict(content.quality)),
         forms=MappingProxyType(forms),
         alternatives=tuple(_array(other) for other in content.alternatives),
+        alternatives_of=content.alternatives_of,
     )
-    return with_standing_in_force(sign)
+    return with_standing_in_force(with_alternatives_in_force(sign))
 
 
 def read_sign(path: Path) -> Sign:
@@ -104,6 +105,7 @@ def format_sign(sign: Sign) -> str:
     if sign.alternatives:
         others = [_json(_rounded_within(sign.joints, other).tolist()) for other in sign.alternatives]
         lines.append(_block("alternatives", "[]", others))
+        lines.append(f'  "alternatives_of": {_json(sign.alternatives_of)}')
     unasked = {"review"} if sign.provenance.review is None else set()
     provenance = sign.provenance.model_dump(exclude=unasked)
     for key, fields in (("provenance", provenance), ("quality", dict(sign.quality))):

@@ -168,6 +168,12 @@ class SignFile(BaseModel):
         description="Other postures of the same sign that are read as well, of which the planner takes the "
         "one with the shortest way: each as 'knots', at the same times.",
     )
+    alternatives_of: str = Field(
+        default="",
+        pattern=f"{_HASH}|^$",
+        description="SHA-256 of the joints, times and knots that 'alternatives' were made for, lower-case "
+        "hexadecimal: of another motion they are not used. Left out without alternatives.",
+    )
     provenance: Provenance
     quality: dict[str, FiniteFloat] = Field(
         description="Figures of how well the sign was captured: name with its unit as last word, value."

@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 
 from teo_description import COMMANDED_JOINTS, description_hash, joint_limits
 from teo_signs.errors import LutError
-from teo_signs.sign import Sign
+from teo_signs.motion_hash import with_alternatives
+from teo_signs.sign import Sign, sign_warnings
 from teo_signs.sign_file import MAX_FILE_BYTES, format_sign, parse_sign, read_sign, save_sign
 from teo_signs.sign_schema import Provenance, sign_json_schema
 
@@ -227,13 +228,38 @@ def test_a_saved_sign_is_in_the_table_whole_and_alone(tmp_path: Path) -> None:
     assert read_sign(path).pose(1) == {"FrontalRightElbow": -1.0, "RightIndexFinger": 0.2}
 
 
+def with_another_posture() -> Sign:
+    other = np.array([[-0.4, 0.3], [-0.9, 0.3]])
+    return with_alternatives(parse_sign(json.dumps(entry()), file="TÚ.json"), (other,))
+
+
 def test_alternatives_are_kept_and_an_entry_without_them_has_none(tmp_path: Path) -> None:
-    other = [[-0.4, 0.3], [-0.9, 0.3]]
-    sign = parse_sign(json.dumps(entry() | {"alternatives": [other]}), file="TÚ.json")
-    (kept,) = read_sign(save_sign(tmp_path, sign)).alternatives
-    np.testing.assert_array_equal(kept, other)
-    assert not kept.flags.writeable
+    kept = read_sign(save_sign(tmp_path, with_another_posture()))
+    np.testing.assert_array_equal(kept.alternatives[0], [[-0.4, 0.3], [-0.9, 0.3]])
+    assert not kept.alternatives[0].flags.writeable
+    assert sign_warnings(kept) == sign_warnings(parse_sign(json.dumps(entry()), file="TÚ.json"))
     assert parse_sign(json.dumps(entry()), file="TÚ.json").alternatives == ()
+
+
+@pytest.mark.parametrize(
+    ("field", "changed"),
+    [
+        ("knots", [[-0.5, 0.2], [-1.0, 0.200001]]),
+        ("times", [0.0, 0.9]),
+        ("joints", ["FrontalRightElbow", "RightMiddleFinger"]),
+        ("alternatives_of", "0" * 64),
+        ("alternatives_of", ""),
+    ],
+)
+def test_alternatives_of_a_sign_that_changed_since_are_not_used_and_named(
+    field: str, changed: object
+) -> None:
+    content = json.loads(format_sign(with_another_posture()))
+    assert content[field] != changed
+    sign = parse_sign(json.dumps(content | {field: changed}), file="TÚ.json")
+    assert sign.alternatives == ()
+    (named,) = [warning for warning in sign_warnings(sign) if "alternatives_of" in warning]
+    assert "lut ease TÚ" in named
 
 
 def test_an_entry_is_not_replaced_unless_told(tmp_path: Path) -> None:

@@ -11,8 +11,10 @@ from itertools import pairwise
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_description.hand_geometry import DextraTable
 from teo_motion.collision.detour import detours, with_detour
 from teo_motion.collision.motion_clearance import MotionClearance
+from teo_motion.collision.thumb_way import with_clear_thumbs
 from teo_motion.sentence.composition import ARMS, Composition
 from teo_motion.sentence.idle_limb_policy import settle_idle_limbs
 from teo_motion.sentence.plan import Plan, sample_at
@@ -49,6 +51,7 @@ class CollisionAvoidance:
         self,
         timing: SentenceTiming,
         motion_clearance: MotionClearance | None,
+        thumbs: DextraTable | None,
         *,
         limits: MotionLimits,
         least_clearance: float,
@@ -59,12 +62,14 @@ class CollisionAvoidance:
         Args:
             timing: Times the waypoints of a route.
             motion_clearance: Distances between parts of the robot; None looks at none.
+            thumbs: Where thumb and fingers of a hand are; None does not look at them.
             limits: Limits of the joints, which detours keep.
             least_clearance: Distance that parts of the robot keep [m].
             arm_rest: Least time at rest for which an idle arm goes there and back [s].
         """
         self._timing = timing
         self._motion_clearance = motion_clearance
+        self._thumbs = thumbs
         self._limits = limits
         self._least_clearance = least_clearance
         self._arm_rest = arm_rest
@@ -81,6 +86,8 @@ class CollisionAvoidance:
             route = settle_idle_limbs(
                 composition, times=times, limits=self._limits, arm_rest=self._arm_rest, cleared=cleared
             )
+            if self._thumbs is not None:
+                route = with_clear_thumbs(route, self._thumbs, self._limits)
             try:
                 return self._led_around(self._timed(route))
             except _CollisionError as collision:

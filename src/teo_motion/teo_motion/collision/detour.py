@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterator
 
 import numpy as np
@@ -107,18 +106,4 @@ def with_detour(route: Route, step: int, posture: Array) -> Route:
     row = np.full(len(posture), np.nan)
     columns = [column for arm in ARMS for column in LIMBS[arm]]
     row[columns] = posture[columns]
-    half = route.nominal[step] / 2.0
-    return Route(
-        targets=np.insert(route.targets, step + 1, row, axis=0),
-        nominal=np.insert(
-            np.concatenate((route.nominal[:step], [half], route.nominal[step + 1 :])), step, half
-        ),
-        strokes=np.insert(route.strokes, step, route.strokes[step]),
-        start=route.start,
-        spans=tuple(
-            dataclasses.replace(
-                span, first=span.first + (span.first > step), last=span.last + (span.last > step)
-            )
-            for span in route.spans
-        ),
-    )
+    return route.with_waypoint(step, row)

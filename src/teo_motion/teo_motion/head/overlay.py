@@ -202,7 +202,8 @@ class _KeptTimes:
             times: For each joint, from and to [s], in order.
             fixed: Times in which neither joint is changed at all, not even by a lean.
         """
-        self._duration = plan.duration
+        # The plan's points end at rest only where its motion stands still for the last period.
+        self._duration = plan.duration - float(plan.times[-1] - plan.times[-2])
         self._tokens = [(timing.start, timing.start + timing.duration) for timing in plan.timings]
         self.times: tuple[list[Times], ...] = tuple([] for _ in HEAD)
         self.fixed: set[Times] = set()

@@ -47,7 +47,7 @@ LIMBS = tuple(
     tuple(_INDEX[name] for name in limb) for limb in (HEAD, TRUNK, LEFT_ARM, RIGHT_ARM, LEFT_HAND, RIGHT_HAND)
 )
 
-ARMS = (2, 3)
+ARMS, HANDS = (2, 3), (4, 5)
 _ARM_OF_HAND = {4: 2, 5: 3}
 _ELBOW = {2: _INDEX["FrontalLeftElbow"], 3: _INDEX["FrontalRightElbow"]}
 

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,29 @@ class Route:
             if span.first <= step < span.last:
                 return index
         return None
+
+    def with_waypoint(self, step: int, row: Array) -> Route:
+        """Pass through another waypoint half way between two others.
+
+        Args:
+            step: The waypoint before it.
+            row: Positions to pass through [rad], NaN where a joint goes on freely. Shape (28,).
+        """
+        half = self.nominal[step] / 2.0
+        return dataclasses.replace(
+            self,
+            targets=np.insert(self.targets, step + 1, row, axis=0),
+            nominal=np.insert(
+                np.concatenate((self.nominal[:step], [half], self.nominal[step + 1 :])), step, half
+            ),
+            strokes=np.insert(self.strokes, step, self.strokes[step]),
+            spans=tuple(
+                dataclasses.replace(
+                    span, first=span.first + (span.first > step), last=span.last + (span.last > step)
+                )
+                for span in self.spans
+            ),
+        )
 
     def name_at(self, waypoint: int) -> str:
         """What the robot does at a waypoint, for people."""

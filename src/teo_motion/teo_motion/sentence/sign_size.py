@@ -34,8 +34,8 @@ _COLUMN = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
 _ARMS_AND_TRUNK = frozenset((*TRUNK, *LEFT_ARM, *RIGHT_ARM))
 _HANDS = frozenset((*LEFT_HAND, *RIGHT_HAND))
 
-# Parts nearer than this touch, or are meant to [m]: three in four of the table's words come that near, since
-# those that touch stand off by up to 22 mm: the shapes that must not overlap are larger than the parts.
+# A hand and what is nearer to it than this touch, or are meant to [m]: those that touch stand off by up to 22
+# mm, as the shapes that must not overlap are larger than the parts.
 _CONTACT = 0.025
 
 # Parts whose fingers flow stay so far apart [m]: as near as entries come, less what a motion swings out.
@@ -112,11 +112,18 @@ class SignSize:
         return dataclasses.replace(item, sign=sign)
 
     def _smaller(self, sign: Sign, palms: Array, centre: Array, scale: float) -> Sign:
-        """The largest size that fits, or the smallest that is taken for the same sign as those palms show."""
-        found = sign
+        """The largest size that fits, or the smallest that is taken for the same sign as those palms show.
+
+        Where palms may not differ any more, fingers still come down.
+        """
+        found, arms = sign, 1.0
         for size in self._sizes:
-            smaller = _drawn_together(sign, centre, size)
-            if not _look_the_same(palms, self._palms(smaller)) or self._touches(smaller, 0.0).any():
+            smaller = _drawn_together(sign, centre, arms=size, hands=size)
+            if _look_the_same(palms, self._palms(smaller)):
+                arms = size
+            else:
+                smaller = _drawn_together(sign, centre, arms=arms, hands=size)
+            if self._touches(smaller, 0.0).any():
                 break
             found = smaller
             if self._fits(found, scale):
@@ -148,22 +155,23 @@ class SignSize:
         """
         touching = self._touching.get(captured)
         if touching is None:
-            touching = self._touching.setdefault(captured, self._touches(captured, _CONTACT))
+            touching = self._touching.setdefault(captured, self._touches(captured, _CONTACT, meant=True))
         if not touching.any():
             middle: Array = (sign.knots.min(axis=0) + sign.knots.max(axis=0)) / 2.0
             return middle
         contacts = sign.knots[touching]
         return contacts[0] if np.abs(contacts - contacts[0]).max() < _SAME else None
 
-    def _touches(self, sign: Sign, distance: float) -> NDArray[np.bool_]:
-        """Which knots bring parts of the robot nearer than a distance [m]. Shape (n,)."""
+    def _touches(self, sign: Sign, distance: float, *, meant: bool = False) -> NDArray[np.bool_]:
+        """Which knots bring parts nearer than a distance [m]: any, or such as may be meant to. Shape (n,)."""
         touching = np.zeros(len(sign.knots), dtype=bool)
         for index, knot in enumerate(sign.knots):
             if index and (knot == sign.knots[index - 1]).all():
                 touching[index] = touching[index - 1]
             else:
                 q = self._robot.configuration(sign.pose(index))
-                touching[index] = bool(self._robot.contacts(q, distance))
+                near = self._robot.contacts(q, distance)
+                touching[index] = any(not meant or item.may_be_meant for item in near)
         return touching
 
 
@@ -175,14 +183,15 @@ def _look_the_same(first: Array, second: Array) -> bool:
     return bool((shifts <= _SHIFT).all() and (traces >= 1.0 + 2.0 * np.cos(_TURN)).all())
 
 
-def _drawn_together(sign: Sign, centre: Array, size: float) -> Sign:
-    knots = sign.knots.copy()
-    columns = [
-        index
-        for index, name in enumerate(sign.joints)
-        if name in _ARMS_AND_TRUNK or (name in _HANDS and len(_returns(knots[:, [index]], 0)) > 1)
-    ]
-    knots[:, columns] = centre[columns] + size * (knots[:, columns] - centre[columns])
+def _drawn_together(sign: Sign, centre: Array, *, arms: float, hands: float) -> Sign:
+    """A sign whose arms, with the trunk, and fingers that come back are of some size [1]."""
+    knots, sizes = sign.knots, np.ones(len(sign.joints))
+    for index, name in enumerate(sign.joints):
+        if name in _ARMS_AND_TRUNK:
+            sizes[index] = arms
+        elif name in _HANDS and len(_returns(knots[:, [index]], 0)) > 1:
+            sizes[index] = hands
+    knots = knots + (1.0 - sizes) * (centre - knots)
     return _with_knots(sign, knots, sign.times)
 
 

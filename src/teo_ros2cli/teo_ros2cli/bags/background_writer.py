@@ -63,7 +63,7 @@ class BackgroundWriter:
             ) from self._failure
 
     def add_topic(self, topic: TopicRecord, schema: Schema) -> None:
-        """Make a topic known before its first message."""
+        """Make a topic known before its first message, or tell its profiles anew."""
         self._queue.put(_NewTopic(topic, schema))
 
     def write(self, arrival: Arrival) -> bool:

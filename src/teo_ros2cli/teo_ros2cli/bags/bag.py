@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.mcap_salvage import McapContent, StoredMessage
-from teo_ros2cli.bags.mcap_file import FileReport, messages_of, scan, summary_report
+from teo_ros2cli.bags.mcap_file import FileReport, messages_of, scan, stored_schema, summary_report
 from teo_ros2cli.bags.metadata import (
     FILE_NAME,
     NO_START,
@@ -22,6 +22,7 @@ from teo_ros2cli.bags.metadata import (
     parse_offered_qos,
     read_metadata,
 )
+from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
 
 
@@ -45,6 +46,11 @@ class Bag:
     def size(self) -> int:
         """Size of all files of the bag [bytes]."""
         return sum(file.stat().st_size for file in self.files if file.is_file())
+
+    def schemas(self) -> dict[str, Schema]:
+        """Return the definitions of types that the files hold, by the types' names."""
+        reports = (summary_report(file) or scan(file) for file in self.files)
+        return {s.name: stored_schema(s) for report in reports for s in report.schemas.values()}
 
     def messages(
         self,

@@ -10,9 +10,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mcap.reader import make_reader
+from mcap.records import Schema as McapSchema
 
 from teo_common.mcap_salvage import DAMAGE, McapContent, NotMcapError, StoredMessage, salvage
 from teo_ros2cli.bags.metadata import NO_START
+from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
 
 
@@ -34,6 +36,11 @@ class FileReport(McapContent):
     def messages(self) -> int:
         """Number of messages of all topics."""
         return sum(self.counts.values())
+
+
+def stored_schema(schema: McapSchema) -> Schema:
+    """Return a type's definition as a file holds it; bytes that are no UTF-8 are replaced."""
+    return Schema(schema.name, schema.encoding, schema.data.decode(errors="replace"))
 
 
 def summary_report(path: Path) -> FileReport | None:

@@ -30,7 +30,7 @@ class TopicRecord:
         name: Full topic name.
         type: Type name, such as `std_msgs/msg/String`.
         type_hash: Type description hash, `RIHS01_...`, or empty where it was not known.
-        offered_qos: Profiles of the publishers there were when recording of the topic began.
+        offered_qos: Profiles of its publishers: of all that were there at once when they were most.
         serialization_format: Encoding of the messages.
     """
 

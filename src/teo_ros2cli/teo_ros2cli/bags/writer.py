@@ -4,53 +4,14 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
 
-from mcap.writer import CompressionType, IndexType, Writer
-
-from teo_ros2cli.bags.metadata import (
-    NO_START,
-    BagMetadata,
-    FileRecord,
-    TopicRecord,
-    block_text,
-    offered_qos_text,
-    write_metadata,
-)
+from teo_ros2cli.bags.file_writer import DEFAULT_PRESET, PRESETS, BagFileWriter, Span
+from teo_ros2cli.bags.metadata import BagMetadata, FileRecord, TopicRecord, block_text, write_metadata
 from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
-
-PROFILE = "ros2"
-LIBRARY = "teo_ros2cli"
-
-
-class Preset(NamedTuple):
-    """How an MCAP file is laid out.
-
-    Args:
-        chunk_size: Size at which a chunk is closed [bytes, uncompressed]; 0 writes messages without chunks.
-        compression: Compression of chunks.
-        checksums: Store a CRC of each chunk.
-    """
-
-    chunk_size: int
-    compression: CompressionType
-    checksums: bool = True
-
-
-PRESETS: Mapping[str, Preset] = {
-    # 1 MiB is MCAP's own default; the player reads a chunk ahead, so that the timing is not disturbed.
-    "none": Preset(1024 * 1024, CompressionType.NONE),
-    "fastwrite": Preset(0, CompressionType.NONE, checksums=False),
-    # The default. A crash loses the open chunk: a quarter of the usual size, and closed every second besides.
-    "zstd_fast": Preset(256 * 1024, CompressionType.ZSTD),
-    "zstd_small": Preset(4 * 1024 * 1024, CompressionType.ZSTD),
-}
-DEFAULT_PRESET = "zstd_fast"
 
 
 @dataclass
@@ -58,34 +19,6 @@ class _Channel:
     topic: TopicRecord
     schema: Schema
     messages: int = 0
-    channel_id: int = 0  # in the open file
-
-
-@dataclass
-class _Span:
-    """First and last time [ns] of some messages, and their number."""
-
-    start: int = NO_START
-    end: int = 0
-    messages: int = 0
-
-    def add(self, time: int) -> None:
-        self.start = min(self.start, time)
-        self.end = max(self.end, time)
-        self.messages += 1
-
-    @property
-    def duration(self) -> int:
-        return self.end - self.start if self.messages else 0
-
-
-@dataclass
-class _File:
-    path: Path
-    stream: io.BufferedWriter
-    writer: Writer
-    span: _Span = field(default_factory=_Span)
-    schema_ids: dict[str, int] = field(default_factory=dict)
 
 
 class BagWriter:
@@ -123,7 +56,7 @@ class BagWriter:
         self._custom_data = dict(custom_data or {})
         self._ros_distro = ros_distro
         self._channels: dict[str, _Channel] = {}
-        self._span = _Span()
+        self._span = Span()
         self._finished: list[FileRecord] = []
         self.directory = directory
         try:
@@ -137,11 +70,13 @@ class BagWriter:
         self._file = self._open_file()
 
     def add_topic(self, topic: TopicRecord, schema: Schema) -> None:
-        """Make a topic known, with or without messages to follow. A known one stays as it is."""
-        if topic.name not in self._channels:
-            channel = _Channel(topic, schema)
-            self._channels[topic.name] = channel
-            self._register(channel)
+        """Make a topic known, with or without messages to follow; of a known one only the profiles change.
+
+        A file's channel tells what is known when the topic's first message comes to that file, and the
+        metadata what is known at the end.
+        """
+        known = self._channels.setdefault(topic.name, _Channel(topic, schema))
+        known.topic = replace(known.topic, offered_qos=topic.offered_qos)
 
     def write(self, topic: str, log_time: int, publish_time: int, data: bytes, sequence: int = 0) -> None:
         """Append one message.
@@ -157,22 +92,14 @@ class BagWriter:
         if self._must_split(log_time):
             self._close_file()
             self._file = self._open_file()
-            for known in self._channels.values():
-                self._register(known)
-        self._file.writer.add_message(
-            channel_id=channel.channel_id,
-            log_time=log_time,
-            publish_time=publish_time,
-            sequence=sequence if 0 <= sequence < 2**32 else 0,
-            data=data,
-        )
+        identifier = self._file.add_topic(channel.topic, channel.schema)
+        self._file.write(identifier, log_time, publish_time, data, sequence)
         channel.messages += 1
-        self._file.span.add(log_time)
         self._span.add(log_time)
 
     def flush(self) -> None:
         """Close the open chunk and hand all that was written to the operating system."""
-        self._file.writer.flush()  # type: ignore[no-untyped-call]
+        self._file.flush()
 
     def close(self) -> BagMetadata:
         """Finish the file and write the metadata."""
@@ -187,50 +114,17 @@ class BagWriter:
             return False
         if self._max_duration and time - span.start >= self._max_duration:
             return True
-        return bool(self._max_size) and self._file.stream.tell() >= self._max_size
+        return bool(self._max_size) and self._file.size >= self._max_size
 
-    def _open_file(self) -> _File:
+    def _open_file(self) -> BagFileWriter:
         path = self.directory / f"{self.directory.name}_{len(self._finished)}.mcap"
-        stream = path.open("xb")
-        writer = Writer(
-            stream,
-            chunk_size=self._preset.chunk_size,
-            compression=self._preset.compression,
-            use_chunking=self._preset.chunk_size > 0,
-            index_types=IndexType.ALL,
-            enable_crcs=self._preset.checksums,
-        )
-        writer.start(profile=PROFILE, library=LIBRARY)
-        writer.add_metadata("rosbag2", {"ROS_DISTRO": self._ros_distro})
-        writer.flush()  # type: ignore[no-untyped-call]
-        return _File(path, stream, writer)
-
-    def _register(self, channel: _Channel) -> None:
-        ids = self._file.schema_ids
-        schema = channel.schema
-        if schema.name not in ids:
-            ids[schema.name] = self._file.writer.register_schema(
-                schema.name, schema.encoding, schema.text.encode()
-            )
-        channel.channel_id = self._file.writer.register_channel(
-            topic=channel.topic.name,
-            message_encoding=channel.topic.serialization_format,
-            schema_id=ids[schema.name],
-            metadata={
-                "offered_qos_profiles": offered_qos_text(channel.topic.offered_qos),
-                "topic_type_hash": channel.topic.type_hash,
-            },
-        )
+        return BagFileWriter(path, self._preset, self._ros_distro)
 
     def _close_file(self) -> None:
-        file = self._file
-        self._finished.append(
-            FileRecord(file.path.name, file.span.start, file.span.duration, file.span.messages)
-        )
-        # rosbag2 keeps its metadata in the file as well, so that a lone file tells all.
-        file.writer.add_metadata("rosbag2", {"serialized_metadata": block_text(self._metadata().to_tree())})
-        file.writer.finish()  # type: ignore[no-untyped-call]
-        file.stream.close()
+        for channel in self._channels.values():  # topics without messages as well
+            self._file.add_topic(channel.topic, channel.schema)
+        self._finished.append(self._file.record)
+        self._file.close(block_text(self._metadata().to_tree()))
 
     def _metadata(self) -> BagMetadata:
         return BagMetadata(

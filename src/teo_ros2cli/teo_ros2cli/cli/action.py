@@ -17,7 +17,7 @@ from teo_ros2cli.cli.graph_view import (
     print_names,
     print_types,
 )
-from teo_ros2cli.cli.options import add_graph_arguments, full_name
+from teo_ros2cli.cli.options import add_graph_arguments, add_values_argument, full_name, given_values
 from teo_ros2cli.errors import Ros2CliError
 
 VERBS = {
@@ -112,7 +112,7 @@ def add_send_goal_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "action_type", help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')"
     )
-    parser.add_argument("goal", help="Goal request values in YAML format (e.g. '{order: 10}')")
+    add_values_argument(parser, "goal", "Goal request values in YAML format (e.g. '{order: 10}')")
     parser.add_argument("-f", "--feedback", action="store_true", help="Echo feedback messages for the goal")
 
 
@@ -127,7 +127,7 @@ def run_send_goal(options: argparse.Namespace) -> int:
 
     cls = interface_class(options.action_type, "action")
     goal = cls.Goal()
-    fill_from_text(goal, options.goal)
+    fill_from_text(goal, given_values(options, "goal"))
 
     from rclpy.action import ActionClient
 

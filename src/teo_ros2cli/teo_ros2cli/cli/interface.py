@@ -45,13 +45,14 @@ def run_list(options: argparse.Namespace) -> int:
 
 def add_package_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `package`."""
+    add_list_arguments(parser)
     parser.add_argument("package_name", help="Name of the ROS package (e.g. 'std_msgs')")
 
 
 def run_package(options: argparse.Namespace) -> int:
     """Print the names of a package's interfaces."""
     package_prefix(options.package_name)
-    for kind in _TITLES:
+    for kind in [options.only] if options.only else _TITLES:
         for name in interfaces(kind).get(options.package_name, []):
             print(f"{options.package_name}/{kind}/{name}")
     return 0

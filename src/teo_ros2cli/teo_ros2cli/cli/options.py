@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import sys
 from typing import Any
 
 from teo_ros2cli.errors import Ros2CliError
@@ -74,6 +75,24 @@ def positive_int(text: str) -> int:
     if value == 0:
         raise argparse.ArgumentTypeError("value must be above 0, got 0")
     return value
+
+
+def add_values_argument(parser: argparse.ArgumentParser, name: str, help_text: str) -> None:
+    """Add an argument for values in YAML, and `--stdin`; `given_values` reads them."""
+    parser.add_argument(name, nargs="?", default="", help=help_text)
+    parser.add_argument("--stdin", action="store_true", help="Read values from standard input")
+
+
+def given_values(options: argparse.Namespace, name: str) -> str:
+    """Return the values in YAML that were typed or come on the standard input; none are `{}`.
+
+    Raises:
+        Ros2CliError: `values_twice`.
+    """
+    typed = str(getattr(options, name))
+    if options.stdin and typed:
+        raise Ros2CliError("values_twice", f"Values come by --stdin or as `{name}`, not both: got {typed!r}")
+    return (sys.stdin.read() if options.stdin else typed) or "{}"
 
 
 def key_value(text: str) -> tuple[str, str]:

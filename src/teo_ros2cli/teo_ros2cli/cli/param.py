@@ -6,43 +6,41 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
 from teo_ros2cli.cli.dispatch import Entry
 from teo_ros2cli.cli.graph_view import known_graph, node_names
-from teo_ros2cli.cli.options import add_graph_arguments, full_name
+from teo_ros2cli.cli.options import add_graph_arguments, full_name, pattern, positive_float
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.messages.parameters import TYPES, WILDCARD, descriptor_text, plain_value, read_parameter_file
 
 VERBS = {
+    "delete": Entry(__name__, "Delete parameter", "delete"),
     "describe": Entry(__name__, "Show descriptive information about declared parameters", "describe"),
     "dump": Entry(__name__, "Show all of the parameters of a node in a YAML file format", "dump"),
     "get": Entry(__name__, "Get parameter", "get"),
     "list": Entry(__name__, "Output a list of available parameters", "list"),
+    "load": Entry(__name__, "Load parameter file for a node", "load"),
     "set": Entry(__name__, "Set parameter", "set"),
 }
-# Time that a node gets to answer [s].
+# Time that a node gets to answer unless another is given [s].
 _TIMEOUT = 5.0
-
-# By the number in rcl_interfaces/msg/ParameterType: how the value is announced, its field, its type's name.
-_TYPES = {
-    1: ("Boolean value is:", "bool_value", "boolean"),
-    2: ("Integer value is:", "integer_value", "integer"),
-    3: ("Double value is:", "double_value", "double"),
-    4: ("String value is:", "string_value", "string"),
-    5: ("Byte values are:", "byte_array_value", "byte array"),
-    6: ("Boolean values are:", "bool_array_value", "boolean array"),
-    7: ("Integer values are:", "integer_array_value", "integer array"),
-    8: ("Double values are:", "double_array_value", "double array"),
-    9: ("String values are:", "string_array_value", "string array"),
-}
 
 
 def _add_common(parser: argparse.ArgumentParser) -> None:
     add_graph_arguments(parser)
     parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+    parser.add_argument(
+        "--timeout",
+        type=positive_float,
+        default=_TIMEOUT,
+        metavar="N",
+        help=f"Wait for N seconds until service becomes available (default: {_TIMEOUT:g})",
+    )
 
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -52,10 +50,21 @@ def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--param-type", action="store_true", help="Print parameter types with parameter names"
     )
+    parser.add_argument(
+        "--param-prefixes", nargs="+", default=[], help="Only list parameters with the provided prefixes"
+    )
+    parser.add_argument(
+        "--filter", default="", help="Only list parameters whose name contains the regular expression"
+    )
 
 
 def run_list(options: argparse.Namespace) -> int:
-    """Print the parameters of one node or of all."""
+    """Print the parameters of one node or of all.
+
+    Raises:
+        Ros2CliError: `invalid_regex`, `node_unknown`.
+    """
+    wanted = pattern(options.filter)
     with _parameters(options) as parameters:
         nodes = (
             [full_name(options.node_name)]
@@ -64,7 +73,9 @@ def run_list(options: argparse.Namespace) -> int:
         )
         for node in nodes:
             try:
-                names = parameters.names(node)
+                names = parameters.names(node, options.param_prefixes)
+                if wanted is not None:
+                    names = [name for name in names if wanted.search(name)]
                 types = parameters.types(node, names) if options.param_type else []
             except Ros2CliError as error:
                 if options.node_name:
@@ -94,9 +105,9 @@ def run_get(options: argparse.Namespace) -> int:
     """
     with _parameters(options) as parameters:
         value = parameters.get(full_name(options.node_name), [options.parameter_name])[0]
-    if value.type not in _TYPES:
+    if value.type not in TYPES:
         raise Ros2CliError("parameter_unset", "Parameter not set.")
-    label = _TYPES[value.type][0]
+    label = TYPES[value.type][0]
     print(plain_value(value) if options.hide_type else f"{label} {plain_value(value)}")
     return 0
 
@@ -130,6 +141,67 @@ def run_set(options: argparse.Namespace) -> int:
         raise Ros2CliError("set_refused", f"Setting parameter failed{reason}")
     print(f"Set parameter successful{reason}")
     return 0
+
+
+def add_delete_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `delete`."""
+    _add_common(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument("parameter_name", help="Name of the parameter")
+
+
+def run_delete(options: argparse.Namespace) -> int:
+    """Take a parameter's value away, where the node lets it go.
+
+    Raises:
+        Ros2CliError: `node_unknown`, `delete_refused`.
+    """
+    from rcl_interfaces.msg import ParameterValue
+
+    with _parameters(options) as parameters:
+        result = parameters.set(full_name(options.node_name), options.parameter_name, ParameterValue())
+    reason = f": {result.reason}" if result.reason else ""
+    if not result.successful:
+        raise Ros2CliError("delete_refused", f"Deleting parameter failed{reason}")
+    print(f"Deleted parameter successfully{reason}")
+    return 0
+
+
+def add_load_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `load`."""
+    _add_common(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument("parameter_file", type=Path, help="Parameter file")
+    parser.add_argument(
+        "--no-use-wildcard",
+        action="store_true",
+        help=f"Do not load parameters in the '{WILDCARD}' namespace into the node",
+    )
+
+
+def run_load(options: argparse.Namespace) -> int:
+    """Set the parameters that a file has for a node, and say of each whether it was taken.
+
+    Exit status 1 if one of them was refused.
+
+    Raises:
+        Ros2CliError: `parameter_file_invalid`, `node_unknown`.
+    """
+    from rclpy.parameter import get_parameter_value
+
+    node = full_name(options.node_name)
+    names = (node,) if options.no_use_wildcard else (WILDCARD, node)
+    values = read_parameter_file(options.parameter_file, names)
+    refused = False
+    with _parameters(options) as parameters:
+        for name, value in values.items():
+            result = parameters.set(node, name, get_parameter_value(value))
+            refused = refused or not result.successful
+            outcome = "successful" if result.successful else "failed"
+            reason = f": {result.reason}" if result.reason else ""
+            stream = sys.stdout if result.successful else sys.stderr
+            print(f"Set parameter {name} {outcome}{reason}", file=stream)
+    return int(refused)
 
 
 def add_describe_arguments(parser: argparse.ArgumentParser) -> None:
@@ -168,61 +240,34 @@ def run_dump(options: argparse.Namespace) -> int:
         branch = tree
         for group in groups:
             branch = branch.setdefault(group, {})
-        if value.type in _TYPES:
+        if value.type in TYPES:
             branch[last] = plain_value(value)
     print(dump({node: {"ros__parameters": tree}}), end="")
     return 0
 
 
-def plain_value(value: Any) -> Any:
-    """Return the value of an rcl_interfaces/msg/ParameterValue as plain Python."""
-    plain = getattr(value, _TYPES[value.type][1])
-    if value.type == 5:
-        return [byte[0] for byte in plain]
-    return list(plain) if value.type > 4 else plain
-
-
-def descriptor_text(descriptor: Any) -> str:
-    """Return an rcl_interfaces/msg/ParameterDescriptor as text for people."""
-    kind = _TYPES[descriptor.type][2] if descriptor.type in _TYPES else "not set"
-    lines = [f"Parameter name: {descriptor.name}", f"  Type: {kind}"]
-    if descriptor.description:
-        lines.append(f"  Description: {descriptor.description}")
-    constraints = []
-    if descriptor.read_only:
-        constraints.append("Read only: true")
-    for limits in (*descriptor.integer_range, *descriptor.floating_point_range):
-        constraints += [f"Min value: {limits.from_value}", f"Max value: {limits.to_value}"]
-        if limits.step:
-            constraints.append(f"Step: {limits.step}")
-    if descriptor.additional_constraints:
-        constraints.append(f"Additional constraints: {descriptor.additional_constraints}")
-    lines.append("  Constraints:")
-    lines += [f"    {constraint}" for constraint in constraints]
-    return "\n".join(lines)
-
-
 @contextmanager
 def _parameters(options: argparse.Namespace) -> Iterator[_Parameters]:
     with known_graph(options, names=True) as node:
-        yield _Parameters(node)
+        yield _Parameters(node, options.timeout)
 
 
 class _Parameters:
     """Asks the parameter services of nodes."""
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: Any, timeout: float) -> None:
         self._node = node
+        self._timeout = timeout
 
     def nodes(self, *, hidden: bool) -> list[str]:
         return sorted(name for name in set(node_names(self._node)) if hidden or not is_hidden(name))
 
-    def names(self, node: str) -> list[str]:
-        return sorted(self._call(node, "list_parameters").result.names)
+    def names(self, node: str, prefixes: Sequence[str] = ()) -> list[str]:
+        return sorted(self._call(node, "list_parameters", prefixes=list(prefixes)).result.names)
 
     def types(self, node: str, names: list[str]) -> list[str]:
         numbers = self._call(node, "get_parameter_types", names=names).types
-        return [_TYPES[number][2] if number in _TYPES else "not set" for number in numbers]
+        return [TYPES[number][2] if number in TYPES else "not set" for number in numbers]
 
     def get(self, node: str, names: list[str]) -> list[Any]:
         values = list(self._call(node, "get_parameters", names=names).values)
@@ -251,4 +296,4 @@ class _Parameters:
         if node not in node_names(self._node):
             raise Ros2CliError("node_unknown", "Node not found")
         cls = getattr(srv, service.title().replace("_", ""))
-        return call(self._node, cls, f"{node}/{service}", cls.Request(**request), timeout=_TIMEOUT)
+        return call(self._node, cls, f"{node}/{service}", cls.Request(**request), timeout=self._timeout)

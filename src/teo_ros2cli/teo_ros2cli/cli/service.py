@@ -16,12 +16,20 @@ from teo_ros2cli.cli.graph_view import (
     print_names,
     print_types,
 )
-from teo_ros2cli.cli.options import add_graph_arguments, positive_float
+from teo_ros2cli.cli.options import (
+    add_graph_arguments,
+    add_values_argument,
+    full_name,
+    given_values,
+    positive_float,
+)
+from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import InterfaceName
 
 VERBS = {
     "call": Entry(__name__, "Call a service", "call"),
     "find": Entry(__name__, "Output a list of available services of a given type", "find"),
+    "info": Entry(__name__, "Print information about a service", "info"),
     "list": Entry(__name__, "Output a list of available services", "list"),
     "type": Entry(__name__, "Output a service's type", "type"),
 }
@@ -63,15 +71,39 @@ def run_find(options: argparse.Namespace) -> int:
     return print_names(options, [entry for entry in services if wanted in entry[1]])
 
 
+def add_info_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `info`."""
+    add_graph_arguments(parser)
+    parser.add_argument(
+        "service_name", help="Name of the ROS service to get info (e.g. '/talker/list_parameters')"
+    )
+
+
+def run_info(options: argparse.Namespace) -> int:
+    """Print a service's type, and how many nodes call and serve it.
+
+    Raises:
+        Ros2CliError: `service_unknown`.
+    """
+    service = full_name(options.service_name)
+    with known_graph(options) as node:
+        types = dict(node.get_service_names_and_types()).get(service)
+        if not types:
+            raise Ros2CliError("service_unknown", f"Unknown service '{options.service_name}'")
+        print(f"Type: {', '.join(types)}")
+        print(f"Clients count: {node.count_clients(service)}")
+        print(f"Services count: {node.count_services(service)}")
+    return 0
+
+
 def add_call_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `call`."""
     parser.add_argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')")
     parser.add_argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
-    parser.add_argument(
+    add_values_argument(
+        parser,
         "values",
-        nargs="?",
-        default="{}",
-        help='Values to fill the service request with in YAML format (e.g. "{a: 1, b: 2}"), otherwise the '
+        'Values to fill the service request with in YAML format (e.g. "{a: 1, b: 2}"), otherwise the '
         "service request will be published with default values",
     )
     parser.add_argument(
@@ -90,7 +122,7 @@ def run_call(options: argparse.Namespace) -> int:
 
     cls = interface_class(options.service_type, "srv")
     request = cls.Request()
-    stamps = fill_from_text(request, options.values, automatic_stamps=True)
+    stamps = fill_from_text(request, given_values(options, "values"), automatic_stamps=True)
 
     from teo_ros2cli.graph.calls import wait_for
     from teo_ros2cli.graph.cli_node import cli_node

@@ -37,6 +37,11 @@ class AdaptiveSubscription:
         raw: Pass messages on as they came from the wire.
         warn: Called with a sentence for each thing that cannot be had.
         lost: Called with the number of messages that the middleware says were lost; None if nobody cares.
+
+    Attributes:
+        offers: What the publishers offer that were there when they were most. A publisher that has left
+            since, as they do one by one when a graph ends, is still among them.
+        request: The profile that is asked for now.
     """
 
     def __init__(
@@ -60,11 +65,11 @@ class AdaptiveSubscription:
         self._warn = warn
         self._lost = lost
         self._told = False
-        self.first_offers = self._offers()
+        self.offers = self._offers()
         # Without publishers there is nothing to fit yet; a latched subscription may bring a message again.
-        self._blind = not self.first_offers
+        self._blind = not self.offers
         self._repetitions = _Repetitions() if self._blind else None
-        self.request = fixed if fixed is not None else self._fitting(self.first_offers)
+        self.request = fixed if fixed is not None else self._fitting(self.offers)
         self._subscription = self._subscribe()
 
     def adapt(self) -> None:
@@ -72,6 +77,8 @@ class AdaptiveSubscription:
         offers = self._offers()
         if not offers:
             return
+        if len(offers) >= len(self.offers) and offers != self.offers:
+            self.offers = offers
         unserved = not all(serves(offer, self.request) for offer in offers)
         if self._fixed is not None:
             if unserved and not self._told:
@@ -94,10 +101,11 @@ class AdaptiveSubscription:
         """End the subscription."""
         self._node.destroy_subscription(self._subscription)
 
-    def _offers(self) -> list[QosRecord]:
-        return [to_record(info.qos_profile) for info in self._node.get_publishers_info_by_topic(self._topic)]
+    def _offers(self) -> tuple[QosRecord, ...]:
+        publishers = self._node.get_publishers_info_by_topic(self._topic)
+        return tuple(to_record(info.qos_profile) for info in publishers)
 
-    def _fitting(self, offers: list[QosRecord]) -> QosRecord:
+    def _fitting(self, offers: tuple[QosRecord, ...]) -> QosRecord:
         adapted = request_for(self._topic, offers)
         for warning in adapted.warnings:
             self._warn(warning)
@@ -129,6 +137,8 @@ class AdaptiveSubscription:
         raise AssertionError("unreachable")
 
     def _receive(self, message: Any, info: dict[str, Any]) -> None:
+        if not self.offers:
+            self.offers = self._offers()  # whoever sent this is known by now
         if self._repetitions is None or self._repetitions.is_new(info):
             self._pass_on(message, info)
 

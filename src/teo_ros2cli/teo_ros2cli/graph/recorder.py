@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
@@ -59,6 +60,8 @@ class Recorder:
         self._settings = settings
         self._log = node.get_logger()
         self._subscriptions: dict[str, AdaptiveSubscription] = {}
+        self._topics: dict[str, TopicRecord] = {}
+        self._schemas: dict[str, Schema] = {}
         self._refused: set[tuple[str, str]] = set()
         self._lost: dict[str, int] = {}
         self._paused = settings.start_paused
@@ -83,8 +86,9 @@ class Recorder:
         if now < self._next_look:
             return
         self._next_look = now + self._settings.polling_interval
-        for subscription in self._subscriptions.values():
+        for name, subscription in self._subscriptions.items():
             subscription.adapt()
+            self._note_offers(name)
         if not self._discovering:
             return
         for name, types in self._node.get_topic_names_and_types():
@@ -153,9 +157,18 @@ class Recorder:
             lost=lambda count: self._note_lost(name, count),
         )
         self._subscriptions[name] = subscription
-        offered = tuple(subscription.first_offers)
-        self._bag.add_topic(TopicRecord(name, type_name, self._type_hash(name, type_name), offered), schema)
+        self._topics[name] = TopicRecord(name, type_name, self._type_hash(name, type_name))
+        self._schemas[name] = schema
+        self._bag.add_topic(self._topics[name], schema)
+        self._note_offers(name)
         self._log.info(f"Subscribed to topic '{name}'")
+
+    def _note_offers(self, name: str) -> None:
+        """Tell the bag what a topic's publishers offer, if that is news."""
+        offered = self._subscriptions[name].offers
+        if offered is not self._topics[name].offered_qos:  # of the same object for each of its messages
+            self._topics[name] = replace(self._topics[name], offered_qos=offered)
+            self._bag.add_topic(self._topics[name], self._schemas[name])
 
     def _type_hash(self, name: str, type_name: str) -> str:
         for info in self._node.get_publishers_info_by_topic(name):
@@ -173,6 +186,7 @@ class Recorder:
             if received == 0:
                 return  # the simulated clock does not run yet
         sequence = info.get("publication_sequence_number") or 0
+        self._note_offers(name)
         if not self._bag.write(Arrival(name, received, info["source_timestamp"], data, sequence)):
             self._note_lost(name, 1)
 

@@ -11,7 +11,6 @@ least. Tolerances are curved, so that programs follow each other, each within a 
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 from itertools import permutations
 
@@ -26,6 +25,7 @@ from teo_sign_capture.alphabet.face_visibility import shift_off_face
 from teo_sign_capture.alphabet.letter_tolerance import LetterTolerance
 from teo_signs.errors import LutError
 from teo_signs.likeness import SEEN_LENGTH, nearest_pairs
+from teo_signs.motion_hash import with_alternatives
 from teo_signs.sign import Sign
 
 # Letters in a thousand of Spanish, counted over 8,000 lemmas and names of the project's lexicon; CH, LL and
@@ -89,7 +89,7 @@ def part_look_alikes(robot: Robot, tolerances: Mapping[str, LetterTolerance]) ->
 def with_easy_posture(sign: Sign, offset: Array) -> Sign:
     """A letter with the posture that is easy to reach as its alternative; as it is where that is its own."""
     alternatives = (sign.knots + offset,) if offset.any() else ()
-    return dataclasses.replace(sign, alternatives=alternatives)
+    return with_alternatives(sign, alternatives)
 
 
 def _program(

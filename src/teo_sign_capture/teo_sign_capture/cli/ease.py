@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 from typing import Annotated
 
@@ -27,28 +26,23 @@ def ease(
 ) -> None:
     """Give words another posture that shows the same and is quicker to reach; the planner chooses."""
     from teo_description.robot import Robot
-    from teo_motion.trajectory.limits import MotionLimits
-    from teo_sign_capture.easing.easy_words import EasyWords, neighbours
-    from teo_sign_capture.easing.word_tolerance import WordTolerance
+    from teo_sign_capture.easing.easy_table import EasyTable
     from teo_signs.look_up_table import Lut
     from teo_signs.sign_file import save_sign
 
-    robot, eased = Robot.load(), 0
+    eased = 0
     try:
         directory = context.obj[0] if lut is None else lut
         table = Lut.open(directory)
         # A table of a few signs stands among those of the package.
-        others = Lut.open()
-        easy = EasyWords(MotionLimits.of_robot(), neighbours(others, -1), neighbours(others, 0))
+        easy = EasyTable(Robot.load(), dict(Lut.open()) | dict(table))
         chosen = [table[gloss] for gloss in glosses or table]
         for sign in track(chosen, description="easing", console=_errors, transient=True):
             if sign.kind != "lexical":
                 continue
-            word = WordTolerance(robot, sign)
-            knots = easy.eased(word) if word.sides else None
-            alternatives = () if knots is None else (knots,)
-            save_sign(directory, dataclasses.replace(sign, alternatives=alternatives), replace=True)
-            eased += bool(alternatives)
+            easier = easy.eased(sign)
+            save_sign(directory, easier, replace=True)
+            eased += bool(easier.alternatives)
     except LutError as error:
         _errors.print(f"{error.code}: {error}", markup=False)
         raise typer.Exit(1) from error

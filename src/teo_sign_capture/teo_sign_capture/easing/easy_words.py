@@ -10,7 +10,7 @@ Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -87,8 +87,13 @@ class EasyWords:
         self._speeds = limits.velocity
         self._before, self._after = before, after
 
-    def eased(self, word: WordTolerance) -> Array | None:
-        """Knots of a word that take less time; None if none within tolerance do. Shape (n, joints)."""
+    def eased(self, word: WordTolerance, accepted: Callable[[Array], bool]) -> Array | None:
+        """Knots of a word that take less time; None if none within tolerance do. Shape (n, joints).
+
+        Args:
+            word: The tolerance.
+            accepted: Says of knots whether they may be given to the word; less of a change is tried if not.
+        """
         for hands in (True, False):
             postures = word.postures
             for step in _STEPS:
@@ -97,8 +102,8 @@ class EasyWords:
             for share in _SHARES:
                 found = word.postures + share * change
                 kept = word.excess(found) <= 1.0 and word.keeps_places_at_head(found)
-                if kept and word.keeps_contacts(found):
-                    return word.knots(found)
+                if kept and word.keeps_contacts(found) and accepted(knots := word.knots(found)):
+                    return knots
         return None
 
     def _shared(
@@ -125,8 +130,8 @@ class EasyWords:
             beyond = np.full((len(rows.bound), 1), -rows.scale)
             table.add([(variables, rows.matrix), ([table.variable(_BEYOND)], beyond)], rows.bound)
         rate = np.diag(1.0 / (_MEAN_SPEED * speeds))
-        for (first, second), least in self._strokes(word).items():
-            time = table.variable(1.0, least=least)
+        for (first, second), (least, count) in self._strokes(word).items():
+            time = table.variable(float(count), least=least)
             away = postures[second] - postures[first]
             for sign in (1.0, -1.0):
                 table.add(
@@ -153,19 +158,20 @@ class EasyWords:
         solved: Array = postures + change.reshape(postures.shape)
         return solved
 
-    def _strokes(self, word: WordTolerance) -> dict[tuple[int, int], float]:
-        """Pairs of postures between which the arms move, each with the least time it takes anyway [s]."""
+    def _strokes(self, word: WordTolerance) -> dict[tuple[int, int], tuple[float, int]]:
+        """Pairs of postures between which the arms move, with the least time of it [s], and how often."""
         sign = word.sign
         others = np.setdiff1d(np.arange(len(sign.joints)), word.columns)
         speeds = self._speeds[[COMMANDED_JOINTS.index(sign.joints[column]) for column in others]]
-        least: dict[tuple[int, int], float] = {}
+        found: dict[tuple[int, int], tuple[float, int]] = {}
         for knot, asked in enumerate(np.diff(sign.times).tolist()):
             pair = int(word.at[knot]), int(word.at[knot + 1])
             away = np.abs(sign.knots[knot + 1, others] - sign.knots[knot, others])
             needed = float((away / (_MEAN_SPEED * speeds)).max(initial=0.0))
             if pair[0] != pair[1]:
-                least[pair] = max(asked, needed, least.get(pair, 0.0))
-        return least
+                least, count = found.get(pair, (0.0, 0))
+                found[pair] = max(asked, needed, least), count + 1
+        return found
 
 
 class _Program:

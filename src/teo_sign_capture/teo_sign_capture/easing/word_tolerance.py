@@ -113,8 +113,15 @@ class WordTolerance:
         upper: The greatest [rad]. Shape (p, m).
     """
 
-    def __init__(self, robot: Robot, sign: Sign) -> None:
-        """Describe it."""
+    def __init__(self, robot: Robot, sign: Sign, *, turns: float = 1.0) -> None:
+        """Describe it.
+
+        Args:
+            robot: Not shared with another thread.
+            sign: The word as captured.
+            turns: Size of the palms' turns that the tolerance is about, of the captured ones [1]. Below 1 the
+                word is made smaller, as people do who sign fast.
+        """
         self.sign = sign
         self._robot, self._chain, self._hand = robot, ArmKinematics(robot), DextraHand(robot)
         self.sides: tuple[Side, ...] = tuple(
@@ -126,7 +133,7 @@ class WordTolerance:
         self.postures, self.at = _different(arms)
         self.of_hands = np.arange(len(names)) % _SIDE >= _ARM
         self.lower, self.upper = self._room()
-        self._captured = self._palms(self.postures)
+        self._captured = [_turned_less(palms, turns) for palms in self._palms(self.postures)]
         first = [int(np.flatnonzero(self.at == posture)[0]) for posture in range(len(self.postures))]
         self._others = [sign.pose(knot) for knot in first]
         self._touching = [self._contacts(posture, self.postures) for posture in range(len(self.postures))]
@@ -144,6 +151,7 @@ class WordTolerance:
         for posture in range(len(postures)):
             found += self._palm_rows(posture, palms)
             found += self._contact_rows(posture, postures, palms)
+            found += self._head_rows(posture, postures, palms)
         for pair in sorted({pair for pair in pairwise(self.at.tolist()) if pair[0] != pair[1]}):
             found += self._movement_rows(pair, palms)
             found.append(self._bending_rows(pair, postures))
@@ -164,12 +172,13 @@ class WordTolerance:
             thumbs, captured = self._thumbs(postures[posture]), self._thumbs(self.postures[posture])
             if (thumbs < np.minimum(captured, 0.0) - _ROUNDING).any():
                 return False
-            now = {(item.first, item.second): item.distance for item in self._contacts(posture, postures)}
+            now = _of_pairs(self._contacts(posture, postures))
             least = min([CLEARANCE, *(item.distance for item in before)])
-            if min(now.values(), default=np.inf) < least - _ROUNDING:
+            if min((item.distance for item in now.values()), default=np.inf) < least - _ROUNDING:
                 return False
             for item in _nearest(before):
-                if now.get((item.first, item.second), np.inf) > item.distance + _SLIP:
+                touching = now.get((item.first, item.second))
+                if touching is None or touching.distance > item.distance + _SLIP:
                     return False
         return True
 
@@ -319,9 +328,9 @@ class WordTolerance:
 
     def _contact_rows(self, posture: int, postures: Array, palms: list[ArmPoses]) -> list[Rows]:
         found = []
-        before = {(item.first, item.second): item for item in self._touching[posture]}
+        before = _of_pairs(self._touching[posture])
         meant = {(item.first, item.second) for item in _nearest(self._touching[posture])}
-        for item in self._contacts(posture, postures):
+        for item in _of_pairs(self._contacts(posture, postures)).values():
             moves = self._moves(item.second, item.second_point, posture, palms) - self._moves(
                 item.first, item.first_point, posture, palms
             )
@@ -337,6 +346,18 @@ class WordTolerance:
                     captured.second_point - captured.first_point
                 )
                 found.append(Rows((posture,), _DIRECTIONS @ moves, _SLIP - _DIRECTIONS @ already, _SLIP))
+        return found
+
+    def _head_rows(self, posture: int, postures: Array, palms: list[ArmPoses]) -> list[Rows]:
+        """Fingers that show a place of the head go on showing it; that they bend too is small beside it."""
+        captured, face = self._ends(posture, self.postures)
+        now, _ = self._ends(posture, postures)
+        found = []
+        for end in np.flatnonzero(np.linalg.norm(captured - face, axis=1) < _AT_HEAD).tolist():
+            moves = self._moves(_ENDS[end], now[end], posture, palms)
+            if moves.any():
+                bound = _ALONG * _PLACE - _DIRECTIONS @ (now[end] - captured[end])
+                found.append(Rows((posture,), _DIRECTIONS @ moves, bound, _PLACE))
         return found
 
     def _moves(self, link: str, point: Array, posture: int, palms: list[ArmPoses]) -> Array:
@@ -363,11 +384,25 @@ def _different(arms: Array) -> tuple[Array, NDArray[np.intp]]:
     return arms[first[order]], rank[which.reshape(-1)]
 
 
+def _turned_less(palms: ArmPoses, size: float) -> ArmPoses:
+    """The same places with orientations drawn together around their mean, by a factor."""
+    orientations = Rotation.from_matrix(palms.rotation)
+    mean = orientations.mean()
+    drawn = Rotation.from_rotvec(size * (orientations * mean.inv()).as_rotvec()) * mean
+    return palms._replace(rotation=drawn.as_matrix())
+
+
+def _of_pairs(contacts: list[Contact]) -> dict[tuple[str, str], Contact]:
+    """Of each two links the nearest of their shapes."""
+    farthest_first = sorted(contacts, key=lambda item: -item.distance)
+    return {(item.first, item.second): item for item in farthest_first}
+
+
 def _nearest(contacts: list[Contact]) -> list[Contact]:
     """What touches: of each two of right arm, left arm and body the nearest parts, if they are near."""
     found: dict[tuple[bool, ...], Contact] = {}
     for item in sorted(contacts, key=lambda item: item.distance):
         both = tuple(name in link for link in (item.first, item.second) for name in ("Right", "Left"))
-        if item.distance < _CONTACT:
+        if item.distance < _CONTACT and item.may_be_meant:
             found.setdefault(both, item)
     return list(found.values())

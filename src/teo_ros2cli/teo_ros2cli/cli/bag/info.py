@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from teo_ros2cli.bags.bag import open_bag
+from teo_ros2cli.bags.foreign_bag import open_any_bag
 from teo_ros2cli.bags.summary import summary
 from teo_ros2cli.cli.bag.console import bag_errors, warn
 
@@ -18,9 +18,7 @@ VERIFIED_SIZE = 1024**3
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument("bag_path", type=Path, help="Bag to open: its directory or a file of it")
-    parser.add_argument(
-        "-s", "--storage", default="mcap", choices=("mcap",), help="Storage identifier of the bag"
-    )
+    parser.add_argument("-s", "--storage", default="", help="Accepted; the bag itself tells how it is stored")
     parser.add_argument("-t", "--topic-name", action="store_true", help="Only display topic names.")
 
 
@@ -29,11 +27,11 @@ def run(options: argparse.Namespace) -> int:
     """Print the summary, after a warning for each thing that is wrong with the bag.
 
     Raises:
-        Ros2CliError: The bag cannot be read at all; codes as of `open_bag`.
+        Ros2CliError: The bag cannot be read at all; codes as of `open_any_bag`.
     """
-    bag = open_bag(options.bag_path)
+    bag = open_any_bag(options.bag_path)
     if not bag.problems and bag.size <= VERIFIED_SIZE:
-        bag = open_bag(options.bag_path, verify=True)
+        bag = open_any_bag(options.bag_path, verify=True)
     for problem in bag.problems:
         warn(problem)
     if options.topic_name:

@@ -11,7 +11,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from teo_ros2cli.bags.bag import Bag, open_bag
+from teo_ros2cli.bags.bag import Bag
+from teo_ros2cli.bags.foreign_bag import open_any_bag
 from teo_ros2cli.bags.qos_record import read_overrides
 from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, non_negative_float, pattern, positive_float, positive_int
@@ -31,9 +32,7 @@ _ACKNOWLEDGEMENT = 1.0
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the verb's arguments."""
     parser.add_argument("bag_path", type=Path, help="Bag to open: its directory or a file of it")
-    parser.add_argument(
-        "-s", "--storage", default="mcap", choices=("mcap",), help="Storage identifier of the bag"
-    )
+    parser.add_argument("-s", "--storage", default="", help="Accepted; the bag itself tells how it is stored")
     parser.add_argument(
         "--read-ahead-queue-size",
         type=positive_int,
@@ -130,13 +129,13 @@ def run(options: argparse.Namespace) -> int:
     """Play the bag until its end, or until SIGINT or SIGTERM comes.
 
     Raises:
-        Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_bag`.
+        Ros2CliError: `invalid_remap`, `invalid_regex`, `invalid_overrides`, or as of `open_any_bag`.
     """
     stop = StopSignals()
     selects = _selector(options)
     remap = dict(map(_remapping, options.remap))
     overrides = read_overrides(options.qos_profile_overrides_path)
-    bag = open_bag(options.bag_path)
+    bag = open_any_bag(options.bag_path)
     for problem in bag.problems:
         warn(problem)
     _check_selected(options, bag)

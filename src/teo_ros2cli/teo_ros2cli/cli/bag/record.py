@@ -12,9 +12,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from teo_ros2cli.bags.file_writer import DEFAULT_PRESET, PRESETS
 from teo_ros2cli.bags.qos_record import read_overrides
 from teo_ros2cli.bags.selection import TopicSelection
-from teo_ros2cli.bags.writer import DEFAULT_PRESET, PRESETS, BagWriter
+from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.cli.bag.console import StopSignals, bag_errors, warn
 from teo_ros2cli.cli.options import full_name, key_value, non_negative_int, pattern, positive_int
 from teo_ros2cli.errors import Ros2CliError

@@ -12,6 +12,8 @@ from typing import Any
 from teo_ros2cli.cli.options import (
     add_graph_arguments,
     add_qos_arguments,
+    add_values_argument,
+    given_values,
     non_negative_float,
     non_negative_int,
     positive_float,
@@ -35,13 +37,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_graph_arguments(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')")
     parser.add_argument("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')")
-    parser.add_argument(
+    add_values_argument(
+        parser,
         "values",
-        nargs="?",
-        default="{}",
-        help='Values to fill the message with in YAML format (e.g. "data: Hello World"), otherwise the '
-        "message will be published with default values. `header: auto` and `stamp: now` stand for the time "
-        "of publishing.",
+        'Values to fill the message with in YAML format (e.g. "data: Hello World"), otherwise the message '
+        "will be published with default values. `header: auto` and `stamp: now` stand for the time of "
+        "publishing.",
     )
     group = parser.add_mutually_exclusive_group()
     group.add_argument(
@@ -101,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
     times = 1 if options.once else options.times
     # All that can be wrong with the words is found before the graph is joined.
     message = message_class(options.message_type)()
-    stamps = fill_from_text(message, options.values, automatic_stamps=True)
+    stamps = fill_from_text(message, given_values(options, "values"), automatic_stamps=True)
 
     from teo_ros2cli.graph.cli_node import cli_node, settle
     from teo_ros2cli.graph.qos import from_options

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Hands form between signs without the thumb passing through a finger.
+
+On the straight way from one handshape to the next the thumb may be inside a finger that folds or opens
+meanwhile. Such a hand passes through another shape half way: fingers first, thumb first, or the thumb out of
+the way, whichever takes the least time; or through two, between which either
+the fingers move or the thumb does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise, product
+
+import numpy as np
+
+from teo_common.arrays import Array
+from teo_description import RIGHT_HAND
+from teo_description.hand_contact import TOUCH, thumb_gaps
+from teo_description.hand_geometry import DextraTable
+from teo_motion.sentence.composition import HANDS, LIMBS
+from teo_motion.sentence.rest_posture import REST
+from teo_motion.sentence.route import Route
+from teo_motion.trajectory.limits import MotionLimits
+
+_THUMB = 2  # axes of the thumb, the first of a hand
+
+# Shares of the way of the thumb's axes and of the fingers' that may be done half way [1].
+_SHARES = (0.0, 0.5, 1.0)
+
+# Handshapes that are looked at on a straight way [1]: every 7 deg of a finger's fold.
+_LOOKS = 13
+
+# Ways that are looked at together [1], the quickest first: one of the first few is mostly clear.
+_AT_ONCE = 8
+
+
+def with_clear_thumbs(route: Route, table: DextraTable, limits: MotionLimits) -> Route:
+    """A route whose hands keep their thumbs out of their fingers between two signs, where a way is known.
+
+    Args:
+        route: The waypoints.
+        table: Of the robot.
+        limits: Limits of the joints.
+    """
+    rows: dict[int, list[Array]] = {}
+    for limb in HANDS:
+        columns = list(LIMBS[limb])
+        hands = route.targets[:, columns]
+        fixed = np.flatnonzero(~np.isnan(hands).any(axis=1)).tolist()
+        for first, last in pairwise(fixed):
+            signed = any(route.token_at(step) is not None for step in range(first, last))
+            if signed or (hands[first] == hands[last]).all():
+                continue
+            shapes = _passed(table, hands[first], hands[last], limits.velocity[columns], REST[columns])
+            here = rows.setdefault((first + last - 1) // 2, [])
+            for index, shape in enumerate(shapes):
+                if index == len(here):
+                    here.append(np.full(route.targets.shape[1], np.nan))
+                here[index][columns] = shape
+    for step in sorted(rows, reverse=True):
+        for row in reversed(rows[step]):
+            route = route.with_waypoint(step, row)
+    return route
+
+
+def _passed(table: DextraTable, first: Array, second: Array, speed: Array, rest: Array) -> Array:
+    """Handshapes to pass through; none where none are needed, or none keep the thumb clear. Shape (k, 6)."""
+    # What an entry has is its own matter: on the way the thumb is no deeper than at either end.
+    allowed = min(-TOUCH, float(thumb_gaps(table, np.stack([first, second])).min()))
+    for shapes in _ways(first, second, rest):
+        count = len(shapes)
+        ways = np.concatenate(
+            [np.broadcast_to(first, (count, 1, 6)), shapes, np.broadcast_to(second, (count, 1, 6))], axis=1
+        )
+        times = (np.abs(np.diff(ways, axis=1)) / speed).max(axis=2).sum(axis=1)
+        quickest = np.argsort(times, kind="stable")
+        for some in np.split(quickest, range(_AT_ONCE, count, _AT_ONCE)):
+            clear = _least_gaps(table, ways[some]) >= allowed
+            if clear.any():
+                found: Array = shapes[some[clear.argmax()]]
+                return found
+    return np.empty((0, len(RIGHT_HAND)))
+
+
+def _ways(first: Array, second: Array, rest: Array) -> Iterator[Array]:
+    """What may be passed through, by the number of handshapes: none, one, two. Shapes (n, k, 6)."""
+    yield np.empty((1, 0, len(first)))
+    thumbs = [
+        *(first[:_THUMB] + share * (second - first)[:_THUMB] for share in _SHARES),
+        *(
+            np.array(thumb)
+            for thumb in product((first[0], second[0], rest[0]), (first[1], second[1], rest[1]))
+        ),
+    ]
+    folded, straight = np.minimum(first, second)[_THUMB:], rest[_THUMB:]
+    index_straight = np.concatenate((straight[:1], folded[1:]))
+    fingers = [
+        *(first[_THUMB:] + share * (second - first)[_THUMB:] for share in _SHARES),
+        *(folded, index_straight, straight),
+    ]
+    yield np.array([[np.concatenate(parts)] for parts in product(thumbs, fingers)])
+    # The thumb goes while the fingers stay, or they go while it stays.
+    ends = (thumbs[0], thumbs[len(_SHARES) - 1])
+    pairs = [
+        *(((ends[0], shape), (ends[1], shape)) for shape in fingers),
+        *(((thumb, fingers[0]), (thumb, fingers[len(_SHARES) - 1])) for thumb in thumbs),
+    ]
+    yield np.array([[np.concatenate(one), np.concatenate(other)] for one, other in pairs])
+
+
+def _least_gaps(table: DextraTable, ways: Array) -> Array:
+    """The least gap of thumb and fingers on straight ways from shape to shape [m]. Shapes (n, k, 6), (n,)."""
+    shares = np.linspace(0.0, 1.0, _LOOKS)[:, None, None, None]
+    shapes = ways[:, :-1] + shares * np.diff(ways, axis=1)
+    gaps: Array = thumb_gaps(table, shapes.reshape(-1, ways.shape[2])).reshape(_LOOKS, len(ways), -1)
+    least: Array = gaps.min(axis=(0, 2))
+    return least

@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""`ros2 lifecycle`: the states of managed nodes, and taking them from one to the next."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+from teo_ros2cli.bags.selection import is_hidden
+from teo_ros2cli.cli.dispatch import Entry
+from teo_ros2cli.cli.graph_view import known_graph, node_names
+from teo_ros2cli.cli.options import add_graph_arguments, full_name
+from teo_ros2cli.errors import Ros2CliError
+
+VERBS = {
+    "get": Entry(__name__, "Get lifecycle state for one or more nodes", "get"),
+    "list": Entry(__name__, "Output a list of available transitions", "list"),
+    "nodes": Entry(__name__, "Output a list of nodes with lifecycle", "nodes"),
+    "set": Entry(__name__, "Trigger lifecycle state transition", "set"),
+}
+# Time that a node gets to answer [s], as for parameters.
+_TIMEOUT = 5.0
+# Time that a transition gets [s]: a node loads a model or a table of signs in it.
+_TRANSITION_TIMEOUT = 60.0
+# A node is managed if it serves this.
+_GET_STATE = ("get_state", "lifecycle_msgs/srv/GetState")
+
+
+def add_nodes_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `nodes`."""
+    add_graph_arguments(parser)
+    parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
+    parser.add_argument(
+        "-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered"
+    )
+
+
+def run_nodes(options: argparse.Namespace) -> int:
+    """Print the managed nodes of the graph."""
+    with known_graph(options, names=True) as node:
+        managed = _managed(node, hidden=options.all)
+    if options.count_nodes:
+        print(len(managed))
+        return 0
+    for name in managed:
+        print(name)
+    return 0
+
+
+def add_get_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `get`."""
+    add_graph_arguments(parser)
+    parser.add_argument("node_name", nargs="?", help="Name of the ROS node (default: all)")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+
+
+def run_get(options: argparse.Namespace) -> int:
+    """Print the state of one managed node, or of all.
+
+    Raises:
+        Ros2CliError: `node_unknown`, `service_unavailable`, `no_answer`.
+    """
+    with known_graph(options, names=True) as node:
+        if options.node_name:
+            state = _call(node, _known(node, options.node_name), "GetState", "get_state").current_state
+            print(f"{state.label} [{state.id}]")
+            return 0
+        for name in _managed(node, hidden=options.include_hidden_nodes):
+            try:
+                state = _call(node, name, "GetState", "get_state").current_state
+            except Ros2CliError as error:
+                print(f"{name}: {error}", file=sys.stderr)
+                continue
+            print(f"{name}: {state.label} [{state.id}]")
+    return 0
+
+
+def add_list_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `list`."""
+    add_graph_arguments(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument(
+        "-a", "--all", action="store_true", help="Show all existing transitions, also from other states"
+    )
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+
+
+def run_list(options: argparse.Namespace) -> int:
+    """Print the transitions that a node can make now, or all that it knows.
+
+    Raises:
+        Ros2CliError: As of `run_get`.
+    """
+    with known_graph(options, names=True) as node:
+        service = "get_transition_graph" if options.all else "get_available_transitions"
+        found = _transitions(node, _known(node, options.node_name), service)
+    for description in found:
+        print(f"- {description.transition.label} [{description.transition.id}]")
+        print(f"\tStart: {description.start_state.label}")
+        print(f"\tGoal: {description.goal_state.label}")
+    return 0
+
+
+def add_set_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `set`."""
+    add_graph_arguments(parser)
+    parser.add_argument("node_name", help="Name of the ROS node")
+    parser.add_argument("transition", help="The lifecycle transition, by name or number")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+
+
+def run_set(options: argparse.Namespace) -> int:
+    """Let a node make a transition; exit status 1 unless it succeeds.
+
+    Raises:
+        Ros2CliError: `transition_unknown`, `transition_failed`, or as of `run_get`.
+    """
+    from lifecycle_msgs.msg import Transition
+
+    with known_graph(options, names=True) as node:
+        name = _known(node, options.node_name)
+        available = [d.transition for d in _transitions(node, name, "get_available_transitions")]
+        wanted = next((t for t in available if options.transition in (t.label, str(t.id))), None)
+        if wanted is None:
+            listed = "".join(f"\n- {t.label} [{t.id}]" for t in available)
+            raise Ros2CliError(
+                "transition_unknown", f"Unknown transition requested, available ones are:{listed}"
+            )
+        transition = Transition(id=wanted.id, label=wanted.label)
+        answer = _call(
+            node, name, "ChangeState", "change_state", timeout=_TRANSITION_TIMEOUT, transition=transition
+        )
+        if not answer.success:
+            raise Ros2CliError("transition_failed", "Transitioning failed")
+    print("Transitioning successful")
+    return 0
+
+
+def _managed(node: Any, *, hidden: bool) -> list[str]:
+    service, kind = _GET_STATE
+    served = {name for name, kinds in node.get_service_names_and_types() if kind in kinds}
+    names = sorted(name for name in set(node_names(node)) if f"{name}/{service}" in served)
+    return [name for name in names if hidden or not is_hidden(name)]
+
+
+def _known(node: Any, name: str) -> str:
+    full = full_name(name)
+    if full not in node_names(node):
+        raise Ros2CliError("node_unknown", "Node not found")
+    if full not in _managed(node, hidden=True):
+        raise Ros2CliError("node_unmanaged", f"Node '{full}' has no lifecycle")
+    return full
+
+
+def _transitions(node: Any, name: str, service: str) -> list[Any]:
+    return list(_call(node, name, "GetAvailableTransitions", service).available_transitions)
+
+
+def _call(node: Any, name: str, kind: str, service: str, *, timeout: float = _TIMEOUT, **request: Any) -> Any:
+    """Call a managed node's service, such as `get_state`, of a type of lifecycle_msgs/srv."""
+    from lifecycle_msgs import srv
+
+    from teo_ros2cli.graph.calls import call
+
+    cls = getattr(srv, kind)
+    return call(node, cls, f"{name}/{service}", cls.Request(**request), timeout=timeout)
