@@ -20,7 +20,10 @@ setup(
     maintainer_email="teo-sign@example.org",
     description="A ros2 command for machines whose ROS 2 comes from PyPI; steps aside for the genuine one.",
     license="Apache-2.0",
-    extras_require={"test": ["pytest", "hypothesis", "mcap-ros2-support", "rosbags"]},
+    extras_require={
+        "foreign_bags": ["rosbags"],
+        "test": ["pytest", "hypothesis", "mcap-ros2-support", "rosbags"],
+    },
     entry_points={
         "console_scripts": [
             "ros2 = teo_ros2cli.main:main",
