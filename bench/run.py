@@ -30,6 +30,7 @@ from nodes import (
     driver_rate,
     driver_robustness,
     kills,
+    stops,
     text_to_trajectory,
 )
 from rich.console import Console
@@ -52,6 +53,7 @@ BENCHES = (
     translation,
     words,
     text_to_trajectory,
+    stops,
     kills,
     limbs,
     retargeting,

@@ -139,9 +139,9 @@ class World:
         self._path_time += TICK * self.pace
         before = self.positions
         if self._stop is not None:
-            began, lead, begin, end = self._stop
+            began, lead, here, end = self._stop
             share = min((self.now - began) / lead, 1.0)
-            self.positions = begin + (end - begin) * (3.0 * share**2 - 2.0 * share**3)
+            self.positions = here + (end - here) * (3.0 * share**2 - 2.0 * share**3)
             self.velocities = (self.positions - before) / TICK
         for begin, plan in self._motions:
             if self._path_time - self.lag >= begin:

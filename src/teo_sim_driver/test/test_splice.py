@@ -24,8 +24,8 @@ def swing(times):
     return [-0.65 * curve for curve in curves]
 
 
-def message(home, begin, **stamp):
-    """The rest of the swing from a moment on."""
+def message(home, begin, lead=0.0, **stamp):
+    """The rest of the swing from a moment on, which is so long after the start of the message."""
     times = np.arange(begin, END, SPACING)
     times = np.append(times[times < END - SPACING / 2.0], END)
     angle, speed, acceleration = swing(times)
@@ -33,7 +33,7 @@ def message(home, begin, **stamp):
     rows[0] = home
     rows[0][:, ELBOW], rows[1][:, ELBOW], rows[2][:, ELBOW] = angle, speed, acceleration
     rows[1:, -1] = 0.0
-    return plain_trajectory(COMMANDED_JOINTS, times - begin, *rows, **stamp)
+    return plain_trajectory(COMMANDED_JOINTS, times - begin + lead, *rows, **stamp)
 
 
 @pytest.mark.parametrize("ahead", [0.0, 0.2], ids=["at once", "scheduled"])
@@ -59,6 +59,27 @@ def test_a_sender_whose_clock_is_a_little_off_is_taken_over_smoothly(new_followe
     assert np.abs(np.diff(angle)).max() * 1e3 <= np.abs(speed).max() * 1.01
     assert np.abs(np.diff(angle, 2)).max() * 1e6 <= np.abs(acceleration).max() * 1.2
     assert np.abs(np.diff(angle, 3)[:-10]).max() * 1e9 <= 3.0 * jerk
+
+
+@pytest.mark.parametrize("begin", np.arange(0.2, 2.2, 0.1))
+def test_two_that_take_over_at_the_same_moment_find_the_same_robot(new_follower, home, begin):
+    follower = new_follower()
+    follower.accept(message(home, 0.0), START)
+    now = START
+    while now < START + round((begin - 0.03) * SECOND):
+        now += SECOND // 1000
+        follower.step(now)
+    rest = message(home, begin + SPACING, lead=SPACING, stamp=START + round(begin * SECOND))
+    for _ in range(3):
+        follower.accept(rest, now)
+        now += SECOND // 1000
+        follower.step(now)
+    while now < START + round((begin + 0.1) * SECOND):
+        now += SECOND // 1000
+        state = follower.step(now)
+        expected = swing(np.array([(now - START) / SECOND]))
+        found = state.positions[ELBOW], state.velocities[ELBOW], state.accelerations[ELBOW]
+        np.testing.assert_allclose(found, np.ravel(expected), atol=1e-3)
 
 
 def test_farther_off_it_is_refused(new_follower, home):

@@ -49,10 +49,13 @@ def brake(motions: Motions, limits: MotionLimits) -> Brake | None:
     if motion is None:
         return None
     period = float(motion.motion.times[1])
-    earliest = motion.elapsed + LEAST_AHEAD + period
-    if following is not None and -following.elapsed < LEAST_AHEAD + period:
-        motion = following  # it takes over before the robot could be told
-        earliest = max(motion.elapsed + LEAST_AHEAD + period, _POINTS_BEFORE_SEAM * period)
+    ready = LEAST_AHEAD + period
+    earliest = motion.elapsed + ready
+    if following is not None:
+        left = min(-following.elapsed, motion.motion.duration - motion.elapsed)
+        if left <= ready + period:  # the motion in force is over before the robot could be told
+            motion = following
+            earliest = max(motion.elapsed + ready, _POINTS_BEFORE_SEAM * period)
     seam = last_seam(motion.motion, earliest + period)
     if seam >= motion.motion.duration:
         return None

@@ -13,7 +13,7 @@ from teo_sim_driver.follower_report import Source
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import Braking
 from teo_sim_driver.motion.side_by_side import Part, side_by_side, slowed_down
-from teo_sim_driver.motion.trajectory import MotionState, Trajectory
+from teo_sim_driver.motion.trajectory import SAME_TIME, MotionState, Trajectory
 
 
 @dataclass(eq=False)
@@ -123,7 +123,7 @@ class CommandedPath:
 
     def _until(self, start: float, columns: NDArray[np.intp], following: Trajectory) -> Part:
         """What some joints do at present until a moment on the path [s], and a trajectory after it."""
-        if start > self.time:
+        if start - self.time > SAME_TIME:
             following = self.trajectory.of_joints(columns).cut(self.time, start).then(following)
         return Part(columns, following)
 
@@ -135,7 +135,11 @@ class CommandedPath:
         others = np.setdiff1d(np.arange(len(self._limits)), np.concatenate([part.columns for part in parts]))
         if len(others):
             present, end = self.trajectory.of_joints(others), self.trajectory.duration
-            rest = present.cut(self.time, end) if self.time < end else Trajectory.hold(present.positions[-1])
+            rest = (
+                present.cut(self.time, end)
+                if end - self.time > SAME_TIME
+                else Trajectory.hold(present.positions[-1])
+            )
             parts = [*parts, Part(others, rest)]
         self.trajectory = side_by_side(parts)
         for command in self.commands:

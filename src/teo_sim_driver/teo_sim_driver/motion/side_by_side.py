@@ -13,11 +13,7 @@ from numpy.typing import NDArray
 
 from teo_sim_driver.motion.bezier import LINEAR, FloatArray
 from teo_sim_driver.motion.path_time import Braking, PathPace, fastest_ahead
-from teo_sim_driver.motion.trajectory import Trajectory
-
-# Points that are nearer in time become one [s]: at the greatest speed a joint moves 1e-6 rad meanwhile, far
-# below an encoder's count, and shorter segments would lose their curve to rounding.
-_SAME_TIME = 1e-6
+from teo_sim_driver.motion.trajectory import SAME_TIME, Trajectory
 
 # Time between the points of a stop [s]: a step of the driver.
 _STEP = 0.01
@@ -44,7 +40,7 @@ def side_by_side(parts: Sequence[Part]) -> Trajectory:
     if len(parts) == 1:
         return parts[0].trajectory
     times = np.unique(np.concatenate([part.trajectory.times for part in parts]))
-    times = times[np.concatenate([[True], np.diff(times) > _SAME_TIME])]
+    times = times[np.concatenate([[True], np.diff(times) > SAME_TIME])]
     joints = sum(len(part.columns) for part in parts)
     positions, velocities, accelerations = np.empty((3, len(times), joints))
     degrees = np.empty((len(times) - 1, joints), np.int8)

@@ -21,6 +21,10 @@ from teo_sim_driver.motion.bezier import (
     derivative,
 )
 
+# Points that are nearer in time become one [s]: at the greatest speed a joint moves 1e-6 rad meanwhile, far
+# below an encoder's count, and shorter segments would lose their curve to rounding.
+SAME_TIME = 1e-6
+
 
 class MotionState(NamedTuple):
     """Where the joints are and how they move. Shape (joints,) each."""
@@ -180,18 +184,22 @@ class Trajectory:
         )
 
     def cut(self, start: float, end: float) -> Trajectory:
-        """Take the part between two times 0 <= start < end [s], standing still after the last point."""
-        inside = slice(
-            int(np.searchsorted(self.times, start, side="right")),
-            int(np.searchsorted(self.times, end, side="left")),
-        )
+        """Take the part between two times [s], standing still after the last point.
+
+        Args:
+            start: At least 0.
+            end: Later than the start, by more than `SAME_TIME`.
+        """
+        first_inside = int(np.searchsorted(self.times, start + SAME_TIME, side="right"))
+        first_after = int(np.searchsorted(self.times, end - SAME_TIME, side="left"))
+        inside = slice(first_inside, max(first_inside, first_after))
         first, last = self.sample(start), self.sample(end)
-        if end == self.times[-1]:
+        if self.times[-1] <= end <= self.times[-1] + SAME_TIME:
             # The curve arrives with its own derivatives; at rest it is from then on.
             last = MotionState(self.positions[-1], self.velocities[-1], self.accelerations[-1])
         # Splitting a polynomial leaves it the same polynomial, so the cut segments keep their degrees.
         degrees = self.degrees[max(inside.start - 1, 0) : inside.stop]
-        if end > self.times[-1]:
+        if inside.stop == len(self.times):
             still = np.full((1, degrees.shape[1]), LINEAR, np.int8)
             degrees = np.concatenate([degrees[: inside.stop - inside.start], still])
         return Trajectory(

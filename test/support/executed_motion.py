@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What the driver makes of the motions that a world's queue has sent, judged by differences."""
+
+from __future__ import annotations
+
+import numpy as np
+from queue_world import World
+
+from teo_common.arrays import Array
+from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_lut_executor.execution.events import TrajectoryReady
+from teo_lut_executor.node.messages import to_trajectory
+from teo_motion.sentence.rest_posture import REST
+from teo_motion.trajectory.limits import MotionLimits
+from teo_sim_driver.joint_follower import JointFollower
+
+_STEP = 1_000_000  # [ns]
+
+
+def executed(world: World) -> Array:
+    """Positions to which the driver takes the robot, every millisecond [rad]. Shape (n, joints).
+
+    Raises:
+        TrajectoryError: The driver refuses a motion.
+    """
+    follower = JointFollower(limits=joint_limits(COMMANDED_JOINTS), start=REST.copy(), period=0.001)
+    sent = [event for event in world.events if isinstance(event, TrajectoryReady)]
+    # Each half a period before it begins: what the sender did not know by then must not matter. One that is
+    # overtaken by the next before it begins comes with that: in the order in which they were sent.
+    begin = np.array([event.start for event in sent]) - 0.01
+    come = np.minimum.accumulate(begin[::-1])[::-1]
+    messages = [
+        (round(time * 1e9), to_trajectory(world.planner.limits.names, event.samples, start=event.start))
+        for time, event in zip(come, sent, strict=True)
+    ]
+    path, now, end = [], messages[0][0], round(world.now * 1e9)
+    while now < end:
+        while messages and messages[0][0] <= now:
+            follower.accept(messages.pop(0)[1], now)
+        path.append(follower.step(now).positions)
+        now += _STEP
+    assert not messages
+    return np.array(path)
+
+
+def most_of_limits(path: Array, limits: MotionLimits) -> Array:
+    """The most that a joint reaches, over its limit [1]: of velocity, acceleration and jerk. Shape (3,)."""
+    step = _STEP * 1e-9
+    orders = enumerate((limits.velocity, limits.acceleration, limits.jerk), start=1)
+    return np.array(
+        [(np.abs(np.diff(path, n=order, axis=0)) / step**order / limit).max() for order, limit in orders]
+    )
