@@ -79,7 +79,7 @@ class EasyTable:
             turns: As of `WordTolerance`.
         """
         tolerance = WordTolerance(self._robot, sign, turns=turns)
-        if not tolerance.sides:
+        if not tolerance.arms.sides:
             return None
 
         def accepted(knots: Array) -> bool:

@@ -95,14 +95,14 @@ class EasyWords:
             accepted: Says of knots whether they may be given to the word; less of a change is tried if not.
         """
         for hands in (True, False):
-            postures = word.postures
+            postures = word.arms.postures
             for step in _STEPS:
                 postures = self._program(word, postures, float(step), hands=hands)
-            change = postures - word.postures
+            change = postures - word.arms.postures
             for share in _SHARES:
-                found = word.postures + share * change
-                kept = word.excess(found) <= 1.0 and word.keeps_places_at_head(found)
-                if kept and word.keeps_contacts(found) and accepted(knots := word.knots(found)):
+                found = word.arms.postures + share * change
+                kept = word.excess(found) <= 1.0 and word.contacts.places_kept(found)
+                if kept and word.contacts.kept(found) and accepted(knots := word.arms.knots(found)):
                     return knots
         return None
 
@@ -110,15 +110,15 @@ class EasyWords:
         self, word: WordTolerance, neighbours: Neighbours
     ) -> tuple[list[int], NDArray[np.bool_], Array]:
         """Columns of a word's joints, which of them each neighbour fixes, and where, as right arms."""
-        columns = [COMMANDED_JOINTS.index(word.sign.joints[column]) for column in word.columns]
+        columns = [COMMANDED_JOINTS.index(word.arms.sign.joints[column]) for column in word.arms.columns]
         theirs = neighbours.postures[:, columns]
         shared = np.isfinite(theirs)
-        return columns, shared, word.as_right(np.where(shared, theirs, 0.0))
+        return columns, shared, word.arms.as_right(np.where(shared, theirs, 0.0))
 
     def _program(self, word: WordTolerance, postures: Array, step: float, *, hands: bool) -> Array:
         """Solve for the postures within a step of those given, hands included or not."""
         size = postures.shape[1]
-        columns = [COMMANDED_JOINTS.index(word.sign.joints[column]) for column in word.columns]
+        columns = [COMMANDED_JOINTS.index(word.arms.sign.joints[column]) for column in word.arms.columns]
         speeds = self._speeds[columns]
         table = _Program(postures.size)
 
@@ -140,7 +140,7 @@ class EasyWords:
                 )
         rate = np.diag(1.0 / speeds)
         for end, neighbours in ((0, self._before), (-1, self._after)):
-            posture = int(word.at[end])
+            posture = int(word.arms.at[end])
             _, shared, theirs = self._shared(word, neighbours)
             for number, weight in enumerate(neighbours.weights.tolist()):
                 joints = np.flatnonzero(shared[number])
@@ -151,7 +151,7 @@ class EasyWords:
                 for sign in (1.0, -1.0):
                     block = sign * rate[joints]
                     table.add([(of(posture), block), ([time], -np.ones((len(joints), 1)))], -block @ away)
-        steps = np.where(word.of_hands & (not hands), 0.0, step)
+        steps = np.where(word.arms.of_hands & (not hands), 0.0, step)
         lower = np.maximum(word.lower - postures, -steps).ravel()
         upper = np.minimum(word.upper - postures, steps).ravel()
         change = table.solved(np.minimum(lower, 0.0), np.maximum(upper, 0.0))
@@ -160,12 +160,12 @@ class EasyWords:
 
     def _strokes(self, word: WordTolerance) -> dict[tuple[int, int], tuple[float, int]]:
         """Pairs of postures between which the arms move, with the least time of it [s], and how often."""
-        sign = word.sign
-        others = np.setdiff1d(np.arange(len(sign.joints)), word.columns)
+        sign = word.arms.sign
+        others = np.setdiff1d(np.arange(len(sign.joints)), word.arms.columns)
         speeds = self._speeds[[COMMANDED_JOINTS.index(sign.joints[column]) for column in others]]
         found: dict[tuple[int, int], tuple[float, int]] = {}
         for knot, asked in enumerate(np.diff(sign.times).tolist()):
-            pair = int(word.at[knot]), int(word.at[knot + 1])
+            pair = int(word.arms.at[knot]), int(word.arms.at[knot + 1])
             away = np.abs(sign.knots[knot + 1, others] - sign.knots[knot, others])
             needed = float((away / (_MEAN_SPEED * speeds)).max(initial=0.0))
             if pair[0] != pair[1]:
