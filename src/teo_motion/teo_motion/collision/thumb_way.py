@@ -4,8 +4,8 @@
 
 On the straight way from one handshape to the next the thumb may be inside a finger that folds or opens
 meanwhile. Such a hand passes through another shape half way: fingers first, thumb first, or the thumb out of
-the way, whichever takes the least time; or through two, between which either
-the fingers move or the thumb does.
+the way, whichever takes the least time; or through two, between which either the fingers move or the thumb
+does.
 """
 
 from __future__ import annotations

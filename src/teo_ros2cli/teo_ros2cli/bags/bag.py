@@ -91,6 +91,16 @@ def _in_order(messages: Iterator[StoredMessage], start: int) -> Iterator[StoredM
         yield heapq.heappop(heap)[2]
 
 
+def require_bag(path: Path) -> None:
+    """See that there is something at a path.
+
+    Raises:
+        Ros2CliError: `bag_missing`.
+    """
+    if not path.exists():
+        raise Ros2CliError("bag_missing", f"Bag path '{path}' does not exist!")
+
+
 def open_bag(path: Path, *, verify: bool = False) -> Bag:
     """Open a bag, without its metadata where these are missing, and to the extent that its files can be read.
 
@@ -102,8 +112,7 @@ def open_bag(path: Path, *, verify: bool = False) -> Bag:
         Ros2CliError: `bag_missing`, `bag_empty` (a directory without files), `storage_unsupported`,
             `not_mcap`, `bag_unreadable`, or `metadata_invalid`.
     """
-    if not path.exists():
-        raise Ros2CliError("bag_missing", f"Bag path '{path}' does not exist!")
+    require_bag(path)
     if not path.is_dir():
         return _from_files(path, (path,), (), verify)
     problems: list[str] = []

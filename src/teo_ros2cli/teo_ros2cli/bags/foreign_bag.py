@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from teo_common.mcap_salvage import StoredMessage
-from teo_ros2cli.bags.bag import Bag, open_bag
+from teo_ros2cli.bags.bag import Bag, open_bag, require_bag
 from teo_ros2cli.bags.metadata import NO_START, BagMetadata, FileRecord, TopicRecord
 from teo_ros2cli.bags.qos_record import DURATIONS, QosRecord
 from teo_ros2cli.definitions import Schema
@@ -80,8 +80,7 @@ def open_foreign(path: Path) -> ForeignBag:
     Raises:
         Ros2CliError: `bag_missing`, `bag_unreadable`, or `rosbags_missing`: that package is not installed.
     """
-    if not path.exists():
-        raise Ros2CliError("bag_missing", f"Bag path '{path}' does not exist!")
+    require_bag(path)
     with _opened(path) as reader:
         topics: dict[str, tuple[TopicRecord, int]] = {}
         for connection in reader.connections:

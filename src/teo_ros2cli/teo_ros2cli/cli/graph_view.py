@@ -39,6 +39,24 @@ def node_names(node: Any) -> list[str]:
     ]
 
 
+def add_node_listing_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of a verb that lists nodes and ends in `print_nodes`."""
+    add_graph_arguments(parser)
+    parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
+    parser.add_argument(
+        "-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered"
+    )
+
+
+def print_nodes(options: argparse.Namespace, names: Sequence[str]) -> None:
+    """Print names of nodes a line each, or only their number if the options say so."""
+    if options.count_nodes:
+        print(len(names))
+        return
+    for name in names:
+        print(name)
+
+
 def add_listing_arguments(
     parser: argparse.ArgumentParser, noun: str, *, types: bool = True, hidden: bool = True, counted: str = ""
 ) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
 from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import known_graph, node_names
+from teo_ros2cli.cli.graph_view import add_node_listing_arguments, known_graph, node_names, print_nodes
 from teo_ros2cli.cli.options import add_graph_arguments, full_name
 from teo_ros2cli.errors import Ros2CliError
 
@@ -24,28 +24,22 @@ VERBS = {
 _TIMEOUT = 5.0
 # Time that a transition gets [s]: a node loads a model or a table of signs in it.
 _TRANSITION_TIMEOUT = 60.0
+# Why hidden nodes need no option where one is named.
+_NAMED = "Accepted; a node that is named is found, hidden or not"
 # A node is managed if it serves this.
 _GET_STATE = ("get_state", "lifecycle_msgs/srv/GetState")
 
 
 def add_nodes_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `nodes`."""
-    add_graph_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
-    parser.add_argument(
-        "-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered"
-    )
+    add_node_listing_arguments(parser)
 
 
 def run_nodes(options: argparse.Namespace) -> int:
     """Print the managed nodes of the graph."""
     with known_graph(options, names=True) as node:
         managed = _managed(node, hidden=options.all)
-    if options.count_nodes:
-        print(len(managed))
-        return 0
-    for name in managed:
-        print(name)
+    print_nodes(options, managed)
     return 0
 
 
@@ -84,7 +78,7 @@ def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-a", "--all", action="store_true", help="Show all existing transitions, also from other states"
     )
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help=_NAMED)
 
 
 def run_list(options: argparse.Namespace) -> int:
@@ -108,7 +102,7 @@ def add_set_arguments(parser: argparse.ArgumentParser) -> None:
     add_graph_arguments(parser)
     parser.add_argument("node_name", help="Name of the ROS node")
     parser.add_argument("transition", help="The lifecycle transition, by name or number")
-    parser.add_argument("--include-hidden-nodes", action="store_true", help="Consider hidden nodes as well")
+    parser.add_argument("--include-hidden-nodes", action="store_true", help=_NAMED)
 
 
 def run_set(options: argparse.Namespace) -> int:

@@ -9,7 +9,7 @@ from collections import Counter
 
 from teo_ros2cli.bags.selection import is_hidden
 from teo_ros2cli.cli.dispatch import Entry
-from teo_ros2cli.cli.graph_view import known_graph, node_names
+from teo_ros2cli.cli.graph_view import add_node_listing_arguments, known_graph, node_names, print_nodes
 from teo_ros2cli.cli.options import add_graph_arguments, full_name
 from teo_ros2cli.errors import Ros2CliError
 
@@ -21,11 +21,7 @@ VERBS = {
 
 def add_list_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of `list`."""
-    add_graph_arguments(parser)
-    parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
-    parser.add_argument(
-        "-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered"
-    )
+    add_node_listing_arguments(parser)
 
 
 def run_list(options: argparse.Namespace) -> int:
@@ -34,12 +30,8 @@ def run_list(options: argparse.Namespace) -> int:
         names = sorted(node_names(node))
     if not options.all:
         names = [name for name in names if not is_hidden(name)]
-    if options.count_nodes:
-        print(len(names))
-        return 0
-    for name in names:
-        print(name)
-    if any(count > 1 for count in Counter(names).values()):
+    print_nodes(options, names)
+    if not options.count_nodes and any(count > 1 for count in Counter(names).values()):
         print(
             "WARNING: Be aware that there are nodes in the graph that share an exact name, which can have "
             "unintended side effects."

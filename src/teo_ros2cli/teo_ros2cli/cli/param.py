@@ -136,10 +136,9 @@ def run_set(options: argparse.Namespace) -> int:
         ) from error
     with _parameters(options) as parameters:
         result = parameters.set(full_name(options.node_name), options.parameter_name, value)
-    reason = f": {result.reason}" if result.reason else ""
     if not result.successful:
-        raise Ros2CliError("set_refused", f"Setting parameter failed{reason}")
-    print(f"Set parameter successful{reason}")
+        raise Ros2CliError("set_refused", f"Setting parameter failed{_because(result)}")
+    print(f"Set parameter successful{_because(result)}")
     return 0
 
 
@@ -160,10 +159,9 @@ def run_delete(options: argparse.Namespace) -> int:
 
     with _parameters(options) as parameters:
         result = parameters.set(full_name(options.node_name), options.parameter_name, ParameterValue())
-    reason = f": {result.reason}" if result.reason else ""
     if not result.successful:
-        raise Ros2CliError("delete_refused", f"Deleting parameter failed{reason}")
-    print(f"Deleted parameter successfully{reason}")
+        raise Ros2CliError("delete_refused", f"Deleting parameter failed{_because(result)}")
+    print(f"Deleted parameter successfully{_because(result)}")
     return 0
 
 
@@ -198,9 +196,8 @@ def run_load(options: argparse.Namespace) -> int:
             result = parameters.set(node, name, get_parameter_value(value))
             refused = refused or not result.successful
             outcome = "successful" if result.successful else "failed"
-            reason = f": {result.reason}" if result.reason else ""
             stream = sys.stdout if result.successful else sys.stderr
-            print(f"Set parameter {name} {outcome}{reason}", file=stream)
+            print(f"Set parameter {name} {outcome}{_because(result)}", file=stream)
     return int(refused)
 
 
@@ -244,6 +241,11 @@ def run_dump(options: argparse.Namespace) -> int:
             branch[last] = plain_value(value)
     print(dump({node: {"ros__parameters": tree}}), end="")
     return 0
+
+
+def _because(result: Any) -> str:
+    """The reason that a node gives in an rcl_interfaces/msg/SetParametersResult, if it gives one."""
+    return f": {result.reason}" if result.reason else ""
 
 
 @contextmanager

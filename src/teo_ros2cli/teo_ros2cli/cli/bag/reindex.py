@@ -34,9 +34,9 @@ def run(options: argparse.Namespace) -> int:
             others as of `open_bag`.
     """
     path: Path = options.bag_path
-    open_bag(path)
     try:
         if options.output is not None:
+            open_bag(path)  # what is no bag is not copied
             if options.output.exists():
                 raise Ros2CliError("output_exists", f"Output '{options.output}' already exists.")
             (shutil.copytree if path.is_dir() else shutil.copy2)(path, options.output)
