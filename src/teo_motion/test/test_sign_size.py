@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Callable
 
 import numpy as np
 import pytest
+from nearest_parts import touching
 
 from teo_description import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
@@ -107,17 +107,6 @@ def test_what_is_repeated_four_times_is_repeated_twice(robot: Robot, make_sign: 
     turns = np.sign(np.diff(less.knots[:, 3]))
     assert turns.tolist() == [1, -1, 1, -1, 0], "twice there and back, and its hold"
     assert less.duration == pytest.approx(5 * 0.2)
-
-
-def touching(robot: Robot, pose: dict[str, float]) -> float:
-    """How near a hand is to anything, or one arm to the other [m]; far away is 1 m."""
-    near = [
-        item
-        for item in robot.contacts(robot.configuration(pose), 0.06)
-        if re.search("Hand|Finger|FrontalRightWrist|FrontalLeftWrist", item.first + item.second)
-        or not re.search("root|Trunk|Neck|Hip|Knee", item.first + item.second)
-    ]
-    return min((item.distance for item in near), default=1.0)
 
 
 def test_contacts_of_the_table_are_kept(robot: Robot) -> None:

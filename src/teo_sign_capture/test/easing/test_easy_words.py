@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from nearest_parts import touching
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
@@ -55,17 +55,6 @@ def half_turn(palms: Array) -> float:
     """The most that a palm is turned from its mean over the sign [rad]."""
     rotations = Rotation.from_matrix(np.unique(palms[:, :3, :3].round(6), axis=0))
     return float((rotations * rotations.mean().inv()).magnitude().max())
-
-
-def touching(robot: Robot, pose: dict[str, float]) -> float:
-    """How near a hand is to anything, or one arm to the other [m]; far away is 1 m."""
-    near = [
-        item
-        for item in robot.contacts(robot.configuration(pose), 0.06)
-        if re.search("Hand|Finger|FrontalRightWrist|FrontalLeftWrist", item.first + item.second)
-        or not re.search("root|Trunk|Neck|Hip|Knee", item.first + item.second)
-    ]
-    return min((item.distance for item in near), default=1.0)
 
 
 def assert_shows_the_same(robot: Robot, sign: Sign, knots: Array) -> None:
