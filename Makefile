@@ -1,17 +1,23 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-# make setup | run | demo TEXT="..." | test | lint | bench | docs; run and demo take VIEW=1
+# make setup | wheelhouse | run | demo TEXT="..." | test | commands | lint | bench | docs; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
+# Where the demo leaves what it makes.
+OUT ?= out
+# One of `ros2 run teo_description robots list`.
+ROBOT ?= teo
+# ISO 639-3 code of the sign language.
+LANGUAGE ?= ssp
 # VIEW=1: the console's page too, and what it teaches signs with.
 SETUP := $(if $(VIEW),setup-view,setup-run)
 ENV := . ./env.sh &&
 
-.PHONY: help setup setup-run setup-view run demo test lint bench docs
+.PHONY: help setup setup-run setup-view wheelhouse robots run demo test commands lint bench docs
 
 help: ## what can be made
-	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 10
+	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
 
 setup: ## install what is missing and build the workspace
 	@PYTHON="$(PYTHON)" scripts/setup.sh all
@@ -22,15 +28,24 @@ setup-run: # what signs, without what sees, trains and tests
 setup-view: # that, the console, and what records signs
 	@PYTHON="$(PYTHON)" scripts/setup.sh view
 
-demo: $(SETUP) ## sign TEXT="...": leaves the bag, a video and a film strip in out/; VIEW=1 keeps a page open
-	@$(ENV) python scripts/demo.py "$$TEXT" $(if $(VIEW),--view)
+wheelhouse: ## fetch all that setup installs, for a machine without a network
+	@PYTHON="$(PYTHON)" scripts/setup.sh wheelhouse
+
+demo: $(SETUP) ## sign TEXT="...": leaves the bag, a video and a film strip in OUT=out; VIEW=1 keeps a page open
+	@$(ENV) python scripts/demo.py "$$TEXT" --out "$$OUT" --robot "$$ROBOT" --language "$$LANGUAGE" $(if $(VIEW),--view)
 
 run: $(SETUP) ## start translator, executor and driver, until Ctrl-C; VIEW=1 with the page
-	@$(ENV) exec ros2 run teo_bringup start $(if $(VIEW),--view)
+	@$(ENV) exec ros2 run teo_bringup up --robot "$$ROBOT" --language "$$LANGUAGE" $(if $(VIEW),translator executor driver console)
 
-test: setup ## all tests: on two cores what keeps no time with others, then the rest alone
-	@$(ENV) python -m pytest -m "not dds" --numprocesses 2 --dist loadfile
-	@$(ENV) python -m pytest -m dds
+test: setup ## all tests: first what keeps no time with others, then what meets them over DDS
+	@$(ENV) python -m pytest -m "not dds and not commands" --numprocesses 2 --dist loadfile
+	@$(ENV) python -m pytest -m "dds and not commands" --numprocesses 2 --dist loadfile
+
+commands: setup ## the commands of every page, as they stand there
+	@$(ENV) python -m pytest -m commands --numprocesses 2 --dist worksteal
+
+robots: setup-run ## what other humanoids are drawn with, and the third one's description (215 MB)
+	@.venv/bin/python -m pip install --disable-pip-version-check --quiet --no-deps -r requirements/robots.txt
 
 lint: setup ## style, types
 	@$(ENV) scripts/lint.sh
@@ -41,4 +56,4 @@ docs: setup ## the pages of docs/ and of the API, in out/docs/
 bench: setup ## the figures of the README
 	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python bench/run.py
 
-export TEXT
+export TEXT OUT ROBOT LANGUAGE

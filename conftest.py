@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import fcntl
+import gc
 import itertools
 import os
 import signal
@@ -90,6 +91,8 @@ def own_domain() -> Iterator[int]:
                 patch.setenv("ROS_DOMAIN_ID", str(domain))
                 patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
                 yield domain
+            # A node that is not collected yet is still there, and the next test in this domain would meet it.
+            gc.collect()
             return
     raise RuntimeError(f"expected a free DDS domain in {_DOMAINS}, all are in use by other tests")
 

@@ -43,5 +43,13 @@ case ":$PATH:" in
     *":$_teo_root/install/lib/teo_ros2cli:"*) ;;
     *) export PATH="$PATH:$_teo_root/install/lib/teo_ros2cli" ;;
 esac
+# Completes its words with TAB, as the genuine one's own setup does; zsh once it has its completion loaded.
+case "$-:$(command -v ros2)" in
+    *i*:"$_teo_root"/*)
+        if [ "$_teo_shell" = bash ] || whence compdef >/dev/null; then
+            eval "$(register-python-argcomplete --shell "$_teo_shell" ros2)"
+        fi
+        ;;
+esac
 unset -f _teo_prepend
 unset _teo_root _teo_shell

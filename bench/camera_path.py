@@ -171,6 +171,7 @@ def _sampled(sign: Sign) -> RobotMotion:
         place_error=unknown,
         contact=unknown,
         same_zone=unknown,
+        same_zone_of_middle=unknown,
         wrong_place=unknown,
         palm_error=unknown,
         finger_error=unknown,

@@ -30,6 +30,7 @@ from teo_sign_capture.notation.score_file import default_scores_directory, read_
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_sign_capture.recordings.recording import open_recording, points_of, track_of
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Standing
 from teo_synthetic_signer import Take, TakeOptions
@@ -50,9 +51,7 @@ def measure() -> list[Figure]:
         return [
             *_performed(robot, Path(folder)),
             *_letters(robot, Path(folder)),
-            *score_clips.measure(robot, "known", score_clips.KNOWN),
-            *score_clips.measure(robot, "known since", score_clips.KNOWN_SINCE),
-            *score_clips.measure(robot, "new", score_clips.NEW),
+            *(f for name, draw in score_clips.DRAWS.items() for f in score_clips.measure(robot, name, draw)),
         ]
 
 
@@ -93,7 +92,7 @@ def _letters(robot: Robot, folder: Path) -> list[Figure]:
     clips = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
     saved: list[Saved] = []
     lasted: list[float] = []
-    letters = load_letter_clips()
+    letters = load_letter_clips(load_language(DEFAULT_LANGUAGE))
     for letter, clip in letters.items():
         settings = Settings(
             table=folder / "letters",

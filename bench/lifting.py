@@ -3,7 +3,8 @@
 """How well a clip that one camera took is lifted into space, against people who are known exactly.
 
 The keypoints of the synthetic signer are laid into a picture, with the noise of a good detector, and lifted
-again. The person's size is not in the picture: what is left once it is put right is given beside.
+again. The person's size is not in the picture: what is left once it is put right is given beside. Written
+signs, performed, tell whether hands in the air are taken for hands on the body (`signs/touches.py`).
 """
 
 from __future__ import annotations
@@ -14,10 +15,12 @@ from functools import cache
 
 import numpy as np
 from report import Figure
+from signs import score_clips, touches
 from signs.pictured import pictured
 from signs.signer_tracks import signer_track
 
 from teo_common.arrays import Array
+from teo_description.robot import Robot
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.tracks.hand_model import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
@@ -37,7 +40,15 @@ def measure() -> list[Figure]:
         f"from {_NEAR:g} m": (_NEAR, True),
         "from afar, no depth in the hands": (math.inf, False),
     }
-    return [figure for name, view in views.items() for figure in _figures(name, *view)]
+    robot = Robot.load()
+    return [
+        *(figure for name, view in views.items() for figure in _figures(name, *view)),
+        *(
+            figure
+            for name, draw in score_clips.DRAWS.items()
+            for figure in touches.measure(robot, name, draw)
+        ),
+    ]
 
 
 def _figures(name: str, distance: float, depth: bool) -> list[Figure]:

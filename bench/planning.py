@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from report import Figure, percentiles
+from teo_names import COMMANDED_JOINTS, joint_limits
 
-from teo_description import COMMANDED_JOINTS, joint_limits
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
@@ -247,7 +247,7 @@ def _random_table(generator: np.random.Generator) -> dict[str, Sign]:
                 knots = np.where(generator.random(shape) < 0.5, limits.lower, limits.upper)
         table[f"SIGN{number}"] = Sign(
             gloss=f"SIGN{number}",
-            language="lse",
+            language="ssp",
             kind="lexical",
             handedness="both",
             joints=joints,

@@ -118,9 +118,9 @@ def _watched() -> Iterator[_Watch]:
     watch = _Watch()
     retarget = robot_motion.retarget_motion
 
-    def solving(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:
+    def solving(problem: ArmProblem, times: Array, bounds: list[Bounds], starts: Array) -> Array:
         start = time.process_time()
-        arms = solve_arms(problem, times, bounds)
+        arms = solve_arms(problem, times, bounds, starts)
         watch.solving += time.process_time() - start
         watch.solved.append((problem, times, bounds, arms))
         return arms

@@ -18,11 +18,11 @@ import retriever_accuracy
 import retriever_node
 import retriever_robustness
 import retriever_unseen
-import robot_model
 import spelling
 import translation
 import words
 from accuracy import limbs
+from command_line import interrupts, playing, publishing_once, recording
 from nodes import (
     console_page,
     driver_executed,
@@ -30,18 +30,21 @@ from nodes import (
     driver_rate,
     driver_robustness,
     kills,
+    machines,
     stops,
     text_to_trajectory,
 )
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
+from signs import robot_model, robots
 
 BENCHES = (
     robot_model,
     planning,
     lexicon,
     letters,
+    robots,
     spelling,
     lifting,
     clips,
@@ -55,6 +58,7 @@ BENCHES = (
     text_to_trajectory,
     stops,
     kills,
+    machines,
     limbs,
     retargeting,
     recognition,
@@ -63,6 +67,10 @@ BENCHES = (
     retriever_robustness,
     retriever_unseen,
     camera_path,
+    playing,
+    recording,
+    publishing_once,
+    interrupts,
 )
 
 

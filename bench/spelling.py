@@ -20,14 +20,15 @@ from typing import NamedTuple
 import numpy as np
 import planning
 from report import Figure
+from teo_names import COMMANDED_JOINTS
 
 from teo_common.text_folding import without_accents
-from teo_description import COMMANDED_JOINTS, DEFAULT_HAND_DRIVE, HAND_DRIVES
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
+from teo_description.teo.hand_drives import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_translator.data_files import data_file
 from teo_signs.errors import PlanError
@@ -35,6 +36,8 @@ from teo_signs.lexicon import Lexicon
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
+
+REST = load_humanoid().ready
 
 NAMES, WORDS = 200, 1000
 _SHORTEST, _LONGEST = 3, 10

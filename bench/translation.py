@@ -23,6 +23,7 @@ from pathlib import Path
 from statistics import median
 
 import blind_sentences
+from glosses import published
 from glosses.annotated_signs import read_annotated
 from glosses.measures import overlap
 from glosses.systems import SENTENCES, System, judged, lines, plain, systems
@@ -62,6 +63,7 @@ def measure() -> list[Figure]:
         *blind_sentences.figures(),
         *_signed(every),
         *_speed(),
+        *published.figures(),
     ]
 
 
@@ -104,7 +106,7 @@ def constructions() -> Iterable[Figure]:
     yield from _exact("test_constructions", pairs, others)
     for construction, names in _generator().grammar.constructions.items():
         own = [pair for pair in pairs if _says(pair.rule, names)]
-        right = sum(others["ours"](pair.spanish) == plain(pair.glosses) for pair in own)
+        right = sum(others["ours"](pair.text) == plain(pair.glosses) for pair in own)
         yield Figure(
             f"of these, {construction.replace('_', ' ')}: exact of {len(own)}", share(right, len(own))
         )
@@ -135,7 +137,7 @@ def _generated(*, hold_out_constructions: bool) -> Mapping[str, list[Pair]]:
 def _exact(part: str, pairs: Sequence[Pair], systems: Mapping[str, System]) -> Iterable[Figure]:
     expected = [plain(pair.glosses) for pair in pairs]
     scores = {
-        name: score(expected, [system(pair.spanish) for pair in pairs]) for name, system in systems.items()
+        name: score(expected, [system(pair.text) for pair in pairs]) for name, system in systems.items()
     }
     what = f"generated, {_PARTS[part]}, {len(pairs)} sentences"
     right = {name: share(round(each.exact * each.count), each.count) for name, each in scores.items()}

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The main job, from one command: a Spanish text in, TEO signing it out.
+"""The main job, from one command: a text in, a robot signing it out.
 
 Starts translator, executor, driver and a recorder as processes, publishes the text as anyone would, waits
-until TEO rests again, and leaves the bag, a film and a film strip. Exit status 0: everything was signed.
+until the robot rests again, and leaves the bag, a film and a film strip. Exit status 0: all was signed.
 """
 
 from __future__ import annotations
@@ -33,8 +33,11 @@ from rich.table import Table
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 
-from teo_bringup.graph import Graph, GraphError
-from teo_description.pictures.rendering import CAMERAS, film_strip, render_pose, save_png
+from teo_bringup.graph import SIGNING, Graph, GraphError
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import DEFAULT_ROBOT, load_humanoid
+from teo_description.pictures.rendering import camera_named, film_strip, render_pose, save_png
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 
 RECORDED = (
     "text",
@@ -155,25 +158,29 @@ def seconds(stamp: object) -> float:
     return float(Time.from_msg(stamp).nanoseconds) * 1e-9
 
 
-def sign(text: str, out: Path, console: Console, *, view: bool) -> bool:
+def sign(text: str, out: Path, console: Console, *, robot: str, language: str, view: bool) -> bool:
     """Have the text signed; True if all of it was.
 
     Args:
-        text: Spanish.
+        text: In the spoken language.
         out: Folder for what the run leaves.
         console: Where it says what happens.
+        robot: Name of the robot.
+        language: Code of the sign language.
         view: Whether to serve the console's page, and to go on until Ctrl-C.
     """
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     shutil.rmtree(out / "bag", ignore_errors=True)
     began = time.monotonic()
-    with Graph(log_folder=out / "log") as graph:
-        graph.start_nodes(view=view)
+    with Graph(out / "log") as graph:
+        nodes = (*SIGNING, "console") if view else SIGNING
+        graph.start_nodes(nodes, ["--ros-args", "-p", f"robot:={robot}", "-p", f"language:={language}"])
         record = ("ros2", "bag", "record", "-o", str(out / "bag"), "--include-unpublished-topics")
-        graph.start("recorder", *record, "--topics", *RECORDED)
+        made_for = ("--custom-data", f"robot={robot}", f"language={language}")
+        graph.start("recorder", *record, *made_for, "--topics", *RECORDED)
         rclpy.init()
         try:
-            with LiveFilm(out / "signing.mp4") as film:
+            with LiveFilm(out / "signing.mp4", robot) as film:
                 spectator = Spectator(film)
                 executor = SingleThreadedExecutor()
                 executor.add_node(spectator)
@@ -184,15 +191,15 @@ def sign(text: str, out: Path, console: Console, *, view: bool) -> bool:
             raise DemoError(f"expected a film at {out / 'signing.mp4'}; the process that draws it failed")
         if graph.stop("recorder") != 0:
             raise DemoError(f"expected the recorder to end cleanly:\n{graph.tail('recorder')}")
-        report(spectator, out, console, took=time.monotonic() - began)
+        report(spectator, out, console, robot=robot, took=time.monotonic() - began)
         if view:
             keep_open(graph, console)
     return spectator.progress.signed
 
 
-def report(spectator: Spectator, out: Path, console: Console, *, took: float) -> None:
+def report(spectator: Spectator, out: Path, console: Console, *, robot: str, took: float) -> None:
     """Say what was signed, and what the run has left; `took` is how long it was [s]."""
-    draw_strip(spectator, out / "signing.png")
+    draw_strip(spectator, out / "signing.png", robot)
     console.print(table(spectator.progress))
     moved = sum(status.duration for status in spectator.progress.started.values())
     console.print(f"signing took {moved:.1f} s, the whole run {took:.1f} s; left in {out}/:")
@@ -207,7 +214,7 @@ def keep_open(graph: Graph, console: Console) -> None:
     Raises:
         DemoError: One of them ended.
     """
-    console.print("TEO waits for more on the page; Ctrl-C ends it")
+    console.print("the robot waits for more on the page; Ctrl-C ends it")
     try:
         name, status = graph.wait()
     except KeyboardInterrupt:
@@ -230,7 +237,7 @@ def perform(
     *,
     view: bool,
 ) -> None:
-    """Publish the text once everybody listens, and wait until TEO is at rest again."""
+    """Publish the text once everybody listens, and wait until the robot is at rest again."""
 
     def wait(condition: Callable[[], bool], timeout: float, expected: str, process: str) -> None:
         deadline = time.monotonic() + timeout
@@ -244,7 +251,11 @@ def perform(
 
     with console.status("starting translator, executor, driver and recorder"):
         wait(
-            lambda: bool(spectator.states) and all(map(spectator.is_heard, LISTENERS)),
+            lambda: (
+                graph.is_ready(*SIGNING)
+                and bool(spectator.states)
+                and all(map(spectator.is_heard, LISTENERS))
+            ),
             START_TIMEOUT,
             f"every process to listen ({', '.join(LISTENERS)})",
             "executor",
@@ -262,8 +273,8 @@ def perform(
     with console.status("translating"):
         wait(lambda: publisher.poll() is not None, START_TIMEOUT, "ros2 topic pub to end", "translator")
         wait(lambda: progress.expected > 0, TRANSLATION_TIMEOUT, "sign tokens", "translator")
-    with console.status("TEO is signing"):
-        wait(lambda: progress.finished, SIGNING_TIMEOUT, "TEO at rest after the last sentence", "executor")
+    with console.status("the robot is signing"):
+        wait(lambda: progress.finished, SIGNING_TIMEOUT, "rest after the last sentence", "executor")
 
 
 def yaml_quoted(text: str) -> str:
@@ -271,7 +282,7 @@ def yaml_quoted(text: str) -> str:
     return "'" + text.replace("'", "''") + "'"
 
 
-def draw_strip(spectator: Spectator, path: Path) -> None:
+def draw_strip(spectator: Spectator, path: Path, robot: str) -> None:
     """Draw the middle of every sign, between rest and rest."""
     frames, captions = [spectator.states[1][1]], ["(rest)"]
     for _, status in sorted(spectator.progress.started.items()):
@@ -281,9 +292,10 @@ def draw_strip(spectator: Spectator, path: Path) -> None:
             captions.append(timing.token.gloss or "(pause)")
     frames.append(spectator.states[-1][1])
     captions.append("(rest)")
+    views = [camera_named(camera, load_humanoid(robot)).sized(330, 400) for camera in ("front", "hand")]
     pictures = [
         # The body tells where a sign is made, the hand which one it is.
-        np.hstack([render_pose(frame, CAMERAS[camera].sized(330, 400)) for camera in ("front", "hand")])
+        np.hstack([render_pose(frame, view, robot=robot) for view in views])
         for frame in frames
     ]
     save_png(path, film_strip(pictures, captions, columns=4))
@@ -292,7 +304,7 @@ def draw_strip(spectator: Spectator, path: Path) -> None:
 def table(progress: Progress) -> Table:
     """Lay out every token with its times, measured from the first movement."""
     result = Table(
-        "token", "kind", "origin", r"start \[s]", r"duration \[s]", "stretch", title="What TEO signed"
+        "token", "kind", "origin", r"start \[s]", r"duration \[s]", "stretch", title="What was signed"
     )
     first = min((seconds(status.header.stamp) for status in progress.started.values()), default=0.0)
     for _, status in sorted(progress.started.items()):
@@ -311,17 +323,21 @@ def table(progress: Progress) -> Table:
 
 
 def main(
-    text: Annotated[str, typer.Argument(help="Spanish text, one or more sentences.")],
+    text: Annotated[str, typer.Argument(help="Text in the spoken language, one or more sentences.")],
     out: Annotated[Path, typer.Option(help="Folder for what the run leaves.")] = Path("out"),
+    robot: Annotated[str, typer.Option(help="Name of the robot.")] = DEFAULT_ROBOT,
+    language: Annotated[str, typer.Option(help="Sign language, by its ISO 639-3 code.")] = DEFAULT_LANGUAGE,
     view: Annotated[bool, typer.Option(help="Serve the console's page, and go on until Ctrl-C.")] = False,
 ) -> None:
-    """Sign TEXT with the simulated TEO."""
+    """Sign TEXT with a simulated robot."""
     console = Console()
     try:
         with reservation.folder(out), reservation.domain() as domain:
             console.print(f"in domain {domain}: `export ROS_DOMAIN_ID={domain}` lets another shell see it")
-            signed = sign(text, out, console, view=view)
-    except (DemoError, GraphError, reservation.OccupiedError) as error:
+            known = load_language(language).code
+            name = load_humanoid(robot).name
+            signed = sign(text, out, console, robot=name, language=known, view=view)
+    except (DemoError, GraphError, DescriptionError, LanguageError, reservation.OccupiedError) as error:
         console.print(str(error), style="red", markup=False)
         signed = False
     if not signed:

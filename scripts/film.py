@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from teo_description.pictures.rendering import MotionVideo, Renderer
+from teo_description.robot import Robot
 
 FRAMES_PER_SECOND = 25.0
 _Frame = tuple[dict[str, float], str]
@@ -21,11 +22,11 @@ class LiveFilm:
     when the `with` block ends.
     """
 
-    def __init__(self, path: Path) -> None:
-        """Prepare a film at `path`; its folder exists."""
+    def __init__(self, path: Path, robot: str) -> None:
+        """Prepare a film of a robot at `path`; its folder exists."""
         context = multiprocessing.get_context("spawn")
         self._frames: multiprocessing.Queue[_Frame | None] = context.Queue()
-        self._process = context.Process(target=_draw, args=(path, self._frames), daemon=True)
+        self._process = context.Process(target=_draw, args=(path, robot, self._frames), daemon=True)
 
     def __enter__(self) -> LiveFilm:
         self._process.start()
@@ -45,8 +46,8 @@ class LiveFilm:
         return self._process.exitcode == 0
 
 
-def _draw(path: Path, frames: multiprocessing.Queue[_Frame | None]) -> None:
-    renderer = Renderer()
+def _draw(path: Path, robot: str, frames: multiprocessing.Queue[_Frame | None]) -> None:
+    renderer = Renderer(Robot.load(robot))
     with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as video:
         while (frame := frames.get()) is not None:
             positions, caption = frame

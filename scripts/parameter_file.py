@@ -28,7 +28,7 @@ _HEAD = """\
 #
 # Every parameter of every node, with its default. Made by scripts/parameter_file.py from the nodes' own
 # tables; a test compares the two. A lab copies this file, keeps the lines that it changes and names the copy:
-#   ros2 run teo_bringup start --params-file my.yaml
+#   ros2 run teo_bringup up --params-file my.yaml
 #   ros2 launch teo_bringup signing.launch.py params_file:=my.yaml
 """
 _WIDTH = 110  # characters of a comment's line

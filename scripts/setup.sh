@@ -5,6 +5,7 @@
 #   scripts/setup.sh run   what signs, and the demo
 #   scripts/setup.sh view  that, the console, and what sees and captures, which it teaches with
 #   scripts/setup.sh all   that, and what trains, tests and documents
+#   scripts/setup.sh wheelhouse  fetches all of it into wheelhouse/, from which each of these then installs
 # Does only what is missing; a second call takes well under a second.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -13,8 +14,8 @@ level="${1:-all}"
 case "$level" in
     run) stamps=(.ready-run .ready-view .ready) ;;
     view) stamps=(.ready-view .ready) ;;
-    all) stamps=(.ready) ;;
-    *) echo "setup: expected 'run', 'view' or 'all', got '$level'" >&2 && exit 2 ;;
+    all | wheelhouse) stamps=(.ready) ;;
+    *) echo "setup: expected 'run', 'view', 'all' or 'wheelhouse', got '$level'" >&2 && exit 2 ;;
 esac
 
 # The Python asked for, else the one that .venv was made with, else the system's.
@@ -65,21 +66,11 @@ is_ready() { # FOLDER WANT
     return 1
 }
 
-install_requirements() {
-    local made_for want options=()
-    made_for="$PWD $("$python" --version) $ros"
-    want="$made_for $(cat requirements/*.txt scripts/setup.sh | sha256sum | cut -d' ' -f1)"
-    is_ready .venv "$want" && return
-    check_tools
-    if [ "$(cat .venv/.made-for 2>/dev/null)" != "$made_for" ]; then # paths and versions are all over an environment
-        rm -rf .venv build install log
-        [ "$ros" = sourced ] && options=(--system-site-packages)
-        "$python" -m venv "${options[@]}" .venv
-        echo "$made_for" >.venv/.made-for
-    fi
-    # Python compiles a module when it first loads it: most of what is installed is never loaded.
-    local pip=(.venv/bin/python -m pip install --disable-pip-version-check --quiet --no-compile)
-    local building=(-r requirements/build.txt)
+# What pip installs: `building` first; then `wanted`; then `alone`, without what they declare; all by `options`.
+list_requirements() { # LEVEL
+    building=(-r requirements/build.txt)
+    wanted=(-r requirements/run.txt)
+    alone=()
     # A sourced ROS 2 Jazzy is built against NumPy 1; its messages do not load beside NumPy 2.
     if [ "$ros" = sourced ]; then
         options=('numpy<2')
@@ -87,28 +78,78 @@ install_requirements() {
         options=(-c requirements/constraints.txt)
         building+=(-r requirements/ros.txt numpy)
     fi
+    if [ "$1" != run ]; then
+        wanted+=(-r requirements/console.txt -r requirements/retriever.txt -r requirements/capture.txt)
+        alone+=(-r requirements/retriever-alone.txt)
+    fi
+    if [ "$1" = all ]; then
+        wanted+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt
+            -r requirements/physics.txt)
+        alone+=(-r requirements/people-alone.txt)
+    fi
+}
+
+# What wheels are for: they suit no other Python, machine, ROS or version of what is required.
+machine() {
+    "$python" -c 'import platform; print("Python", ".".join(platform.python_version_tuple()[:2]), "on", platform.machine(), end=", ")'
+    echo "ROS from $ros, requirements $(cat requirements/*.txt | sha256sum | cut -c1-8)"
+}
+
+install_requirements() {
+    local made_for want site=()
+    made_for="$PWD $("$python" --version) $ros"
+    want="$made_for $(cat requirements/*.txt scripts/setup.sh | sha256sum | cut -d' ' -f1)"
+    is_ready .venv "$want" && return
+    check_tools
+    list_requirements "$level"
+    # Python compiles a module when it first loads it: most of what is installed is never loaded.
+    local pip=(.venv/bin/python -m pip install --disable-pip-version-check --quiet --no-compile)
+    if [ -d wheelhouse ]; then
+        [ "$(cat wheelhouse/made-for)" = "$(machine)" ] ||
+            fail "wheelhouse/ was made for $(cat wheelhouse/made-for), this is $(machine); make it anew with \`make wheelhouse\`, or remove it"
+    fi
+    if [ "$(cat .venv/.made-for 2>/dev/null)" != "$made_for" ]; then # paths and versions are all over an environment
+        rm -rf .venv build install log
+        [ "$ros" = sourced ] && site=(--system-site-packages)
+        "$python" -m venv "${site[@]}" .venv
+        echo "$made_for" >.venv/.made-for
+    fi
     case "$level" in
         run) echo "setup: installing what signs and building it (about a minute and 1.2 GB the first time)" ;;
+        view) echo "setup: installing what signs, the page and what it teaches with, and building it (two minutes and 1.8 GB the first time)" ;;
         *) echo "setup: installing Python packages (a few minutes and 3 GB the first time)" ;;
     esac
+    if [ -d wheelhouse ]; then # all of it: a wheel does not tell which level wants it
+        "${pip[@]}" --no-deps wheelhouse/*.whl
+        repair_wheel_exports
+        echo "$want" >".venv/${stamps[0]}"
+        return
+    fi
     "${pip[@]}" "${building[@]}" "${options[@]}"
     repair_wheel_exports
     # The messages take longest to build and need nothing more: they are built while the rest is fetched.
     build --packages-select control_msgs teo_sign_msgs &
-    options+=(-r requirements/run.txt)
-    if [ "$level" != run ]; then
-        options+=(-r requirements/console.txt -r requirements/retriever.txt -r requirements/capture.txt)
-    fi
-    if [ "$level" = all ]; then
-        options+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt
-            -r requirements/physics.txt)
-    fi
-    "${pip[@]}" "${options[@]}"
-    if [ "$level" != run ]; then # last: pip would complain of what these ask for and do without
-        "${pip[@]}" --no-deps -r requirements/retriever-alone.txt
+    "${pip[@]}" "${wanted[@]}" "${options[@]}"
+    if [ ${#alone[@]} -gt 0 ]; then # last: pip would complain of what these ask for and do without
+        "${pip[@]}" --no-deps "${alone[@]}"
     fi
     wait $!
     echo "$want" >".venv/${stamps[0]}"
+}
+
+make_wheelhouse() {
+    check_tools
+    list_requirements all
+    rm -rf wheelhouse.part
+    "$python" -m venv wheelhouse.part/python
+    echo "setup: fetching Python packages into wheelhouse/ (a few minutes and 1.2 GB)"
+    local pip=(wheelhouse.part/python/bin/python -m pip wheel --disable-pip-version-check --quiet --wheel-dir wheelhouse.part/wheels)
+    "${pip[@]}" "${building[@]}" "${wanted[@]}" "${options[@]}"
+    "${pip[@]}" --no-deps "${alone[@]}"
+    machine >wheelhouse.part/wheels/made-for
+    rm -rf wheelhouse
+    mv wheelhouse.part/wheels wheelhouse
+    rm -rf wheelhouse.part
 }
 
 build() { # OPTION...: builds what colcon's options select
@@ -146,5 +187,9 @@ build_workspace() {
 
 ros=wheels
 if ros_is_sourced; then ros=sourced; fi
+if [ "$level" = wheelhouse ]; then
+    make_wheelhouse
+    exit
+fi
 install_requirements
 build_workspace

@@ -14,8 +14,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 # Files that can carry a comment, by the ends of their names; hand-written data among them.
-SUFFIXES = {".cmake", ".py", ".pyi", ".sh", ".yaml", ".yml", ".toml", ".msg", ".srv", ".action"}
-NAMES = {"CMakeLists.txt", "Makefile", "run"}
+SUFFIXES = {".cmake", ".py", ".pyi", ".service", ".sh", ".yaml", ".yml", ".toml", ".msg", ".srv", ".action"}
+NAMES = {"CMakeLists.txt", "Dockerfile", "Makefile", "run"}
 HEADER = "# SPDX-FileCopyrightText: 2026 TEO signing project\n# SPDX-License-Identifier: Apache-2.0\n"
 # Made by scripts or taken over from others, with a licence beside it.
 _LEFT_OUT = ("bags/", "test/data/")

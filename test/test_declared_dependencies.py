@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from catkin_pkg.package import parse_package
 
 SOURCES = Path(__file__).parents[1] / "src"
 PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/setup.py"))
@@ -25,6 +26,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     **{name: (name, None) for name in (*ROS, *PACKAGES, "teo_sign_msgs", "control_msgs")},
     "PIL": ("python3-pil", "pillow"),
     "aiohttp": ("python3-aiohttp", "aiohttp"),
+    "argcomplete": ("python3-argcomplete", "argcomplete"),
     "anny": (None, "anny"),
     "av": (None, "av"),
     "casadi": (None, "casadi"),
@@ -33,6 +35,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "distributed": (None, "distributed"),
     "dtaidistance": (None, "dtaidistance"),
     "embreex": (None, "embreex"),
+    "fast_simplification": (None, "fast-simplification"),
     "flatbuffers": (None, "flatbuffers"),
     "fontTools": (None, "fonttools"),
     "google": ("python3-protobuf", "protobuf"),
@@ -146,6 +149,14 @@ def test_everything_declared_is_imported(package: str) -> None:
     keys, names = {key for key, _ in used}, {name for _, name in used}
     assert rosdep_keys(package) - keys - NOT_IMPORTED.get(package, set()) == set()
     assert pypi_names(package) - names - NOT_IMPORTED.get(package, set()) == set()
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_package_xml_follows_rep_149(package: str) -> None:
+    """As the parser reads it that colcon, bloom and rosdep share."""
+    complaints: list[str] = []
+    parse_package(SOURCES / package / "package.xml", warnings=complaints)
+    assert complaints == []
 
 
 @pytest.mark.parametrize("package", PACKAGES)

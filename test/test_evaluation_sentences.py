@@ -21,7 +21,7 @@ from teo_sign_translator.pipeline.translator import Translator
 
 ROOT = Path(__file__).parents[1]
 SENTENCES = Path("test") / "data"
-LANGUAGE = Path("src") / "teo_sign_translator" / "data"
+LANGUAGE = Path("src") / "teo_sign_languages" / "languages" / "ssp" / "text"
 # Between the sentences of a text, and round what it quotes.
 PARTS = re.compile(r"(?<=[.?!…])\s+|[;\"“”«»]")
 # Translations that are accepted for one sentence. A judge of sentences that nobody has seen names few; the

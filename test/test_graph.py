@@ -22,8 +22,7 @@ from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
 
 from teo_bringup.graph import Graph
-from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, joint_limits
-from teo_motion.sentence.rest_posture import REST
+from teo_description.humanoid import Humanoid, load_humanoid
 
 START_TIMEOUT = 60.0  # [s] for all processes to be there, on a loaded machine
 SIGNING_TIMEOUT = 120.0  # [s] for a short text
@@ -37,86 +36,123 @@ class Witness(Node):
         super().__init__("witness", context=context)
         self.progress = Progress()
         self.states: list[JointState] = []
+        self.executor_of_all = SingleThreadedExecutor(context=context)
+        self.executor_of_all.add_node(self)
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(JointState, "joint_states", self.states.append, 100)
-        self.create_subscription(SignSentence, "sign_tokens", self.progress.on_tokens, 100)
-        self.create_subscription(ExecutorStatus, "executor_status", self.progress.on_status, latched)
+        self.create_subscription(SignSentence, "sign_tokens", self._on_tokens, 100)
+        self.create_subscription(ExecutorStatus, "executor_status", self._on_status, latched)
 
-    def positions(self) -> np.ndarray:
-        """Every position seen, in the order of ALL_JOINTS. Shape (n, 40)."""
-        return np.array([dict_of(state) for state in self.states])
+    def _on_tokens(self, message: SignSentence) -> None:
+        self.progress.on_tokens(message)
 
+    def _on_status(self, message: ExecutorStatus) -> None:
+        self.progress.on_status(message)
 
-def dict_of(state: JointState) -> list[float]:
-    values = dict(zip(state.name, state.position, strict=True))
-    return [values[name] for name in ALL_JOINTS]
+    def positions(self, humanoid: Humanoid) -> np.ndarray:
+        """Every position seen, in the order of all joints. Shape (n, joints)."""
+        values = (dict(zip(state.name, state.position, strict=True)) for state in self.states)
+        return np.array([[row[name] for name in humanoid.all_joints] for row in values])
 
-
-@pytest.fixture
-def witness(domain_id: int) -> Iterator[tuple[Witness, Callable[[Callable[[], bool], float], None]]]:
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    node = Witness(context)
-    executor = SingleThreadedExecutor(context=context)
-    executor.add_node(node)
-
-    def spin_until(condition: Callable[[], bool], timeout: float) -> None:
+    def spin_until(self, condition: Callable[[], bool], timeout: float) -> None:
+        """Hear what comes until something is so."""
         deadline = time.monotonic() + timeout
         while not condition():
             assert time.monotonic() < deadline, f"not within {timeout} s"
-            executor.spin_once(timeout_sec=0.1)
+            self.executor_of_all.spin_once(timeout_sec=0.1)
 
-    yield node, spin_until
-    executor.shutdown()
+    def wait_for_all(self, graph: Graph) -> None:
+        """Until every node can serve and listens."""
+
+        def ready() -> bool:
+            graph.check()
+            listening = (self.count_subscribers(topic) for topic in ("text", "joint_trajectory"))
+            hearers = {each.node_name for each in self.get_subscriptions_info_by_topic("sign_tokens")}
+            return graph.is_ready() and bool(self.states) and all(listening) and "executor" in hearers
+
+        self.spin_until(ready, START_TIMEOUT)
+
+    def see_signed(self, graph: Graph, text: str, humanoid: Humanoid) -> list[str]:
+        """Have a text signed until the robot is at rest again; the glosses of its first sentence."""
+        self.progress = progress = Progress()
+        ros2("topic", "pub", "--once", "text", "std_msgs/msg/String", f"{{data: '{text}'}}")
+
+        def finished() -> bool:
+            graph.check()
+            return progress.finished
+
+        self.spin_until(finished, SIGNING_TIMEOUT)
+        rest = np.concatenate([humanoid.ready, [humanoid.home[name] for name in humanoid.standing]])
+        self.spin_until(
+            lambda: np.allclose(self.positions(humanoid)[-1], rest, rtol=0, atol=1e-6), REST_TIMEOUT
+        )
+        assert progress.signed, progress.refusals
+        return [timing.token.gloss for timing in progress.started[0].timings]
+
+
+@pytest.fixture
+def witness(domain_id: int) -> Iterator[Witness]:
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    node = Witness(context)
+    yield node
+    node.executor_of_all.shutdown()
     node.destroy_node()
     rclpy.shutdown(context=context)
 
 
-def test_a_typed_sentence_moves_the_robot_and_brings_it_back_to_rest(
-    witness: tuple[Witness, Callable[[Callable[[], bool], float], None]], tmp_path: Path
-) -> None:
-    node, spin_until = witness
-    home = np.array([HOME[name] for name in ALL_JOINTS])
-    rest = home.copy()
-    rest[[ALL_JOINTS.index(name) for name in COMMANDED_JOINTS]] = REST
-    with Graph(log_folder=tmp_path) as graph:
-        graph.start_nodes()
+def ros2(*words: str) -> str:
+    """What a command of `ros2` says, which must succeed."""
+    done = subprocess.run(["ros2", *words], env=os.environ, check=True, capture_output=True, timeout=30)
+    return done.stdout.decode()
 
-        def ready() -> bool:
-            graph.check()
-            return (
-                bool(node.states)
-                and all(node.count_subscribers(topic) for topic in ("text", "joint_trajectory"))
-                and "executor" in {i.node_name for i in node.get_subscriptions_info_by_topic("sign_tokens")}
-            )
 
-        spin_until(ready, START_TIMEOUT)
-        np.testing.assert_allclose(node.positions()[-1], home, atol=1e-9)
+def speak(language: str) -> None:
+    """Have translator and executor change to a language."""
+    for name in ("executor", "translator"):
+        assert "successful" in ros2("param", "set", f"/{name}", "language", language)
 
-        publish = ["ros2", "topic", "pub", "--once", "text", "std_msgs/msg/String", "{data: 'Me llamo Al.'}"]
-        subprocess.run(publish, env=os.environ, check=True, capture_output=True, timeout=30)
 
-        def finished() -> bool:
-            graph.check()
-            return node.progress.finished
-
-        spin_until(finished, SIGNING_TIMEOUT)
-        spin_until(lambda: np.allclose(node.positions()[-1], rest, rtol=0, atol=1e-6), REST_TIMEOUT)
-
-    progress = node.progress
-    assert progress.signed, progress.refusals
-    assert [timing.token.gloss for timing in progress.started[0].timings] == ["MI", "NOMBRE", "A", "L"]
-
-    positions = node.positions()
-    limits = joint_limits(ALL_JOINTS)
+def check_motion(witness: Witness, humanoid: Humanoid) -> None:
+    """Every state is within the limits, from each to the next too; what is never commanded stays."""
+    positions, limits = witness.positions(humanoid), humanoid.limits(humanoid.all_joints)
     assert (positions >= limits.lower - 1e-9).all() and (positions <= limits.upper + 1e-9).all()
-    stamps = np.array([s.header.stamp.sec + s.header.stamp.nanosec * 1e-9 for s in node.states])
+    stamps = np.array([s.header.stamp.sec + s.header.stamp.nanosec * 1e-9 for s in witness.states])
     steps = np.diff(stamps)
     speeds = np.abs(np.diff(positions, axis=0)) / steps[:, None]
     assert (speeds[steps > 0] <= limits.velocity * 1.02).all()  # stamps jitter by a fraction of a period
+    home = np.array([humanoid.home[name] for name in humanoid.all_joints])
+    standing = slice(len(humanoid.commanded_joints), None)
+    assert np.abs(positions[:, standing] - home[standing]).max() < 1e-9
+    np.testing.assert_allclose(positions[0], home, atol=1e-9)
+    elbow = humanoid.all_joints.index(humanoid.elbows[0])
+    assert np.ptp(positions[:, elbow]) > 0.7, "signing bends the right elbow"
 
-    elbow = ALL_JOINTS.index("FrontalRightElbow")
-    assert positions[:, elbow].min() < -1.0, "spelling bends the right elbow"
-    legs = [place for place, joint in enumerate(ALL_JOINTS) if joint not in COMMANDED_JOINTS]
-    assert len(legs) == 12
-    assert np.abs(positions[:, legs] - home[legs]).max() < 1e-9, "the legs stay"
+
+def test_a_typed_sentence_moves_the_robot_and_brings_it_back_to_rest_in_either_language(
+    witness: Witness, tmp_path: Path
+) -> None:
+    teo = load_humanoid("teo")
+    with Graph(tmp_path) as graph:
+        graph.start_nodes()
+        witness.wait_for_all(graph)
+        for language, text, signs in (
+            ("ssp", "Me llamo Al.", ["MI", "NOMBRE", "A", "L"]),
+            ("ase", "My name is Al.", ["MY", "NAME", "A", "L"]),
+        ):
+            speak(language)
+            assert witness.see_signed(graph, text, teo) == signs
+            assert witness.progress.sentences[0].language == language
+    assert len(teo.standing) == 12, "the legs"
+    check_motion(witness, teo)
+
+
+def test_another_robot_signs_by_its_own_table_in_either_language(witness: Witness, tmp_path: Path) -> None:
+    gr1t2 = load_humanoid("gr1t2")
+    with Graph(tmp_path) as graph:
+        graph.start_nodes(arguments=["--ros-args", "-p", "robot:=gr1t2"])
+        witness.wait_for_all(graph)
+        assert witness.see_signed(graph, "Hola.", gr1t2) == ["HOLA"]
+        speak("ase")
+        assert witness.see_signed(graph, "Hello.", gr1t2) == ["HELLO"]
+    check_motion(witness, gr1t2)

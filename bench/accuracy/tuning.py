@@ -4,6 +4,11 @@
 
 from __future__ import annotations
 
+import math
+
+import numpy as np
+
+from accuracy.motions import add_random_scripts
 from accuracy.people import random_people
 from accuracy.takes import TakeSettings
 from teo_synthetic_signer.body.body_shapes import BODIES
@@ -53,3 +58,32 @@ PEOPLE_TAKES: tuple[TakeSettings, ...] = tuple(
     for i in range(_PEOPLE)
 )
 """One for each of the random people."""
+
+
+_MOTION_PEOPLE = 55
+BODIES |= random_people(_MOTION_PEOPLE, 86_028, "learned")
+add_random_scripts(_MOTION_PEOPLE, 1_299_709, "motion")
+
+
+def _motion_takes() -> tuple[TakeSettings, ...]:
+    random = np.random.default_rng(15_485)
+    return tuple(
+        TakeSettings(
+            script=f"motion_{i}",
+            body=f"learned_{i}",
+            scene=_SCENES[int(random.integers(4))],
+            light=("room", "window", "ceiling", "evening")[i % 4],
+            distance=round(float(random.uniform(1.0, 2.5)), 2),
+            camera_height=round(float(random.uniform(0.9, 1.8)), 2),
+            camera_roll=round(math.radians(float(random.uniform(-12.0, 12.0))), 3),
+            start=0.6,
+            seconds=1.6,
+            rate=10.0,
+            seed=300_000 + i,
+        )
+        for i in range(_MOTION_PEOPLE)
+    )
+
+
+MOTION_TAKES: tuple[TakeSettings, ...] = _motion_takes()
+"""Other people in motions that no other take has: where detectors put keypoints is read off them, too."""

@@ -19,7 +19,8 @@ from teo_synthetic_signer import Companion
 from teo_synthetic_signer.body.body_shapes import BODIES
 
 BODIES |= random_people(12, 314_159, "known")
-BODIES |= random_people(10, 660_719, "held_out")
+BODIES |= random_people(10, 660_719, "held_out_before")
+BODIES |= random_people(12, 1_061_033, "held_out")
 BODIES |= random_people(8, 5_517, "beside")
 
 _SCENES = ("office", "studio", "living_room", "near_wall")
@@ -55,8 +56,11 @@ def _other_people(name: str, *, count: int, cameras: int, seed: int) -> tuple[Ta
     )
 
 
-KNOWN_TAKES = _other_people("known", count=12, cameras=271_828, seed=120_000)
-HELD_OUT_TAKES = _other_people("held_out", count=10, cameras=577_215, seed=200_000)
+KNOWN_TAKES = (
+    *_other_people("known", count=12, cameras=271_828, seed=120_000),
+    *_other_people("held_out_before", count=10, cameras=577_215, seed=200_000),
+)
+HELD_OUT_TAKES = _other_people("held_out", count=12, cameras=433_494, seed=400_000)
 OCCLUDED_TAKES: tuple[TakeSettings, ...] = tuple(
     TakeSettings(
         script="before_face",

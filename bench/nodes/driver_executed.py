@@ -26,8 +26,8 @@ from kept import kept_folder
 from numpy.typing import NDArray
 from report import Figure
 from rich.progress import track
+from teo_names import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
 
-from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType

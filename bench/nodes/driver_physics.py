@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from report import Figure
 from rich.progress import track
+from teo_names import BODY_JOINTS, COMMANDED_JOINTS, LEG_JOINTS, joint_limits
 
 from nodes.driver_executed import one_hand, random_tokens
-from teo_description import COMMANDED_JOINTS, LEG_JOINTS, joint_limits
-from teo_description.joints import BODY_JOINTS
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
@@ -63,7 +63,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     for number in track(range(sentences), "sentences"):
         plan = planner.plan(random_tokens(np.random.default_rng([50, number]), table))
         ideal = max(ideal, float(np.abs(_followed(plan, IdealPlant()).errors).max()))
-        physics.append(_followed(plan, PhysicsPlant()))
+        physics.append(_followed(plan, PhysicsPlant(load_humanoid())))
     return list(_figures(physics, ideal))
 
 

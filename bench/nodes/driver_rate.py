@@ -24,9 +24,9 @@ from rclpy.publisher import Publisher
 from rclpy.serialization import serialize_message
 from report import Figure, percentiles
 from sensor_msgs.msg import JointState
+from teo_names import COMMANDED_JOINTS, HOME, joint_limits
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from teo_description import COMMANDED_JOINTS, HOME, joint_limits
 from teo_sim_driver.checking.cdr import CdrTrajectory
 from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.checking.validation import check

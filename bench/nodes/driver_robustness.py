@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from rclpy.serialization import serialize_message
 from report import Figure
+from teo_names import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits
 
 from nodes.driver_rate import PERIOD, as_message, wave
-from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits
 from teo_sim_driver.checking.intake import MOST_WAITING, Intake
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode

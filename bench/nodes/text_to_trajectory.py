@@ -28,12 +28,14 @@ from report import Figure, percentiles
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from teo_names import COMMANDED_JOINTS, HOME
 from teo_sign_msgs.msg import ExecutorStatus
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_bringup.graph import Graph
-from teo_description import COMMANDED_JOINTS, HOME
-from teo_motion.sentence.rest_posture import REST
+from teo_description.humanoid import load_humanoid
+
+REST = load_humanoid().ready
 
 SENTENCES = 200
 _TEXTS = (
@@ -161,7 +163,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
         return inbox.arrived[0] - start
 
     latencies: dict[str, list[float]] = {"text to trajectory": [], "DDS echo": []}
-    with tempfile.TemporaryDirectory() as folder, Graph(log_folder=Path(folder)) as graph:
+    with tempfile.TemporaryDirectory() as folder, Graph(Path(folder)) as graph:
         graph.start("translator", "ros2", "run", "teo_sign_translator", "translator_node")
         simulated = ("--ros-args", "-p", "use_sim_time:=true", "-p", "journal:=''")
         graph.start("executor", "ros2", "run", "teo_lut_executor", "executor_node", *simulated)

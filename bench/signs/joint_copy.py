@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.spatial.transform import Rotation
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_description.humanoid import load_humanoid
 from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
@@ -41,7 +42,7 @@ def copied_joints(track: SkeletonTrack, side: str) -> tuple[tuple[str, ...], Arr
     fingers = finger_bends(in_palm(hand)).mean(axis=2)
     thumb = np.tile([0.0, np.radians(-30.0)], (len(arm), 1))
     if side == "left":
-        arm = mirrored(arm)
+        arm = mirrored(load_humanoid(), arm)
     joints = RIGHT_ARM + RIGHT_HAND if side == "right" else LEFT_ARM + LEFT_HAND
     limits = joint_limits(joints)
     return joints, np.clip(np.concatenate([arm, thumb, fingers], axis=1), limits.lower, limits.upper)

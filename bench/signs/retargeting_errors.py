@@ -93,7 +93,8 @@ def _landmarks(robot: Robot, track: SkeletonTrack) -> tuple[Array, Array]:
     person += [body[:, EAR["right"]], body[:, EAR["left"]]]
     person += [body[:, NECK], (body[:, NECK] + body[:, MID_HIP]) / 2.0]
     boxes = body_boxes(robot)
-    nose, chin, mouth, eye, ear = (on_skin(boxes, name) for name in ("nose", "chin", "mouth", "eye", "ear"))
+    names = ("nose", "chin", "mouth", "eye", "ear")
+    nose, chin, mouth, eye, ear = (on_skin(robot.humanoid, boxes, name) for name in names)
     brow = eye * (1.0, 0.0, 1.0) + (0.0, 0.0, 0.01)
     shoulder = robot.placement(robot.configuration({}), "SagittalRightShoulder_link")[:3, 3]
     # The hips' axes are at the origin.

@@ -39,6 +39,8 @@ from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.script_file import read_script
 
 BODIES |= random_people(3, 19_447, "pupil")
+BODIES |= random_people(3, 52_301, "teacher")
+BODIES |= random_people(3, 70_117, "guest")
 
 _RATE = 25.0  # [Hz]
 _QUALITY = (
@@ -47,6 +49,7 @@ _QUALITY = (
     ("palm_error_p95_deg", "deg"),
     ("finger_error_p95_deg", "deg"),
     ("same_zone_percent", "% of the stroke"),
+    ("same_zone_of_middle_percent", "% of the stroke"),
 )
 
 
@@ -66,14 +69,37 @@ KNOWN = Draw(seed=11, signs=30, bodies=("woman_average", "man_average"), distanc
 KNOWN_SINCE = Draw(
     seed=4711, signs=18, bodies=("woman_small", "man_heavy", "woman_old"), distance=1.6, without=(KNOWN,)
 )
-# Never looked at: other signs and people. Looked at, it is known: draw another.
-NEW = Draw(
+# Other signs and people again, looked at since.
+KNOWN_LAST = Draw(
     seed=80_221,
     signs=18,
     bodies=("pupil_0", "pupil_1", "pupil_2"),
     distance=1.8,
     without=(KNOWN, KNOWN_SINCE),
 )
+# On these it was chosen how often depths are found anew (`lifting.clip`).
+KNOWN_DEPTHS = Draw(
+    seed=33_871,
+    signs=18,
+    bodies=("teacher_0", "teacher_1", "teacher_2"),
+    distance=2.2,
+    without=(KNOWN, KNOWN_SINCE, KNOWN_LAST),
+)
+# Never looked at: other signs and people. Looked at, it is known: draw another.
+NEW = Draw(
+    seed=61_553,
+    signs=18,
+    bodies=("guest_0", "guest_1", "guest_2"),
+    distance=1.9,
+    without=(KNOWN, KNOWN_SINCE, KNOWN_LAST, KNOWN_DEPTHS),
+)
+DRAWS = {
+    "known": KNOWN,
+    "known since": KNOWN_SINCE,
+    "known last": KNOWN_LAST,
+    "known, depths chosen on them": KNOWN_DEPTHS,
+    "new": NEW,
+}
 
 
 class Performed(NamedTuple):

@@ -15,8 +15,7 @@ from typing import NamedTuple
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
-
-from teo_description import COMMANDED_JOINTS, urdf_text
+from teo_names import COMMANDED_JOINTS, urdf_text
 
 # [rad/s] TEO's drives (nodes/common-ipos.ini of teo-configuration-files).
 MOST_SPEED = np.radians(50.0)

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
 from signs.pictured import pictured
 from signs.score_clips import Draw, performed
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.notation.performance import performance
@@ -26,7 +26,6 @@ from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance
 from teo_sign_capture.recordings.recording import open_recording, points_of
 from teo_sign_capture.retarget.arm_bounds import mirrored
-from teo_sign_capture.retarget.arm_residuals import JOINTS
 from teo_sign_capture.retarget.free_motion import free_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
@@ -125,9 +124,10 @@ def _track_joints(robot: Robot, track: SkeletonTrack) -> Array:
     free = free_motion(robot, stroke, handedness=span.handedness, person=measure_person(track))
     moments = np.linspace(0.0, float(stroke.times[-1]), MOMENTS)
     limbs: dict[str, Array] = {}
+    joints = free.chain.count
     for at, side in enumerate(free.sides):
-        arm = free.arms[:, JOINTS * at : JOINTS * (at + 1)]
-        limb = np.hstack([arm if side == "right" else mirrored(arm), free.shapes[side].axes])
+        arm = free.arms[:, joints * at : joints * (at + 1)]
+        limb = np.hstack([arm if side == "right" else mirrored(robot.humanoid, arm), free.shapes[side].axes])
         limbs[side] = np.column_stack([np.interp(moments, stroke.times, column) for column in limb.T])
     return _both(limbs)
 

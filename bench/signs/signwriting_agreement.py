@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from report import Figure
 
+from teo_description.robot import Robot
 from teo_sign_capture.notation.score_file import default_scores_directory, read_scores
 from teo_sign_capture.notation.score_schema import Score
 from teo_sign_capture.notation.targets import HandTarget, Posture, postures
@@ -49,7 +50,8 @@ class Agreement(NamedTuple):
 
 def agreement(compiled: Score, measured: Score) -> Agreement:
     """Compare two scores of a word: what any posture of the one shares with any of the other."""
-    ours, theirs = postures(compiled), postures(measured)
+    robot = Robot.load()
+    ours, theirs = postures(robot, compiled), postures(robot, measured)
     pairs = [(one.right, other.right) for one in ours for other in theirs]
     return Agreement(
         hands=(compiled.hands == "right") == (measured.hands == "right"),

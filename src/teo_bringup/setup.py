@@ -17,12 +17,18 @@ setup(
         (f"share/{PACKAGE}/launch", sorted(map(str, Path("launch").glob("*.launch.py")))),
         (f"share/{PACKAGE}/config", sorted(map(str, Path("config").glob("*.*")))),
     ],
-    install_requires=[],
+    install_requires=["PyYAML"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
-    description="Launch files, parameters in a file, and a supervised start without launch.",
+    description="Launch files, parameters in a file, and nodes kept up without launch.",
     license="Apache-2.0",
     extras_require={"test": ["pytest"]},
-    entry_points={"console_scripts": ["start = teo_bringup.start:main"]},
+    entry_points={
+        "console_scripts": [
+            "up = teo_bringup.up:main",
+            "network = teo_bringup.network.command:main",
+            "discovery_server = teo_bringup.network.discovery_server:main",
+        ]
+    },
 )

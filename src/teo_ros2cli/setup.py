@@ -14,7 +14,7 @@ setup(
         (f"share/{PACKAGE}", ["package.xml"]),
         (f"share/{PACKAGE}/config", ["config/fastdds.xml"]),
     ],
-    install_requires=["mcap", "numpy", "PyYAML"],
+    install_requires=["argcomplete", "mcap", "numpy", "PyYAML"],
     zip_safe=False,
     maintainer="TEO signing project",
     maintainer_email="teo-sign@example.org",
@@ -24,9 +24,5 @@ setup(
         "foreign_bags": ["rosbags"],
         "test": ["pytest", "hypothesis", "mcap-ros2-support", "rosbags"],
     },
-    entry_points={
-        "console_scripts": [
-            "ros2 = teo_ros2cli.main:main",
-        ],
-    },
+    scripts=["bin/ros2"],
 )

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-from pathlib import Path
-
 from setuptools import find_packages, setup
 
 PACKAGE = "teo_sign_capture"
@@ -14,7 +12,6 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        (f"share/{PACKAGE}/scores/lse", sorted(map(str, Path("scores/lse").glob("*.yaml")))),
     ],
     install_requires=[
         "av",
@@ -56,9 +53,11 @@ setup(
         "teo_lut_executor.lut_commands": [
             "capture = teo_sign_capture.cli.capture:capture",
             "ease = teo_sign_capture.cli.ease:ease",
+            "fit = teo_sign_capture.cli.fit:fit",
             "import = teo_sign_capture.cli.import_pose:import_pose",
             "recognise = teo_sign_capture.cli.recognise:recognise",
             "record = teo_sign_capture.cli.record:record",
+            "retarget = teo_sign_capture.cli.retarget:retarget",
         ],
     },
 )

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-from pathlib import Path
-
 from setuptools import find_packages, setup
 
 PACKAGE = "teo_sign_translator"
@@ -14,14 +12,6 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
-        ("share/teo_sign_translator/models", sorted(map(str, Path("models").glob("[!.]*")))),
-        *(
-            (
-                f"share/{PACKAGE}/{folder}",
-                sorted(str(path) for path in folder.glob("[!.]*") if path.is_file()),
-            )
-            for folder in (Path("data"), *sorted(path for path in Path("data").iterdir() if path.is_dir()))
-        ),
     ],
     install_requires=["numpy", "PyYAML", "rich", "safetensors", "threadpoolctl", "typer"],
     zip_safe=False,

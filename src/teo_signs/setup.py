@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-from pathlib import Path
-
 from setuptools import find_packages, setup
 
 PACKAGE = "teo_signs"
@@ -13,9 +11,7 @@ setup(
     package_data={PACKAGE: ["py.typed"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
-        (f"share/{PACKAGE}", ["package.xml"]),
-        (f"share/{PACKAGE}/lut", ["lut/sign.schema.json"]),
-        (f"share/{PACKAGE}/lut/lse", sorted(map(str, Path("lut/lse").glob("*.json")))),
+        (f"share/{PACKAGE}", ["package.xml", "sign.schema.json"]),
     ],
     install_requires=["numpy", "pydantic", "scipy"],
     zip_safe=False,

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 from queue_world import World
+from teo_names import COMMANDED_JOINTS, joint_limits
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import TrajectoryReady
 from teo_lut_executor.node.messages import to_trajectory
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sim_driver.joint_follower import JointFollower
 
@@ -24,7 +24,8 @@ def executed(world: World) -> Array:
     Raises:
         TrajectoryError: The driver refuses a motion.
     """
-    follower = JointFollower(limits=joint_limits(COMMANDED_JOINTS), start=REST.copy(), period=0.001)
+    limits, start = joint_limits(COMMANDED_JOINTS), load_humanoid().ready.copy()
+    follower = JointFollower(limits=limits, start=start, period=0.001)
     sent = [event for event in world.events if isinstance(event, TrajectoryReady)]
     # Each half a period before it begins: what the sender did not know by then must not matter. One that is
     # overtaken by the next before it begins comes with that: in the order in which they were sent.

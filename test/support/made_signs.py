@@ -11,16 +11,9 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
-from teo_description import (
-    COMMANDED_JOINTS,
-    LEFT_ARM,
-    LEFT_HAND,
-    RIGHT_ARM,
-    RIGHT_HAND,
-    description_hash,
-    joint_limits,
-)
+from teo_description.humanoid import DEFAULT_ROBOT, SIDES, Humanoid, load_humanoid
 from teo_motion.sentence.plan import Plan
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
@@ -42,7 +35,9 @@ def make_sign(
     *,
     joints: tuple[str, ...] = RIGHT,
     kind: str = "lexical",
+    robot: str = DEFAULT_ROBOT,
 ) -> Sign:
+    humanoid = load_humanoid(robot)
     provenance = Provenance(
         standing="recorded",
         source="made up",
@@ -50,20 +45,21 @@ def make_sign(
         recorded=None,
         created="2025-01-01",
         licence="Apache-2.0",
-        description_hash=description_hash(),
+        description_hash=humanoid.description_hash,
         notes="",
     )
-    sides = {side for side in ("Left", "Right") if any(side in joint for joint in joints)}
+    sides = {side for side in SIDES if not set(humanoid.arm(side) + humanoid.hand(side)).isdisjoint(joints)}
     return Sign(
         gloss=gloss,
-        language="lse",
+        language="ssp",
         kind=kind,
-        handedness="both" if len(sides) != 1 else sides.pop().lower(),
+        handedness="both" if len(sides) != 1 else sides.pop(),
         joints=joints,
         times=np.asarray(times, dtype=float),
         knots=np.asarray(knots, dtype=float),
         provenance=provenance,
         quality=MappingProxyType({}),
+        robot=robot,
     )
 
 
@@ -120,22 +116,19 @@ def make_sign_fixture() -> MakeSign:
     return make_sign
 
 
-_LIMB_SETS = (
-    RIGHT,
-    LEFT,
-    LEFT + RIGHT,
-    RIGHT_HAND,
-    ("AxialNeck", "FrontalNeck", *RIGHT_ARM),
-    COMMANDED_JOINTS,
-)
+def _limb_sets(humanoid: Humanoid) -> tuple[tuple[str, ...], ...]:
+    left, right = (humanoid.arm(side) + humanoid.hand(side) for side in SIDES)
+    nodding = humanoid.head + humanoid.arm("right")
+    return right, left, left + right, humanoid.hand("right"), nodding, humanoid.commanded_joints
 
 
-def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
+def random_table(rng: np.random.Generator, signs: int = 4, *, robot: str = DEFAULT_ROBOT) -> dict[str, Sign]:
     """Signs that no person makes: anywhere within the limits, or shaking; knots 1 ms to 1 s apart."""
-    table = {}
+    humanoid, table = load_humanoid(robot), {}
+    limb_sets = _limb_sets(humanoid)
     for number in range(signs):
-        joints = _LIMB_SETS[rng.integers(len(_LIMB_SETS))]
-        limits = joint_limits(joints)
+        joints = limb_sets[rng.integers(len(limb_sets))]
+        limits = humanoid.limits(joints)
         shape = (int(rng.integers(1, 7)), len(joints))
         gaps = rng.choice([0.001, 0.02, 0.1, 0.3, 1.0], shape[0] - 1) * rng.uniform(0.5, 1.0, shape[0] - 1)
         match rng.integers(4):
@@ -157,7 +150,7 @@ def random_table(rng: np.random.Generator, signs: int = 4) -> dict[str, Sign]:
         times = np.concatenate([[0.0], np.cumsum(gaps)])
         kind = str(rng.choice(["lexical", "letter", "number"]))
         gloss = f"SIGN{number}"
-        table[gloss] = make_sign(gloss, knots, times, joints=joints, kind=kind)
+        table[gloss] = make_sign(gloss, knots, times, joints=joints, kind=kind, robot=robot)
     return table
 
 

@@ -16,8 +16,18 @@ from playwright.sync_api import Page
 
 WIDTH, HEIGHT = 880, 608  # pixels, as wide as a README is shown
 _STEP = 0.2  # [s] between two pictures of the film
+_EVERY = 3  # of the browser's pictures, of which a robot in motion makes fifteen a second
 _LONGEST = 1.0  # [s] that a picture stands at most: a loaded machine's waits are left out
 _QUALITY = 60  # of WebP: letters stay clear, and the whole below 2 MB
+
+
+class Scene:
+    """Pictures of one page. `running` may be set to False while nothing happens that is worth a film."""
+
+    def __init__(self) -> None:
+        """Begin without a picture."""
+        self.running = True
+        self.shots: list[tuple[float, bytes]] = []
 
 
 class Film:
@@ -25,35 +35,43 @@ class Film:
 
     def __init__(self) -> None:
         """Begin without a picture."""
-        self._scenes: list[list[tuple[float, bytes]]] = []
+        self._scenes: list[Scene] = []
 
     @contextmanager
-    def scene(self, page: Page) -> Iterator[None]:
+    def scene(self, page: Page) -> Iterator[Scene]:
         """Film a page while something is done on it: the browser sends a picture whenever one has changed."""
-        shots: list[tuple[float, bytes]] = []
+        scene = Scene()
         session = page.context.new_cdp_session(page)
 
         def take(frame: dict[str, Any]) -> None:
-            shots.append((frame["metadata"]["timestamp"], base64.b64decode(frame["data"])))
+            if scene.running:
+                scene.shots.append((frame["metadata"]["timestamp"], base64.b64decode(frame["data"])))
             session.send("Page.screencastFrameAck", {"sessionId": frame["sessionId"]})
 
         session.on("Page.screencastFrame", take)
         session.send(
             "Page.startScreencast",
-            {"format": "jpeg", "quality": 85, "maxWidth": WIDTH, "maxHeight": HEIGHT},
+            {
+                "format": "jpeg",
+                "quality": 85,
+                "maxWidth": WIDTH,
+                "maxHeight": HEIGHT,
+                "everyNthFrame": _EVERY,
+            },
         )
         try:
-            yield
+            yield scene
         finally:
             session.send("Page.stopScreencast")
             session.detach()
-            self._scenes.append(shots)
+            if scene.shots:
+                self._scenes.append(scene)
 
     def save(self, path: Path) -> None:
         """Write the scenes as an animated WebP; nothing without a picture."""
         images, durations = [], []
-        for shots in self._scenes:
-            kept = _thinned(shots)
+        for scene in self._scenes:
+            kept = _thinned(scene.shots)
             ends = [stamp for stamp, _ in kept[1:]] + [kept[-1][0] + _LONGEST]
             for (begin, jpeg), end in zip(kept, ends, strict=True):
                 image = Image.open(io.BytesIO(jpeg)).convert("RGB")

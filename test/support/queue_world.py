@@ -7,8 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
+from teo_names import COMMANDED_JOINTS
 
-from teo_description import COMMANDED_JOINTS
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import (
     Activity,
     DriverMode,
@@ -27,7 +28,6 @@ from teo_lut_executor.execution.events import (
 from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.sign import Sign
@@ -53,8 +53,8 @@ class World:
         self.sent: list[TrajectoryReady] = []
         self.stops: list[StopReady] = []
         self.events: list[Event] = []
-        self.positions = REST.copy()
-        self.velocities = np.zeros(REST.size)
+        self.positions = load_humanoid().ready.copy()
+        self.velocities = np.zeros(load_humanoid().ready.size)
         self.path: list[tuple[np.ndarray, np.ndarray]] = []  # positions and velocities of every tick
         self.lag = 0.0  # of the robot behind what it was sent [s]
         self.pace = 1.0  # path time per time

@@ -4,11 +4,10 @@
 
 from launch import LaunchDescription
 
+from teo_bringup.graph import NODES
 from teo_bringup.launch_description import launch_description
 
 
 def generate_launch_description() -> LaunchDescription:
     """Describe what is started."""
-    return launch_description(
-        ("teo_skeleton_retriever", "retriever_node"), ("teo_sign_capture", "capture_node")
-    )
+    return launch_description(NODES["retriever"], NODES["capture"])

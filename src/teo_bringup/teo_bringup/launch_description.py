@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 from ament_index_python.packages import get_package_share_directory
 
+from teo_sign_languages import DEFAULT_LANGUAGE
+
 if TYPE_CHECKING:
     from launch import LaunchDescription
 
@@ -16,7 +18,8 @@ if TYPE_CHECKING:
 def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
     """Describe nodes that start together, all in one namespace, and end together.
 
-    The arguments `params_file`, `namespace` and `use_sim_time` are declared for `ros2 launch`.
+    The arguments `params_file`, `namespace`, `robot`, `language` and `use_sim_time` are declared for
+    `ros2 launch`.
 
     Args:
         nodes: Package and executable of each.
@@ -35,6 +38,16 @@ def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
             ),
             DeclareLaunchArgument("namespace", default_value="", description="Before every topic and node."),
             DeclareLaunchArgument(
+                "robot",
+                default_value="teo",
+                description="Name of the robot, whatever the parameter file says.",
+            ),
+            DeclareLaunchArgument(
+                "language",
+                default_value=DEFAULT_LANGUAGE,
+                description="Sign language, by its ISO 639-3 code, whatever the parameter file says.",
+            ),
+            DeclareLaunchArgument(
                 "use_sim_time", default_value="false", description="Take the time from the topic clock."
             ),
             *(
@@ -44,7 +57,11 @@ def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
                     namespace=LaunchConfiguration("namespace"),
                     parameters=[
                         LaunchConfiguration("params_file"),
-                        {"use_sim_time": LaunchConfiguration("use_sim_time")},
+                        {
+                            "robot": LaunchConfiguration("robot"),
+                            "language": LaunchConfiguration("language"),
+                            "use_sim_time": LaunchConfiguration("use_sim_time"),
+                        },
                     ],
                     output="screen",
                     on_exit=Shutdown(reason=f"{executable} ended"),

@@ -4,7 +4,11 @@
 
 from __future__ import annotations
 
+import os
+import re
+import select
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -14,7 +18,9 @@ from pathlib import Path
 import pytest
 
 from teo_bringup.graph import NODES, Graph, GraphError, executable_of
-from teo_bringup.start import parse
+from teo_bringup.keeper import MOST_RESTARTS
+from teo_bringup.up import parse
+from teo_common.node_process import tell_supervisor
 
 PATIENCE = 30.0  # [s] for a Python process to start on a loaded machine
 # Says that it is there, and at the end which signals came.
@@ -30,6 +36,8 @@ time.sleep(0.3)  # a window for a second signal, which must not come: nothing te
 print("got", *got, flush=True)
 sys.exit(7)
 """
+
+READY = "from teo_common.node_process import tell_supervisor; tell_supervisor('READY=1')"
 
 
 def python(code: str) -> tuple[str, ...]:
@@ -48,15 +56,6 @@ def test_every_node_that_signs_is_installed() -> None:
         assert executable_of(package, executable).is_file()
 
 
-@pytest.mark.parametrize("view", [False, True])
-def test_the_console_is_started_where_it_is_asked_for(view: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    started: list[str] = []
-    monkeypatch.setattr(Graph, "start", lambda *given: started.append(given[1]))
-    with Graph() as graph:
-        graph.start_nodes(view=view)
-    assert started == [*NODES, *(["console"] if view else [])]
-
-
 def test_a_package_or_executable_that_is_not_there_is_named() -> None:
     with pytest.raises(GraphError, match="teo_nowhere"):
         executable_of("teo_nowhere", "node")
@@ -65,7 +64,7 @@ def test_a_package_or_executable_that_is_not_there_is_named() -> None:
 
 
 def test_the_block_ends_with_one_sigint_for_each_process(tmp_path: Path) -> None:
-    with Graph(log_folder=tmp_path) as graph:
+    with Graph(tmp_path) as graph:
         graph.start("one", *python(LISTENER))
         graph.start("other", *python(LISTENER))
         for name in ("one", "other"):
@@ -75,7 +74,7 @@ def test_the_block_ends_with_one_sigint_for_each_process(tmp_path: Path) -> None
 
 
 def test_a_signal_that_was_passed_on_is_not_followed_by_another(tmp_path: Path) -> None:
-    with Graph(log_folder=tmp_path) as graph:
+    with Graph(tmp_path) as graph:
         graph.start("one", *python(LISTENER))
         wait_for("ready", tmp_path / "one.log")
         graph.tell_to_end(signal.SIGTERM)
@@ -84,70 +83,150 @@ def test_a_signal_that_was_passed_on_is_not_followed_by_another(tmp_path: Path) 
 
 
 def test_it_waits_for_the_first_that_ends_and_gives_its_status(tmp_path: Path) -> None:
-    with Graph(log_folder=tmp_path) as graph:
+    with Graph(tmp_path) as graph:
         graph.start("patient", *python(LISTENER))
         graph.start("hasty", *python("import sys; sys.exit(3)"))
         assert graph.wait() == ("hasty", 3)
 
 
 def test_checking_tells_what_an_ended_process_said(tmp_path: Path) -> None:
-    with Graph(log_folder=tmp_path) as graph:
+    with Graph(tmp_path) as graph:
         graph.start("hasty", *python("import sys; sys.exit('no look-up table')"))
         graph.wait()
         with pytest.raises(GraphError, match=r"hasty .* status 1(.|\n)*no look-up table"):
             graph.check()
 
 
-def test_without_a_log_folder_each_line_is_printed_with_its_process(
-    capfd: pytest.CaptureFixture[str],
+def test_each_line_is_printed_with_its_process_and_kept_in_its_log(
+    capfd: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    with Graph() as graph:
+    with Graph(tmp_path, printed=True) as graph:
         graph.start("one", *python("print('first\\nsecond')"))
         graph.wait()
     assert capfd.readouterr().out.splitlines() == ["[one] first", "[one] second"]
-    with pytest.raises(GraphError, match="log folder"):
-        graph.tail("one")
+    assert (tmp_path / "one.log").read_text() == "first\nsecond\n"
 
 
-def start(*arguments: str) -> subprocess.Popen[str]:
+def test_a_log_of_an_earlier_run_is_not_added_to(tmp_path: Path) -> None:
+    (tmp_path / "one.log").write_text("long ago\n")
+    with Graph(tmp_path) as graph:
+        graph.start("one", *python("print('now')"))
+        graph.wait()
+        assert graph.tail("one") == "now"
+
+
+def test_a_process_is_ready_when_it_says_so_and_not_before(tmp_path: Path) -> None:
+    with Graph(tmp_path) as graph:
+        graph.start("one", *python(f"import time; time.sleep(0.2); {READY}; time.sleep(60)"))
+        graph.start("dumb", *python("import time; time.sleep(60)"))
+        assert not graph.is_ready("one")
+        deadline = time.monotonic() + PATIENCE
+        while not graph.is_ready("one"):
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        assert not graph.is_ready()
+
+
+def test_what_was_ready_and_fails_is_started_again_until_it_fails_too_often(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("teo_bringup.keeper.RESTART_DELAY", 0.01)
+    with Graph(tmp_path, printed=True) as graph:
+        graph.start("feeble", *python(f"{READY}; print('alive', flush=True); raise SystemExit(3)"))
+        assert graph.keep_up(restarts=True, when_ready=lambda: None) == ("feeble", 3)
+    assert (tmp_path / "feeble.log").read_text().count("alive") == 1 + MOST_RESTARTS
+    assert capfd.readouterr().err.count("started again") == MOST_RESTARTS
+
+
+@pytest.mark.parametrize(
+    ("code", "restarts", "status"),
+    [
+        ("raise SystemExit(4)", True, 4),  # it could never serve
+        (f"{READY}", True, 0),  # it was told to end by somebody
+        (f"{READY}; raise SystemExit(4)", False, 4),
+    ],
+)
+def test_what_a_restart_would_not_help_ends_the_watch(
+    code: str, restarts: bool, status: int, tmp_path: Path
+) -> None:
+    with Graph(tmp_path) as graph:
+        graph.start("one", *python(f"print('alive', flush=True); {code}"))
+        assert graph.keep_up(restarts=restarts, when_ready=lambda: None) == ("one", status)
+    assert (tmp_path / "one.log").read_text() == "alive\n"
+
+
+def test_processes_end_with_a_supervisor_that_is_killed(tmp_path: Path) -> None:
+    supervisor = f"""
+import pathlib, time
+from teo_bringup.graph import Graph
+graph = Graph(pathlib.Path({str(tmp_path)!r}))
+graph.start("one", {sys.executable!r}, "-c", {LISTENER!r})
+print(graph.process_id("one"), flush=True)
+time.sleep(60)
+"""
+    with subprocess.Popen(python(supervisor), stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        child = os.pidfd_open(int(process.stdout.readline()))
+        wait_for("ready", tmp_path / "one.log")
+        process.kill()
+        ended, _, _ = select.select([child], [], [], PATIENCE)
+        os.close(child)
+    assert ended
+
+
+def test_a_notice_to_a_supervisor_that_is_gone_does_not_hinder(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("NOTIFY_SOCKET", "@nobody-is-there")
+    tell_supervisor("READY=1")
+    assert "nobody-is-there" in capsys.readouterr().err
+
+
+def up(*arguments: str, notices: str = "") -> subprocess.Popen[str]:
     return subprocess.Popen(
-        [str(executable_of("teo_bringup", "start")), *arguments],
+        [str(executable_of("teo_bringup", "up")), *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
+        env=os.environ | {"NOTIFY_SOCKET": notices},
     )
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_start_runs_every_node_until_it_is_told_to_end() -> None:
-    process = start("--namespace", "lab")
-    assert process.stdout is not None
+def test_up_keeps_every_node_up_until_it_is_told_to_end(tmp_path: Path) -> None:
+    """As systemd starts it: told when all can serve; one is killed, returns, and all end without a word."""
     said: list[str] = []
-    watchdog = threading.Timer(4 * PATIENCE, process.kill)
-    watchdog.start()
-    try:
-        # The driver says nothing; both others do once they listen.
-        while not all(
-            any(f"[lab.{name}]: ready" in line for line in said) for name in ("translator", "executor")
-        ):
-            line = process.stdout.readline()
-            assert line, said
-            said.append(line)
-        process.terminate()
-        rest, _ = process.communicate(timeout=PATIENCE)
-    finally:
-        watchdog.cancel()
-        process.kill()
-    assert process.returncode == 0, rest
-    assert "Traceback" not in "".join(said) + rest
-    assert all(line.startswith("[") for line in said)
+    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as systemd:
+        systemd.bind(str(tmp_path / "notices"))
+        systemd.settimeout(4 * PATIENCE)
+        process = up("--namespace", "lab", "--log-folder", str(tmp_path), notices=str(tmp_path / "notices"))
+        watchdog = threading.Timer(8 * PATIENCE, process.kill)
+        watchdog.start()
+        try:
+            assert process.stdout is not None
+            assert systemd.recv(100) == b"READY=1"
+            nodes = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+            killed = next(n for n in nodes if b"translator_node" in Path(f"/proc/{n}/cmdline").read_bytes())
+            os.kill(int(killed), signal.SIGKILL)
+            assert systemd.recv(100) == b"READY=1"
+            process.terminate()
+            said = process.communicate(timeout=PATIENCE)[0].splitlines()
+        finally:
+            watchdog.cancel()
+            process.kill()
+    assert process.returncode == 0, said
+    assert not [line for line in said if "Traceback" in line or not line.startswith("[")]
+    assert "[up] translator ended with status -9; it is started again" in said
+    for name in ("translator", "executor", "driver"):
+        assert said.count(f"[up] {name} is ready") == (2 if name == "translator" else 1)
+    assert (tmp_path / "translator.log").read_text().count("[lab.translator]: ready") == 2
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_start_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path) -> None:
+def test_up_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.yaml"
     wrong.write_text('executor:\n  ros__parameters:\n    lut_directory: "/nowhere"\n')
-    process = start("--params-file", str(wrong))
+    process = up("--params-file", str(wrong))
     try:
         said, _ = process.communicate(timeout=4 * PATIENCE)
     finally:
@@ -157,8 +236,8 @@ def test_start_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path)
     assert "/nowhere" in said
 
 
-def test_start_hands_namespace_clock_and_what_follows_on_to_every_node() -> None:
-    given, _ = parse(["--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256"])
+def test_up_hands_namespace_clock_and_what_follows_on_to_every_node() -> None:
+    given = parse(["--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256"]).for_nodes
     assert given[:2] == ["--ros-args", "--params-file"]
     assert given[3:] == [
         "-r",
@@ -172,15 +251,34 @@ def test_start_hands_namespace_clock_and_what_follows_on_to_every_node() -> None
     assert parse([]).for_nodes[3:] == []
 
 
-def test_start_wants_a_file_of_parameters_that_is_there() -> None:
-    process = start("--params-file", "nowhere.yaml")
+def test_up_starts_what_is_named_each_once_and_what_signs_if_nothing_is() -> None:
+    assert parse([]).nodes == ["translator", "executor", "driver"]
+    assert parse(["driver", "console", "driver"]).nodes == ["driver", "console"]
+
+
+def test_up_names_the_nodes_that_there_are(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parse(["camera"])
+    assert re.search("expected some of .*retriever.* got camera", capsys.readouterr().err)
+
+
+def test_up_keeps_logs_where_ros_does(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "logs"))
+    assert parse([]).log_folder.parent == tmp_path / "logs"
+    monkeypatch.delenv("ROS_LOG_DIR")
+    monkeypatch.setenv("ROS_HOME", str(tmp_path))
+    assert parse([]).log_folder.parent == tmp_path / "log"
+
+
+def test_up_wants_a_file_of_parameters_that_is_there() -> None:
+    process = up("--params-file", "nowhere.yaml")
     said, _ = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
     assert "nowhere.yaml" in said
 
 
-def test_start_wants_ros_args_before_what_the_nodes_get() -> None:
-    process = start("-r", "__ns:=/teo")
+def test_up_wants_ros_args_before_what_the_nodes_get() -> None:
+    process = up("-r", "__ns:=/teo")
     said, _ = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
     assert "--ros-args" in said

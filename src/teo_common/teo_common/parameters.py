@@ -57,6 +57,15 @@ AUTOSTART = ParameterRow(
 )
 
 
+# Which robot: that of the description, of the signs and of the driver must be the same.
+ROBOT = ParameterRow(
+    name="robot",
+    default="teo",
+    description="Name of the robot, one of `ros2 run teo_description robots list`.",
+    read_only=True,
+)
+
+
 def declare_parameters(node: Node, rows: Iterable[ParameterRow]) -> None:
     """Declare every row on the node."""
     for row in rows:

@@ -4,35 +4,22 @@
 
 from __future__ import annotations
 
-import io
 import re
-import shutil
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import av
 import pytest
+from browsers import BROWSERS, OPTIONS, browser_path, seeing, write_camera_film
 from page_film import Film
-from playwright.sync_api import Browser, ConsoleMessage, Page, sync_playwright
+from playwright.sync_api import Browser, ConsoleMessage, Page, expect, sync_playwright
 
-from teo_bringup.graph import CONSOLE, Graph, executable_of
+from teo_bringup.graph import NODES, Graph, executable_of
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-# WebGL 2 by the processor, and nothing that a browser does for itself in the background.
-OPTIONS = (
-    "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-    "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
-)  # fmt: skip
-# A greeting of the synthetic signer: synthesize --script greeting --body man_average --rate 30.
-GREETING = Path(__file__).parent / "data" / "greeting.mp4"
-CAMERA_RATE = 30.0  # [Hz] at which Chromium plays such a film, from when the camera is switched on
-# The sign comes after the countdown of 3 s, in the midst of the 6 s that are recorded then, and once [s].
-REST_BEFORE, REST_AFTER = 4.5, 20.0
 START_TIMEOUT = 60.0  # [s] for four processes on a loaded machine
 PATIENCE = 45_000  # [ms] for what a page waits for, likewise
+expect.set_options(timeout=PATIENCE)
 
 NewPage = Callable[..., Page]
 
@@ -40,11 +27,11 @@ NewPage = Callable[..., Page]
 @pytest.fixture(scope="module")
 def graph(module_domain_id: int, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Graph]:  # noqa: ARG001
     """Translator, executor, driver and console, on a port that is free."""
-    with Graph(log_folder=tmp_path_factory.mktemp("log")) as graph:
+    with Graph(tmp_path_factory.mktemp("log")) as graph:
         graph.start_nodes()
-        graph.start("console", str(executable_of(*CONSOLE["console"])), "--ros-args", "-p", "port:=0")
+        graph.start("console", str(executable_of(*NODES["console"])), "--ros-args", "-p", "port:=0")
         deadline = time.monotonic() + START_TIMEOUT
-        while "http://" not in graph.tail("console") or "ready" not in graph.tail("translator"):
+        while not graph.is_ready():
             graph.check()
             assert time.monotonic() < deadline, graph.tail("console") + graph.tail("translator")
             time.sleep(0.05)
@@ -62,23 +49,15 @@ def address(graph: Graph) -> str:
 @pytest.fixture(scope="session")
 def camera_film(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What the browser's camera sees, over and over: a person at rest, who greets, and is at rest again."""
-    with av.open(str(GREETING)) as film:
-        images = [image.to_image() for image in film.decode(video=0)]
-    pictures = []
-    for image in images:
-        encoded = io.BytesIO()
-        image.save(encoded, "JPEG", quality=85)
-        pictures.append(encoded.getvalue())
-    path = tmp_path_factory.mktemp("camera") / "greeting.mjpeg"
-    rest_before, rest_after = (round(seconds * CAMERA_RATE) for seconds in (REST_BEFORE, REST_AFTER))
-    path.write_bytes(pictures[0] * rest_before + b"".join(pictures) + pictures[-1] * rest_after)
+    path = tmp_path_factory.mktemp("camera") / "greeting.y4m"
+    write_camera_film(path)
     return path
 
 
 @contextmanager
 def launched(*options: str) -> Iterator[Browser]:
     """A browser without a window; without one there is nothing to test with."""
-    path = next(filter(None, map(shutil.which, BROWSERS)), None)
+    path = browser_path()
     if path is None:
         pytest.skip(f"no browser: install one of {', '.join(BROWSERS)}")
     with sync_playwright() as playwright:
@@ -90,7 +69,7 @@ def launched(*options: str) -> Iterator[Browser]:
 @pytest.fixture(scope="session")
 def browser(camera_film: Path) -> Iterator[Browser]:
     """One for all tests of the page, before a person who greets."""
-    with launched(f"--use-file-for-fake-video-capture={camera_film}") as browser:
+    with launched(seeing(camera_film)) as browser:
         yield browser
 
 
@@ -140,9 +119,9 @@ def pictures() -> Path:
     return folder
 
 
-@pytest.fixture(scope="session")
-def film(pictures: Path) -> Iterator[Film]:
-    """What the tests film, one after the other, goes into one film."""
+@pytest.fixture(scope="module")
+def film(pictures: Path, request: pytest.FixtureRequest) -> Iterator[Film]:
+    """What the tests of a module film, one after the other, goes into one film: page.webp, tabs.webp."""
     film = Film()
     yield film
-    film.save(pictures / "console.webp")
+    film.save(pictures / f"{request.path.stem.removeprefix('test_')}.webp")

@@ -4,93 +4,18 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import aiohttp
 import pytest
-from aiohttp import web
+from console_api import PATIENCE, Api
 from playwright.sync_api import Browser, expect
 
-from teo_console.api.routes import all_routes
-from teo_console.api.workbench import Folders, Workbench
 from teo_console.jobs import recordings as recordings_module
-from teo_console.protocol.to_page import Answer
-from teo_console.review.series import NewItem, Shown
-from teo_console.server.access import Access
-from teo_console.server.app import make_app
-from teo_console.server.hub import Hub
-from teo_console.server.thread import ServerThread
 
-WEB = Path(__file__).parents[1] / "web"
-PATIENCE = 60.0  # [s] for an answer on a loaded machine
 BAG = b"\x89MCAP0\r\n" + bytes(1000)
-
-
-class Api:
-    """The routes on a free port, with files of the test's own."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folders = Folders(
-            kept=folder / "kept",
-            reviews=folder / "reviews.sqlite",
-            signwriting=folder / "signwriting",
-            cache=folder / "cache",
-        )
-        self.thread = ServerThread(self._app, "127.0.0.1", 0)
-        self.url = f"http://127.0.0.1:{self.thread.port}"
-
-    def _app(self) -> web.Application:
-        self.workbench = Workbench(self.folders)
-        hub = Hub(lambda asked: asyncio.sleep(0, Answer(id=asked.id, success=True)), lambda _: None)
-        access = Access.for_address("127.0.0.1", frozenset())
-        routes = all_routes(self.workbench)
-        app = make_app(web_folder=WEB, access=access, hub=hub, urdf=lambda: "", routes=routes)
-
-        async def clear_up(_: web.Application) -> None:
-            await self.workbench.close()
-
-        app.on_cleanup.append(clear_up)
-        return app
-
-    def add_series(self, kind: str, *meanings: str, choices: tuple[str, ...] = ()) -> str:
-        """A series whose motions need no planning; what is among the choices is chosen from them."""
-        motion = Shown(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
-        items = [
-            NewItem(
-                kind="sign",
-                meaning=meaning,
-                language="lse",
-                motion_hash="0" * 64,
-                motion=motion,
-                choices=choices if meaning in choices else (),
-            )
-            for meaning in meanings
-        ]
-
-        async def add() -> str:
-            return self.workbench.reviews.add_series(kind, "", items, 1)  # type: ignore[arg-type]
-
-        return asyncio.run_coroutine_threadsafe(add(), self.thread.loop).result(PATIENCE)
-
-    def ask(self, method: str, path: str, body: Any = None, *, origin: str | None = None) -> tuple[int, Any]:
-        """Status and JSON of an answer; bytes are sent as they are."""
-
-        async def go() -> tuple[int, Any]:
-            data = body if isinstance(body, bytes) or body is None else json.dumps(body).encode()
-            headers = {"Origin": origin or self.url}
-            async with (
-                aiohttp.ClientSession(timeout=aiohttp.ClientTimeout(PATIENCE)) as session,
-                session.request(method, f"{self.url}{path}", data=data, headers=headers) as response,
-            ):
-                text = await response.text()
-                is_json = response.content_type == "application/json"
-                return response.status, json.loads(text) if is_json else text
-
-        return asyncio.run(go())
 
 
 @pytest.fixture
@@ -133,9 +58,17 @@ def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reporte
 ) -> None:
     words = ("CASA", *(f"PALABRA_{number}" for number in range(1, 15)))
     series = api.add_series("comprehension", "CASA", "PERRO", choices=words)
-    page = brief_browser.new_page(viewport={"width": 390, "height": 844}, locale="es-ES")
+    context = brief_browser.new_context(viewport={"width": 390, "height": 844}, locale="es-ES")
+    context.grant_permissions(["clipboard-read", "clipboard-write"])
+    page = context.new_page()
     try:
-        page.goto(f"{api.url}/#review/{series}")
+        page.goto(f"{api.url}/#review")
+        page.get_by_role("button", name="Copiar el enlace").click()
+        expect(page.locator("#notice")).to_have_text("Enlace copiado.")
+        link = page.evaluate("navigator.clipboard.readText()")
+        assert link == f"{api.url}/#review/{series}"
+        page = context.new_page()  # whoever was sent the link opens it
+        page.goto(link)
         page.fill("#reviewer", "Ana")
         page.keyboard.press("Enter")
         for number in (1, 2):
@@ -156,7 +89,7 @@ def test_a_comprehension_test_is_taken_in_a_browser_tells_nothing_and_is_reporte
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
         page.screenshot(path=pictures / "comprehension_report_phone.png", full_page=True)
     finally:
-        page.close()
+        context.close()
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import xml.etree.ElementTree as ET
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 from functools import wraps
@@ -21,6 +22,7 @@ from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage
 from teo_console.protocol.to_page import Answer
 from teo_console.server.access import Access
 from teo_console.server.app import make_app
+from teo_console.server.drawable_urdf import drawable_urdf
 from teo_console.server.hub import Hub
 from teo_console.server.rate_limit import RateLimit
 from teo_console.server.thread import ServerThread
@@ -278,3 +280,20 @@ def test_a_burst_passes_and_then_the_rate() -> None:
         True,
         False,
     ]  # no more than a burst is saved up
+
+
+def test_a_robot_of_meshes_is_drawn_by_its_plain_shapes() -> None:
+    mesh, box = '<geometry><mesh filename="a.STL"/></geometry>', '<geometry><box size="1 1 1"/></geometry>'
+    both = (
+        f"<link name='both'><visual>{mesh}</visual><collision><origin xyz='1 2 3'/>{box}</collision></link>"
+    )
+    bare = f"<link name='bare'><visual>{mesh}</visual><collision>{mesh}</collision></link>"
+    plain = f"<link name='plain'><visual>{box}</visual></link>"
+    robot = ET.fromstring(drawable_urdf(f"<robot name='r'>{both}{bare}{plain}</robot>"))
+    drawn = {link.attrib["name"]: link.findall("visual") for link in robot}
+    assert [len(drawn[name]) for name in ("both", "bare", "plain")] == [1, 0, 1]
+    assert drawn["both"][0].find("geometry/box") is not None
+    assert drawn["both"][0].find("origin").attrib["xyz"] == "1 2 3"
+    untouched = f"<robot name='r'>{plain}</robot>"
+    assert drawable_urdf(untouched) == untouched
+    assert drawable_urdf("no XML") == "no XML"

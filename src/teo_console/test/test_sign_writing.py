@@ -35,8 +35,8 @@ TERMS = {"BANDEJA": "bandeja", "SUBIR": "subir 2"}
 def listed(gloss: str, source: str) -> dict[str, object]:
     """A sign as /api/signs has it."""
     return {
-        "gloss": gloss, "source": source, "licence": "Apache-2.0", "handedness": "both", "handshapes": [],
-        "duration": 1.0, "standing": "described", "kind": "lexical",
+        "gloss": gloss, "language": "ssp", "source": source, "licence": "Apache-2.0", "handedness": "both",
+        "handshapes": [], "duration": 1.0, "standing": "described", "kind": "lexical",
     }  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How far TEO is from touching itself."""
+"""How far a humanoid is from touching itself."""
 
 from __future__ import annotations
 
@@ -8,9 +8,13 @@ from collections.abc import Collection
 from itertools import product
 from typing import NamedTuple
 
+import msgspec
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
+
+from teo_description.humanoid import SIDES, Humanoid, Side
+from teo_description.schema.body import ArmLinks
 
 
 class Clearance(NamedTuple):
@@ -39,76 +43,41 @@ class Contact(NamedTuple):
     """Where the other is nearest to the one [m]. Shape (3,)."""
     normal: NDArray[np.float64]
     """Way along which the other link leaves the one, unit vector. Shape (3,)."""
+    may_be_meant: bool
+    """Whether a signer may mean these to touch: a hand and anything, or both arms.
 
-    @property
-    def may_be_meant(self) -> bool:
-        """Whether a signer may mean these to touch: a hand and anything, or both arms.
-
-        An upper arm or forearm is beside the own trunk in most postures and touches it in no sign.
-        """
-        links = {self.first, self.second}
-        return links.isdisjoint(_TORSO) or not links.isdisjoint(_HANDS)
+    An upper arm or forearm is beside the own trunk in most postures and touches it in no sign.
+    """
 
 
-# What the joints of the head move.
-HEAD_LINKS = ("AxialNeck_link", "FrontalNeck_link")
-
-_TORSO = (
-    "root_link",
-    "AxialTrunk_link",
-    "FrontalTrunk_link",
-    *HEAD_LINKS,
-    "FrontalLeftHip_link",
-    "FrontalRightHip_link",
-    "FrontalLeftKnee_link",
-    "FrontalRightKnee_link",
-)
-
-
-def _shoulder(side: str) -> tuple[str, ...]:
-    return f"Frontal{side}Shoulder_link", f"Sagittal{side}Shoulder_link"
-
-
-def _upper_arm(side: str) -> tuple[str, ...]:
-    return (f"Axial{side}Shoulder_link",)
-
-
-def _forearm(side: str) -> tuple[str, ...]:
-    return f"Frontal{side}Elbow_link", f"Axial{side}Wrist_link"
-
-
-def _hand(side: str) -> tuple[str, ...]:
-    fingers = [
-        f"{side}{finger}Finger{part}_link"
-        for finger in ("Index", "Middle", "Ring", "Pinky")
-        for part in ("", "Middle", "Distal")
-    ]
-    thumb = (f"{side}HandAbductor_link", f"{side}ThumbFinger_link", f"{side}ThumbFingerDistal_link")
-    return (f"Frontal{side}Wrist_link", f"{side}Hand_link", *thumb, *fingers)
-
-
-_HANDS = frozenset((*_hand("Left"), *_hand("Right")))
-
-
-def watched_pairs() -> tuple[tuple[str, str], ...]:
+def watched_pairs(humanoid: Humanoid) -> tuple[tuple[str, str], ...]:
     """Pairs of links that must not touch.
 
     Upper arm, forearm and hand of each side against trunk, head, pelvis and legs; all of one arm from the
     shoulder on against all of the other; and each hand against its own shoulder, upper arm and elbow. Left
     out are neighbours (a link and the next, the two links at a shoulder or wrist), which touch or nearly
-    touch at every pose because of how their joint is built, and the parts of one hand among themselves:
-    fingers and thumb are meant to meet there.
+    touch at every pose because of how their joint is built, the pairs that the description allows, and the
+    parts of one hand among themselves: fingers and thumb are meant to meet there.
     """
+    collision = humanoid.file.collision
     pairs: list[tuple[str, str]] = []
-    for side in ("Left", "Right"):
-        pairs += product(_upper_arm(side) + _forearm(side) + _hand(side), _TORSO)
+    arms = {side: _arm_links(humanoid, side) for side in SIDES}
+    for arm in arms.values():
+        pairs += product(arm.upper_arm + arm.forearm + arm.hand, collision.torso)
         # The rest of the hand's own arm: two joints at the wrist lie between it and the elbow link.
-        pairs += product(_hand(side)[1:], (*_shoulder(side), *_upper_arm(side), _forearm(side)[0]))
-    left, right = (
-        _shoulder(side) + _upper_arm(side) + _forearm(side) + _hand(side) for side in ("Left", "Right")
-    )
+        pairs += product(arm.hand[1:], (*arm.shoulder, *arm.upper_arm, arm.forearm[0]))
+    left, right = (arm.shoulder + arm.upper_arm + arm.forearm + arm.hand for arm in arms.values())
     pairs += product(left, right)
-    return tuple(pairs)
+    allowed = {frozenset(pair) for pair in collision.allowed}
+    return tuple(pair for pair in pairs if frozenset(pair) not in allowed)
+
+
+def _arm_links(humanoid: Humanoid, side: Side) -> ArmLinks:
+    right = humanoid.file.collision.right_arm
+    if side == "right":
+        return right
+    parts = msgspec.structs.asdict(right)
+    return ArmLinks(**{part: tuple(map(humanoid.mirrored_name, links)) for part, links in parts.items()})
 
 
 class ClearanceChecker:
@@ -116,14 +85,14 @@ class ClearanceChecker:
 
     A pair of shapes is measured only when the distance of their bounding spheres leaves room for a smaller
     result than the one found, which makes the answer exact at a small part of the cost. A pair of shapes that
-    overlaps at `HOME` would be an error of the description: a test forbids it.
+    overlaps at home would be an error of the description: a test forbids it.
     """
 
-    def __init__(self, model: pin.Model, urdf: str, *, of: Collection[str] = ()) -> None:
+    def __init__(self, model: pin.Model, humanoid: Humanoid, *, of: Collection[str] = ()) -> None:
         """Watch all pairs, or only those with one of some links."""
         self._model = model
         self._data = model.createData()
-        self._geometry = pin.buildGeomFromUrdfString(model, urdf, pin.GeometryType.COLLISION)
+        self._geometry = pin.buildGeomFromUrdfString(model, humanoid.urdf_text(), pin.GeometryType.COLLISION)
         objects = list(self._geometry.geometryObjects)
         links = [model.frames[item.parentFrame].name for item in objects]
         by_link: dict[str, list[int]] = {}
@@ -131,9 +100,9 @@ class ClearanceChecker:
             by_link.setdefault(link, []).append(index)
         pairs = [
             (first, second)
-            for one, other in watched_pairs()
+            for one, other in watched_pairs(humanoid)
             if not of or one in of or other in of
-            for first, second in product(by_link[one], by_link[other])
+            for first, second in product(by_link.get(one, ()), by_link.get(other, ()))
         ]
         for first, second in pairs:
             self._geometry.addCollisionPair(pin.CollisionPair(first, second))
@@ -141,6 +110,8 @@ class ClearanceChecker:
         for request in self._geometry_data.distanceRequests:
             request.enable_signed_distance = True
         self._links = links
+        self._torso = frozenset(humanoid.file.collision.torso)
+        self._hands = frozenset(link for side in SIDES for link in _arm_links(humanoid, side).hand)
         self._pairs = np.array(pairs)
         # Where shapes are, in the memory that Pinocchio writes to: asking for all anew takes longer than
         # forward kinematics and all distances together. Boxes and rods have their origin at their centre.
@@ -150,6 +121,11 @@ class ClearanceChecker:
             item.geometry.computeLocalAABB()
         radii = np.array([item.geometry.aabb_radius for item in objects])
         self._reach = radii[self._pairs[:, 0]] + radii[self._pairs[:, 1]]
+
+    @property
+    def shaped_links(self) -> tuple[str, ...]:
+        """Links with collision shapes."""
+        return tuple(dict.fromkeys(self._links))
 
     def clearance(self, q: NDArray[np.float64]) -> Clearance:
         """Smallest distance at a configuration, shape (nq,)."""
@@ -181,9 +157,13 @@ class ClearanceChecker:
                         np.array(result.getNearestPoint1()),
                         np.array(result.getNearestPoint2()),
                         np.array(result.normal),
+                        self._may_be_meant({self._links[first], self._links[second]}),
                     )
                 )
         return found
+
+    def _may_be_meant(self, links: set[str]) -> bool:
+        return links.isdisjoint(self._torso) or not links.isdisjoint(self._hands)
 
     def _distance(self, pair: int) -> float:
         """Distance of a pair of shapes where they were placed last [m]."""

@@ -3,7 +3,7 @@
 """Whether the thumb is inside a finger of its own hand.
 
 Fingers and thumb are meant to meet, so `clearance` leaves the parts of one hand out. They may touch, and not
-pass through each other. Where they are depends on the six axes of the hand alone. Thumb and phalanges are
+pass through each other. Where they are depends on the axes of the hand alone. Thumb and phalanges are
 capsules about the points of `hand_geometry`: the rods of the collision model with round ends, as the drawn
 finger tips have them. A rod's flat ends stand out behind a bent joint, by up to 7 mm, and are not seen.
 """
@@ -13,48 +13,45 @@ from __future__ import annotations
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import DextraTable
-
-# Radii of a finger's phalanges and of the thumb's, from the knuckle on [m]: those of the collision model.
-_FINGER_RADII = np.array([0.0090, 0.0085, 0.0080])
-_THUMB_RADII = np.array([0.0095, 0.0090])
+from teo_description.hand_geometry import HandTable
 
 # So deep thumb and finger may be in each other where they touch [m]: the shapes of the collision model stand
 # out over the drawn parts by 1 mm each, and a finger that its tendon pulls against something stops there.
 TOUCH = 0.002
 
 
-def thumb_gaps(table: DextraTable, hands: Array) -> Array:
+def thumb_gaps(table: HandTable, hands: Array) -> Array:
     """Least distances of the thumb from the fingers of its hand [m]; negative is overlap.
 
     Args:
         table: Of the robot.
-        hands: Positions of the six axes, in the order of `RIGHT_HAND`, of a hand of either side [rad].
-            Shape (n, 6).
+        hands: Positions of the axes of a hand of either side, in the order of `HandGeometry.joints` [rad].
+            Shape (n, axes).
 
     Returns:
         Shape (n,).
     """
-    thumb_starts, thumb_ends = _segments(table.thumb_points(hands[:, 0], hands[:, 1]), _THUMB_RADII)
-    starts, ends = _segments(table.finger_points(hands[:, 2:]), _FINGER_RADII)
-    fingers = (len(hands), 1, 4, len(_FINGER_RADII))
-    thumb = (len(hands), len(_THUMB_RADII), 1, 1)
+    thumb_radii, finger_radii = table.hand.thumb_radii, table.hand.finger_radii
+    thumb_starts, thumb_ends = _segments(table.thumb_points(hands[:, 0], hands[:, 1]), thumb_radii)
+    starts, ends = _segments(table.finger_points(hands[:, 2:]), finger_radii)
+    fingers = (len(hands), 1, len(table.hand.fingers), len(finger_radii))
+    thumb = (len(hands), len(thumb_radii), 1, 1)
     apart = _distances(
         thumb_starts.reshape(*thumb, 3),
         thumb_ends.reshape(*thumb, 3),
         starts.reshape(*fingers, 3),
         ends.reshape(*fingers, 3),
     )
-    gaps: Array = (apart - _THUMB_RADII[:, None, None] - _FINGER_RADII).min(axis=(1, 2, 3))
+    gaps: Array = (apart - thumb_radii[:, None, None] - finger_radii).min(axis=(1, 2, 3))
     return gaps
 
 
-def with_clear_thumb(table: DextraTable, hand: Array) -> Array:
+def with_clear_thumb(table: HandTable, hand: Array) -> Array:
     """A handshape whose thumb is in no finger, moved as little as needed.
 
     Args:
         table: Of the robot.
-        hand: Positions of the six axes, in the order of `RIGHT_HAND` [rad]. Shape (6,).
+        hand: Positions of its axes, in the order of `HandGeometry.joints` [rad]. Shape (axes,).
 
     Returns:
         The same where thumb and fingers only touch; else with the thumb clear of them that moves least.

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""TEO's right hand as points and rods, in the axes of its palm: one handshape (`DextraHand`) or many at once.
+"""A humanoid's right hand as points and rods, in its palm's axes: one handshape (`HandGeometry`) or many.
 
-A finger's points depend on its one flexion, the thumb's on abductor and flexion: `DextraTable` works both out
-once by forward kinematics on a fine grid and interpolates.
+A finger's points depend on its one flexion, the thumb's on abductor and flexion: `HandTable` works both out
+once by forward kinematics on a fine grid and interpolates. Frames and measures are those of `robot.yaml`;
+fingers that a hand lacks are left out, so that arrays have a row for each finger that there is.
 """
 
 from __future__ import annotations
@@ -15,80 +16,85 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_HAND, joint_limits
 from teo_description.robot import Robot
-
-FINGERS = ("Index", "Middle", "Ring", "Pinky")
-
-# Lengths of a finger's phalanges [m], knuckle to tip, alike on the four fingers (Dextra's model).
-PHALANGES = np.array([0.035, 0.025, 0.027])
-
-FINGER_LENGTH = float(PHALANGES.sum())
-
-# Thickest phalanges of the collision model [m].
-FINGER_RADIUS, THUMB_RADIUS = 0.009, 0.009
-
-# Height of a thumb's axis over the palm's frame at which its surface touches the palm's box [m].
-PALM_FRONT = 0.009 - 0.003
-
-# The palm's box along and across the hand [m], the thumb's radius added at its sides.
-PALM_FROM, PALM_TO, PALM_HALF_WIDTH = -0.075, 0.032, 0.047
+from teo_description.schema.hand import PalmBox
 
 # Step of the table [rad]: between its points it is off by (finger length) * step^2 / 8 < 0.1 mm.
 _STEP = np.radians(2.0)
+
+# Decimals of a length [m] that are kept: a nanometre, so that rounding in forward kinematics stays out of it.
+_DECIMALS = 9
 
 
 class HandPoints(NamedTuple):
     """Joints and tips in palm axes: along the hand, to the little finger's side, out of the palm [m]."""
 
     fingers: Array
-    """Knuckle, middle joint, last joint and tip of index, middle, ring and little finger. Shape (4, 4, 3)."""
+    """Knuckle, middle joint, last joint and tip of each finger, index first. Shape (fingers, 4, 3)."""
     thumb: Array
     """Knuckle, joint and tip. Shape (3, 3)."""
 
 
-class DextraHand:
-    """Forward kinematics of the right hand relative to its palm."""
+class HandGeometry:
+    """Forward kinematics of the right hand relative to its palm.
+
+    Attributes:
+        joints: Its commanded axes: abductor, thumb, then the fingers that there are.
+        limits: Their limits.
+        fingers: Names of the fingers, of ``index``, ``middle``, ``ring`` and ``pinky``.
+        phalanges: Lengths from the knuckle to the tip [m]. Shape (fingers, 3).
+        finger_length: Sum of the phalanges of the median finger [m].
+        finger_radii, thumb_radii: Thickness of the phalanges from the knuckle on [m]. Shapes (3,) and (2,).
+        palm_box: Where the palm is to the thumb.
+        palm_middle, heel: Middle of the palm, and where the hand ends at the wrist [m]. Shape (3,).
+    """
 
     def __init__(self, robot: Robot) -> None:
+        humanoid, hand = robot.humanoid, robot.humanoid.file.hand
         self._robot = robot
-        parts = ("_link", "Middle_link", "Distal_link", "Tip")
-        self._frames = [
-            "right_palm",
-            *(f"Right{finger}Finger{part}" for finger in FINGERS for part in parts),
-            *(f"RightThumbFinger{part}" for part in ("_link", "Distal_link", "Tip")),
-        ]
+        self.joints = humanoid.hand("right")
+        self.limits = humanoid.limits(self.joints)
+        self.fingers = tuple(hand.fingers)
+        self.finger_radii, self.thumb_radii = np.array(hand.finger_radii), np.array(hand.thumb_radii)
+        self.palm_box: PalmBox = hand.palm_box
+        self.palm_middle, self.heel = np.array(hand.palm_middle), np.array(hand.heel)
+        self._frames = [hand.palm, *(frame for row in hand.fingers.values() for frame in row), *hand.thumb]
+        at_home = self.points(np.array([humanoid.home[name] for name in self.joints])).fingers
+        self.phalanges: Array = np.round(np.linalg.norm(np.diff(at_home, axis=1), axis=2), _DECIMALS)
+        self.finger_length = float(np.median(self.phalanges.sum(axis=1)))
 
     def points(self, positions: Array) -> HandPoints:
         """Where the joints of the hand are.
 
         Args:
-            positions: Positions of the six axes of `RIGHT_HAND` [rad]. Shape (6,).
+            positions: Positions of `joints` [rad]. Shape (joints,).
         """
-        q = self._robot.configuration(dict(zip(RIGHT_HAND, positions.tolist(), strict=True)))
+        q = self._robot.configuration(dict(zip(self.joints, positions.tolist(), strict=True)))
         places = self._robot.placements(q, self._frames)
         palm, others = places[0], places[1:, :3, 3]
         local = (others - palm[:3, 3]) @ palm[:3, :3]
-        return HandPoints(local[:16].reshape(4, 4, 3), local[16:])
+        return HandPoints(local[:-3].reshape(-1, 4, 3), local[-3:])
 
+    def thumb_clearances(self, points: HandPoints) -> Array:
+        """Distances of the thumb from the fingers' phalanges and the palm [m]; negative is overlap.
 
-def thumb_clearances(points: HandPoints) -> Array:
-    """Distances of the thumb from the fingers' phalanges and the palm [m]; negative is overlap.
-
-    Left out of the robot's own clearance because fingers and thumb are meant to meet.
-    """
-    starts, ends = points.thumb[:-1], points.thumb[1:]
-    finger_starts, finger_ends = points.fingers[:, :-1].reshape(-1, 3), points.fingers[:, 1:].reshape(-1, 3)
-    found = [
-        segment_distances(start, end, finger_starts, finger_ends) - (FINGER_RADIUS + THUMB_RADIUS)
-        for start, end in zip(starts, ends, strict=True)
-    ]
-    samples = np.linspace(starts, ends, 3).reshape(-1, 3)
-    over_palm = (
-        (samples[:, 0] > PALM_FROM) & (samples[:, 0] < PALM_TO) & (np.abs(samples[:, 1]) < PALM_HALF_WIDTH)
-    )
-    found.append(np.where(over_palm, samples[:, 2] - PALM_FRONT, np.inf))
-    return np.concatenate(found)
+        Left out of the robot's own clearance because fingers and thumb are meant to meet.
+        """
+        starts, ends = points.thumb[:-1], points.thumb[1:]
+        finger_starts, finger_ends = (
+            points.fingers[:, :-1].reshape(-1, 3),
+            points.fingers[:, 1:].reshape(-1, 3),
+        )
+        radii = self.finger_radii[0] + self.thumb_radii[-1]
+        found = [
+            segment_distances(start, end, finger_starts, finger_ends) - radii
+            for start, end in zip(starts, ends, strict=True)
+        ]
+        samples, box = np.linspace(starts, ends, 3).reshape(-1, 3), self.palm_box
+        over_palm = (samples[:, 0] > box.start) & (samples[:, 0] < box.end)
+        over_palm &= np.abs(samples[:, 1]) < box.half_width
+        found.append(np.where(over_palm, samples[:, 2] - box.front, np.inf))
+        return np.concatenate(found)
 
 
 def segment_distances(start: Array, end: Array, starts: Array, ends: Array) -> Array:
@@ -115,30 +121,32 @@ def segment_distances(start: Array, end: Array, starts: Array, ends: Array) -> A
     return distances
 
 
-class DextraTable:
+class HandTable:
     """Joints and tips of the right hand in palm axes (along, to the little finger's side, out of the palm).
 
     Attributes:
+        hand: What is tabled.
         flexions: At which the fingers are tabled [rad]. Shape (f,).
-        fingers: Knuckle, middle joint, last joint and tip of index ... little finger [m]. Shape (f, 4, 4, 3).
+        fingers: Knuckle, middle joint, last joint and tip of each finger [m]. Shape (f, fingers, 4, 3).
         abductors, thumb_flexions: At which the thumb is tabled [rad]. Shapes (a,) and (t,).
         thumb: Knuckle, joint and tip [m]. Shape (a, t, 3, 3).
     """
 
     def __init__(self, robot: Robot) -> None:
-        hand, limits = DextraHand(robot), joint_limits(RIGHT_HAND)
-        self.abductors, self.thumb_flexions, self.flexions = (
-            np.linspace(low, high, int(np.ceil((high - low) / _STEP)) + 1)
-            for low, high in zip(limits.lower[:3], limits.upper[:3], strict=True)
-        )
+        self.hand = HandGeometry(robot)
+        limits = self.hand.limits
+        count = len(self.hand.fingers)
+        self.abductors = _grid(limits.lower[0], limits.upper[0])
+        self.thumb_flexions = _grid(limits.lower[1], limits.upper[1])
+        self.flexions = _grid(limits.lower[2:].min(), limits.upper[2:].max())
         straight = limits.lower[2:]
         self.fingers = np.stack(
-            [hand.points(np.concatenate([[0.0, 0.0], np.full(4, bend)])).fingers for bend in self.flexions]
+            [self.hand.points(np.array([0.0, 0.0, *(bend,) * count])).fingers for bend in self.flexions]
         )
         self.thumb = np.stack(
             [
                 [
-                    hand.points(np.concatenate([[abductor, bend], straight])).thumb
+                    self.hand.points(np.concatenate([[abductor, bend], straight])).thumb
                     for bend in self.thumb_flexions
                 ]
                 for abductor in self.abductors
@@ -146,16 +154,16 @@ class DextraTable:
         )
 
     def finger_points(self, flexions: Array) -> Array:
-        """Knuckle, middle joint, last joint and tip of four fingers [m].
+        """Knuckle, middle joint, last joint and tip of each finger [m].
 
         Args:
-            flexions: Of index, middle, ring and little finger [rad]. Shape (n, 4).
+            flexions: Of the fingers that there are, index first [rad]. Shape (n, fingers).
 
         Returns:
-            Shape (n, 4, 4, 3).
+            Shape (n, fingers, 4, 3).
         """
         below, share = _between(self.flexions, flexions)
-        finger = np.arange(4)
+        finger = np.arange(len(self.hand.fingers))
         low, high = self.fingers[below, finger], self.fingers[below + 1, finger]
         points: Array = low + share[..., None, None] * (high - low)
         return points
@@ -171,14 +179,18 @@ class DextraTable:
         return points
 
 
-_tables: WeakKeyDictionary[Robot, DextraTable] = WeakKeyDictionary()
+_tables: WeakKeyDictionary[Robot, HandTable] = WeakKeyDictionary()
 
 
-def dextra_table(robot: Robot) -> DextraTable:
-    """The table of a robot, worked out once: it takes longer than bringing a second onto TEO."""
+def hand_table(robot: Robot) -> HandTable:
+    """The table of a robot, worked out once: it takes longer than a second of motion does."""
     if robot not in _tables:
-        _tables[robot] = DextraTable(robot)
+        _tables[robot] = HandTable(robot)
     return _tables[robot]
+
+
+def _grid(low: float, high: float) -> Array:
+    return np.linspace(low, high, int(np.ceil((high - low) / _STEP)) + 1)
 
 
 def _between(grid: Array, values: Array) -> tuple[NDArray[np.intp], Array]:

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.errors import DescriptionError
-from teo_description.joints import ALL_JOINTS, check_joint_names
-from teo_description.limits import joint_limits
+from teo_description.humanoid import Humanoid
 
 # Positions written with six decimals may end this little outside a limit that they stand on [rad].
 LIMIT_TOLERANCE = 1e-5
@@ -47,8 +46,8 @@ class Motion:
         }
 
 
-def read_motion(path: Path) -> Motion:
-    """Read and check a motion.
+def read_motion(path: Path, humanoid: Humanoid) -> Motion:
+    """Read and check a motion of a robot.
 
     Raises:
         DescriptionError: ``unreadable_file``, ``empty_motion``, ``bad_header``, ``unknown_joint``,
@@ -64,7 +63,7 @@ def read_motion(path: Path) -> Motion:
         raise DescriptionError(
             "empty_motion", f"{path.name}: expected a header and at least one row, got {len(rows)} lines"
         )
-    names = _checked_header(path, [name.strip() for name in rows[0]])
+    names = _checked_header(path, [name.strip() for name in rows[0]], humanoid)
     table = np.array(
         [_numbers(path, line, row, len(names) + 1) for line, row in enumerate(rows[1:], start=2)]
     )
@@ -76,14 +75,17 @@ def read_motion(path: Path) -> Motion:
             f"{path.name}, row {line}: expected a time after {table[line - 3, 0]:g} s, "
             f"got {table[line - 2, 0]:g} s",
         )
-    check_limits(names, table[:, 1:], path.name)
+    check_limits(humanoid, names, table[:, 1:], path.name)
     return Motion(names=names, times=table[:, 0], positions=table[:, 1:])
 
 
-def check_limits(names: tuple[str, ...], positions: NDArray[np.float64], where: str) -> None:
-    """Refuse positions that TEO cannot reach.
+def check_limits(
+    humanoid: Humanoid, names: tuple[str, ...], positions: NDArray[np.float64], where: str
+) -> None:
+    """Refuse positions that a robot cannot reach.
 
     Args:
+        humanoid: The robot.
         names: Joints, m of them.
         positions: [rad]. Shape (n, m).
         where: What to call their source in the message.
@@ -91,7 +93,7 @@ def check_limits(names: tuple[str, ...], positions: NDArray[np.float64], where: 
     Raises:
         DescriptionError: ``outside_limits``.
     """
-    limits = joint_limits(names)
+    limits = humanoid.limits(names)
     outside = (positions < limits.lower - LIMIT_TOLERANCE) | (positions > limits.upper + LIMIT_TOLERANCE)
     if outside.any():
         row, column = (int(index) for index in np.argwhere(outside)[0])
@@ -104,14 +106,14 @@ def check_limits(names: tuple[str, ...], positions: NDArray[np.float64], where: 
         )
 
 
-def _checked_header(path: Path, header: list[str]) -> tuple[str, ...]:
+def _checked_header(path: Path, header: list[str], humanoid: Humanoid) -> tuple[str, ...]:
     names = tuple(header[1:])
-    if header[0] in ALL_JOINTS or not names:
+    if header[0] in humanoid.all_joints or not names:
         raise DescriptionError(
             "bad_header",
             f"{path.name}: expected a header with time first and then joint names, got {','.join(header)!r}",
         )
-    check_joint_names(names, f"{path.name}: ")
+    humanoid.check_joint_names(names, f"{path.name}: ")
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:
         raise DescriptionError(

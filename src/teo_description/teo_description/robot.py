@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""TEO as a rigid-body model: where its links are at a pose, and how they move with the joints."""
+"""A humanoid as a rigid-body model: where its links are at a pose, and how they move with the joints."""
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 
@@ -12,11 +11,9 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
 
-from teo_description.clearance import HEAD_LINKS, Clearance, ClearanceChecker, Contact
+from teo_description.clearance import Clearance, ClearanceChecker, Contact
 from teo_description.errors import DescriptionError
-from teo_description.home import HOME
-from teo_description.joints import ALL_JOINTS, COMMANDED_JOINTS, check_joint_names
-from teo_description.limits import urdf_text
+from teo_description.humanoid import DEFAULT_ROBOT, Humanoid, load_humanoid
 
 Matrix = NDArray[np.float64]
 
@@ -25,51 +22,56 @@ class Robot:
     """Kinematics of the URDF in Pinocchio.
 
     A configuration `q` is an array of all of the model's joint values [rad], the following phalanges
-    included; make it with `configuration`. Link frames are named ``<joint>_link``; fixed frames as in the
-    URDF: ``right_palm``, ``left_palm`` and ``RightIndexFingerTip`` (x along the fingers, z out of the palmar
-    face, on both hands), ``right_sensor_plate``, ``right_sole``, ``camera_link``, ``camera_optical_frame``,
-    ``base_link``.
+    included; make it with `configuration`. Frames are named as the links and fixed frames of the
+    completed URDF; those of the hands stand in `Humanoid.file`, ``base_link`` is the root.
+
+    Attributes:
+        humanoid: What is said of the robot.
+        model, data: Pinocchio's.
 
     Not for use by several threads at once: the results of Pinocchio's last call live in the object. Loading
     one takes some milliseconds, so give each thread its own.
     """
 
-    def __init__(self, model: pin.Model) -> None:
-        self.model = model
-        self.data = model.createData()
+    def __init__(self, humanoid: Humanoid) -> None:
+        self.humanoid = humanoid
+        self.model: pin.Model = pin.buildModelFromXML(humanoid.urdf_text())
+        self.data = self.model.createData()
         self._frames = {
-            frame.name: index for index, frame in enumerate(model.frames) if frame.type == pin.BODY
+            frame.name: index for index, frame in enumerate(self.model.frames) if frame.type == pin.BODY
         }
-        self._column = {name: index for index, name in enumerate(ALL_JOINTS)}
+        self._names = humanoid.all_joints
+        self._column = {name: index for index, name in enumerate(self._names)}
         self._expansion, self._offset = self._following()
-        self._home = np.array([HOME[name] for name in ALL_JOINTS])
+        self._home = np.array([humanoid.home[name] for name in self._names])
 
     @classmethod
-    def load(cls) -> Robot:
-        """Load TEO from the package's URDF."""
-        return cls(pin.buildModelFromXML(urdf_text()))
+    def load(cls, name: str = DEFAULT_ROBOT) -> Robot:
+        """Load a humanoid by its name; see `load_humanoid` for the errors."""
+        return cls(load_humanoid(name))
 
     def _following(self) -> tuple[Matrix, Matrix]:
-        """Matrix and offset that make a configuration of `ALL_JOINTS`' values. Shapes (nq, 40) and (nq,)."""
-        matrix, offset = np.zeros((self.model.nq, len(ALL_JOINTS))), np.zeros(self.model.nq)
-        for joint in ET.fromstring(urdf_text()).iter("joint"):
+        """Matrix and offset that make a configuration of `all_joints`' values. Shapes (nq, joints), (nq,)."""
+        matrix, offset = np.zeros((self.model.nq, len(self._names))), np.zeros(self.model.nq)
+        for joint in self.humanoid.urdf_tree().iter("joint"):
             if joint.attrib["type"] == "fixed":
                 continue
             name = joint.attrib["name"]
             mimic = joint.find("mimic")
             row = self.model.joints[self.model.getJointId(name)].idx_q
             if mimic is None:
-                matrix[row, self._column[name]] = 1.0
-            else:
-                matrix[row, self._column[mimic.attrib["joint"]]] = float(mimic.attrib["multiplier"])
-                offset[row] = float(mimic.attrib["offset"])
+                if name in self._column:  # any other stands at 0
+                    matrix[row, self._column[name]] = 1.0
+            elif mimic.attrib["joint"] in self._column:
+                matrix[row, self._column[mimic.attrib["joint"]]] = float(mimic.get("multiplier", "1"))
+                offset[row] = float(mimic.get("offset", "0"))
         return matrix, offset
 
     def configuration(self, positions: Mapping[str, float]) -> Matrix:
         """Expand named joint positions to the model's configuration.
 
         Args:
-            positions: Joint positions [rad] by name, any of `ALL_JOINTS`; joints not named are at `HOME`.
+            positions: Joint positions [rad] by name, any of the humanoid's; joints not named are at home.
                 Limits are not checked here.
 
         Returns:
@@ -79,12 +81,12 @@ class Robot:
             DescriptionError: ``unknown_joint`` or ``not_finite``.
         """
         if not positions.keys() <= self._column.keys():
-            check_joint_names(positions)
+            self.humanoid.check_joint_names(positions)
         values = self._home.copy()
         for name, value in positions.items():
             values[self._column[name]] = value
         if not np.isfinite(values).all():
-            bad = [name for name, value in zip(ALL_JOINTS, values, strict=True) if not np.isfinite(value)]
+            bad = [name for name, value in zip(self._names, values, strict=True) if not np.isfinite(value)]
             raise DescriptionError(
                 "not_finite", f"expected finite positions [rad]; got NaN or infinity for {', '.join(bad)}"
             )
@@ -92,17 +94,17 @@ class Robot:
         return expanded
 
     def torques(self, positions: Matrix, velocities: Matrix, accelerations: Matrix) -> Matrix:
-        """Torques that move the commanded joints so, against gravity, the legs standing at `HOME` [N m].
+        """Torques that move the commanded joints so, against gravity, the legs standing at home [N m].
 
         Recursive Newton-Euler with the description's masses, without friction (R. Featherstone, "Rigid Body
         Dynamics Algorithms", 2008, 5.3). The phalanges that follow a hand axis load that axis.
 
         Args:
-            positions: Of `COMMANDED_JOINTS` [rad]. Shape (n, 28), as all.
+            positions: Of the commanded joints [rad]. Shape (n, joints), as all.
             velocities: [rad/s].
             accelerations: [rad/s^2].
         """
-        columns = [self._column[name] for name in COMMANDED_JOINTS]
+        columns = [self._column[name] for name in self.humanoid.commanded_joints]
         values = np.tile(self._home, (len(positions), 1))
         values[:, columns] = positions
         expansion = self._expansion[:, columns]
@@ -142,13 +144,47 @@ class Robot:
             poses[row] = pin.updateFramePlacement(self.model, self.data, index).homogeneous
         return poses
 
+    def joint_placements(self, q: Matrix, joints: Sequence[str]) -> Matrix:
+        """Poses in ``base_link`` of what joints move, their origins on the joints' axes. Shape (n, 4, 4)."""
+        pin.forwardKinematics(self.model, self.data, self._checked(q))
+        return np.array([self.data.oMi[self.model.getJointId(name)].homogeneous for name in joints])
+
+    def joint_axis(self, joint: str) -> Matrix:
+        """The axis about which a joint turns what it moves, in the axes of that. Shape (3,)."""
+        model = self.model.joints[self.model.getJointId(joint)]
+        data = model.createData()
+        model.calc(data, np.zeros(model.nq))
+        axis: Matrix = np.asarray(data.S).ravel()[3:]
+        return axis
+
+    def moving_joint(self, frame: str) -> str:
+        """The joint nearest to a link or fixed frame of those that move it.
+
+        Raises:
+            DescriptionError: ``unknown_frame``.
+        """
+        name: str = self.model.names[self.model.frames[self._frame_index(frame)].parentJoint]
+        return name
+
+    def carried_by(self, frame: str, joints: Sequence[str]) -> int:
+        """How many of some joints move a link or fixed frame.
+
+        Raises:
+            DescriptionError: ``unknown_frame``.
+        """
+        joint, found = self.model.frames[self._frame_index(frame)].parentJoint, 0
+        while joint:
+            found += self.model.names[joint] in joints
+            joint = self.model.parents[joint]
+        return found
+
     def jacobian(self, q: Matrix, frame: str, joints: Sequence[str]) -> Matrix:
         """How a frame moves with some joints, the phalanges that follow included.
 
         Args:
             q: Configuration, shape (nq,).
             frame: Name of a link or of a fixed frame.
-            joints: N names of `ALL_JOINTS`.
+            joints: N names of the humanoid's joints.
 
         Returns:
             Linear velocity of the frame's origin [m/rad] over angular velocity [rad/rad], both in the axes of
@@ -158,7 +194,7 @@ class Robot:
             DescriptionError: ``unknown_frame``, ``unknown_joint`` or ``wrong_shape``.
         """
         index = self._frame_index(frame)
-        check_joint_names(joints)
+        self.humanoid.check_joint_names(joints)
         columns = [self._column[name] for name in joints]
         full = pin.computeFrameJacobian(
             self.model, self.data, self._checked(q), index, pin.LOCAL_WORLD_ALIGNED
@@ -175,6 +211,11 @@ class Robot:
             DescriptionError: ``wrong_shape``.
         """
         return self._checker.clearance(self._checked(q))
+
+    @property
+    def shaped_links(self) -> tuple[str, ...]:
+        """Links with collision shapes."""
+        return self._checker.shaped_links
 
     def head_clearance(self, q: Matrix) -> Clearance:
         """The same of the head and neck alone, in a fraction of the time.
@@ -194,11 +235,11 @@ class Robot:
 
     @cached_property
     def _checker(self) -> ClearanceChecker:
-        return ClearanceChecker(self.model, urdf_text())
+        return ClearanceChecker(self.model, self.humanoid)
 
     @cached_property
     def _head_checker(self) -> ClearanceChecker:
-        return ClearanceChecker(self.model, urdf_text(), of=HEAD_LINKS)
+        return ClearanceChecker(self.model, self.humanoid, of=self.humanoid.file.collision.head)
 
     def _frame_index(self, frame: str) -> int:
         index = self._frames.get(frame)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 import pytest
+from teo_names import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
 
-from teo_description import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
 from teo_description.clearance import watched_pairs
+from teo_description.humanoid import load_humanoid
 
 # Poses [deg] in which the real TEO signed in public (teo-demos-misc, 20191023-ttd-congress.py): left, right.
 REST = (0, 0, 0, 0, 0, 0)
@@ -73,7 +74,7 @@ def test_clearance_is_the_smallest_over_all_pairs(robot, random_positions, head_
     by_link = {}
     for index, item in enumerate(geometry.geometryObjects):
         by_link.setdefault(robot.model.frames[item.parentFrame].name, []).append(index)
-    for one, other in watched_pairs():
+    for one, other in watched_pairs(load_humanoid()):
         if head_alone and other not in ("AxialNeck_link", "FrontalNeck_link"):
             continue
         for first in by_link[one]:
@@ -88,7 +89,7 @@ def test_clearance_is_the_smallest_over_all_pairs(robot, random_positions, head_
 
 
 def test_pairs_are_the_same_on_both_sides_and_none_is_a_neighbour(robot):
-    pairs = {frozenset(pair) for pair in watched_pairs()}
+    pairs = {frozenset(pair) for pair in watched_pairs(load_humanoid())}
     assert pairs == {frozenset(map(mirrored_name, pair)) for pair in pairs}
     parents = {
         frozenset(

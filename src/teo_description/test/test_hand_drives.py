@@ -5,18 +5,12 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from teo_names import ALL_JOINTS, BODY_JOINTS, LEFT_HAND, RIGHT_HAND, joint_limits, urdf_text
 
-from teo_description import (
-    ALL_JOINTS,
-    BODY_JOINTS,
-    HAND_DRIVES,
-    LEFT_HAND,
-    RIGHT_HAND,
-    DescriptionError,
-    joint_limits,
-    urdf_text,
-)
-from teo_description.tendons import hand_setpoints
+from teo_description import DescriptionError
+from teo_description.hand_setpoints import hand_setpoints
+from teo_description.humanoid import load_humanoid
+from teo_description.teo.hand_drives import HAND_DRIVES
 
 
 @pytest.mark.parametrize(
@@ -34,7 +28,8 @@ def test_a_finger_at_its_limit_winds_its_tendon_as_fast_as_the_loaded_spool(driv
     pose = joint_limits(names, hand_drive=drive)
     middle = (pose.lower + pose.upper) / 2.0
     step = 1e-3
-    wound = hand_setpoints(names, middle + step * pose.velocity) - hand_setpoints(names, middle)
+    teo = load_humanoid("teo")
+    wound = hand_setpoints(teo, middle + step * pose.velocity) - hand_setpoints(teo, middle)
     spool = rpm / 60.0 * 2.0 * math.pi * 4.5
     for side in (0, 6):
         assert wound[side + 2 : side + 6] / step == pytest.approx(34.0 / 45.0 * spool, rel=1e-6)

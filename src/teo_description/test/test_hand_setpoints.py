@@ -4,11 +4,15 @@ import math
 
 import numpy as np
 import pytest
+from teo_names import HOME, LEFT_HAND, RIGHT_HAND, joint_limits
 
-from teo_description import COMMANDED_JOINTS, HOME, LEFT_HAND, RIGHT_HAND, DescriptionError, joint_limits
-from teo_description.tendons import RIGHT_AXES, hand_setpoints
+from teo_description import DescriptionError
+from teo_description.hand_setpoints import hand_setpoints
+from teo_description.humanoid import load_humanoid
+from teo_description.teo.tendons import RIGHT_AXES
 
 HANDS = LEFT_HAND + RIGHT_HAND
+TEO = load_humanoid("teo")
 HOME_SETPOINTS = [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0]  # abductor, thumb, fingers
 
 
@@ -16,18 +20,18 @@ def test_the_letter_t_of_teos_own_demonstration_comes_back():
     letter_t = [57.3, 5.4, 14.9, 4.7, 1.5, 0.0]  # deg, then mm
     angles = [axis.angle(value) for axis, value in zip(RIGHT_AXES, letter_t, strict=True)]
     everything = np.array([HOME[name] for name in LEFT_HAND] + angles)
-    np.testing.assert_allclose(hand_setpoints(HANDS, everything), HOME_SETPOINTS + letter_t, atol=1e-9)
+    np.testing.assert_allclose(hand_setpoints(TEO, everything), HOME_SETPOINTS + letter_t, atol=1e-9)
 
 
 def test_the_joint_limits_are_the_ends_of_the_devices_ranges():
     limits = joint_limits(HANDS)
-    np.testing.assert_allclose(hand_setpoints(HANDS, limits.lower), 0.0, atol=1e-9)
-    np.testing.assert_allclose(hand_setpoints(HANDS, limits.upper), [90.0, 10.0, *[20.0] * 4] * 2, atol=1e-9)
+    np.testing.assert_allclose(hand_setpoints(TEO, limits.lower), 0.0, atol=1e-9)
+    np.testing.assert_allclose(hand_setpoints(TEO, limits.upper), [90.0, 10.0, *[20.0] * 4] * 2, atol=1e-9)
 
 
 def test_at_home_the_fingers_tendons_are_slack_and_the_thumbs_wound_by_a_third():
-    home = np.array([HOME[name] for name in COMMANDED_JOINTS])
-    np.testing.assert_allclose(hand_setpoints(COMMANDED_JOINTS, home), HOME_SETPOINTS * 2, atol=1e-9)
+    home = np.array([HOME[name] for name in HANDS])
+    np.testing.assert_allclose(hand_setpoints(TEO, home), HOME_SETPOINTS * 2, atol=1e-9)
 
 
 @pytest.mark.parametrize("degrees", [6.9, 85.1, math.nan, math.inf])
@@ -35,11 +39,6 @@ def test_an_angle_outside_the_range_is_refused(degrees):
     positions = np.array([HOME[name] for name in HANDS])
     positions[HANDS.index("RightIndexFinger")] = math.radians(degrees)
     with pytest.raises(DescriptionError) as refusal:
-        hand_setpoints(HANDS, positions)
+        hand_setpoints(TEO, positions)
     assert refusal.value.code == "outside_hand_range"
     assert "RightIndexFinger" in str(refusal.value)
-
-
-def test_a_missing_hand_axis_is_named():
-    with pytest.raises(DescriptionError, match="missing: RightPinkyFinger"):
-        hand_setpoints(HANDS[:-1], np.full(11, 0.5))

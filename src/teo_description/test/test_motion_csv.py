@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 from teo_description import DescriptionError
+from teo_description.humanoid import load_humanoid
 from teo_description.motion_csv import read_motion
 from teo_description.pictures.pose_arguments import read_pose
 
 GOOD = "time,AxialNeck,FrontalRightElbow\n0.0,0.0,-0.5\n0.5,0.2,-1.0\n1.0,0.4,-1.0\n"
+
+TEO = load_humanoid("teo")
 
 
 @pytest.fixture
@@ -19,7 +22,7 @@ def read(tmp_path):
     def from_text(text):
         path = tmp_path / "plan.csv"
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return read_motion(path)
+        return read_motion(path, TEO)
 
     return from_text
 
@@ -52,6 +55,7 @@ def test_blank_lines_spaces_and_a_byte_order_mark_do_no_harm(read):
         ("AxialNeck,FrontalNeck\n0.1,0.1\n", "bad_header", "time first"),
         ("time\n0.1\n", "bad_header", "joint names"),
         (GOOD.replace("AxialNeck", "Cuello"), "unknown_joint", "Cuello"),
+        ("time,R_index_proximal_joint\n0.0,0.1\n", "unknown_joint", "gr1t2 has them: `--robot gr1t2`"),
         (GOOD.replace("AxialNeck", "FrontalRightElbow"), "bad_header", "each joint once"),
         (GOOD.replace("0.5,0.2,-1.0", "0.5,0.2"), "bad_row", "row 3"),
         (GOOD.replace("0.5,0.2", "0.5,mucho"), "bad_row", "mucho"),
@@ -72,7 +76,7 @@ def test_a_bad_plan_is_refused_with_the_place(read, text, code, says):
 
 def test_a_file_that_is_not_there_is_named(tmp_path):
     with pytest.raises(DescriptionError, match=r"plan\.csv"):
-        read_motion(tmp_path / "plan.csv")
+        read_motion(tmp_path / "plan.csv", TEO)
 
 
 def test_a_position_rounded_at_a_limit_is_within_it(read):
@@ -83,13 +87,13 @@ class TestPose:
     def test_later_arguments_win_and_degrees_are_understood(self, tmp_path):
         path = tmp_path / "a=b.json"
         path.write_text('{"AxialNeck": 0.1, "FrontalNeck": 0}')
-        pose = read_pose([str(path), "AxialNeck=-0.2", "FrontalRightElbow=-90deg"])
+        pose = read_pose([str(path), "AxialNeck=-0.2", "FrontalRightElbow=-90deg"], TEO)
         assert pose == pytest.approx(
             {"AxialNeck": -0.2, "FrontalNeck": 0.0, "FrontalRightElbow": -math.pi / 2}
         )
 
     def test_no_arguments_mean_home(self):
-        assert read_pose([]) == {}
+        assert read_pose([], TEO) == {}
 
     @pytest.mark.parametrize(
         ("argument", "code"),
@@ -105,7 +109,7 @@ class TestPose:
     )
     def test_bad_arguments_are_refused(self, argument, code):
         with pytest.raises(DescriptionError) as caught:
-            read_pose([argument])
+            read_pose([argument], TEO)
         assert caught.value.code == code
 
     @pytest.mark.parametrize(
@@ -127,5 +131,5 @@ class TestPose:
         path = tmp_path / "pose.json"
         path.write_text(text)
         with pytest.raises(DescriptionError) as caught:
-            read_pose([str(path)])
+            read_pose([str(path)], TEO)
         assert caught.value.code == code

@@ -5,10 +5,10 @@ from __future__ import annotations
 import av
 import cv2
 import pytest
+from teo_names import urdf_text
 
-from teo_description import urdf_text
 from teo_description.pictures import render_cli
-from teo_description.urdf import build_urdf
+from teo_description.teo import build_urdf
 
 PLAN = "time,FrontalRightElbow\n0.0,0.0\n0.4,-0.3\n"
 
@@ -68,7 +68,7 @@ def test_a_plan_becomes_a_film_and_a_strip(render, plan, tmp_path):
         (("--pose", "Codo=1", "--out", "x.png"), 1, "Codo"),
         (("--pose", "AxialNeck=2", "--out", "x.png"), 1, "-1.0472 .. 1.0472"),
         (("--pose", "AxialNeck=nan", "--out", "x.png"), 1, "NaN"),
-        (("--out", "x.png", "--camera", "side"), 1, "front, hand, full"),
+        (("--out", "x.png", "--camera", "side"), 1, "front, hand, sign, sign_hand, full"),
         (("--out", "x.png", "--size", "big"), 2, "640x480"),
         (("--out", "x.png", "--size", "3x3"), 1, "16 to 4096"),
         (("--out", "nowhere/x.png"), 1, "nowhere"),

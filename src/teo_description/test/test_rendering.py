@@ -6,11 +6,25 @@ from dataclasses import replace
 from itertools import pairwise
 
 import cv2
+import msgspec
 import numpy as np
 import pytest
+from teo_names import HOME, LEFT_ARM, RIGHT_ARM
 
-from teo_description import HOME, LEFT_ARM, RIGHT_ARM, DescriptionError
-from teo_description.pictures.rendering import CAMERAS, Camera, Renderer, render_pose, save_png
+from teo_description import DescriptionError
+from teo_description.humanoid import Humanoid, load_humanoid
+from teo_description.pictures.mesh import from_file
+from teo_description.pictures.rendering import (
+    Camera,
+    Renderer,
+    camera_named,
+    cameras,
+    render_pose,
+    save_png,
+)
+from teo_description.robot import Robot
+
+CAMERAS = cameras(load_humanoid("teo"))
 
 # The right hand raised, its palm towards the addressee (the arm of TEO's own letter E).
 RAISED = dict(zip(RIGHT_ARM, np.radians([-75.4, 12.4, 9.6, -83.5, 86.2, 2.3]), strict=True))
@@ -187,3 +201,37 @@ def test_a_png_says_what_was_drawn_and_replaces_an_older_one(renderer, tmp_path)
     assert [file.name for file in tmp_path.iterdir()] == ["señas.png"]
     with pytest.raises(DescriptionError):
         save_png(path, image[:0])
+
+
+def test_a_robot_is_drawn_of_its_meshes_where_its_shapes_are():
+    """What is drawn and what a hand keeps clear of are measured apart: they cover each other on a picture."""
+    robot = Robot.load("gr1t2")
+    if robot.humanoid.mesh_path("../meshes/gr1t2/base_link.STL") is None:
+        pytest.skip("the package with its meshes is not installed: make robots")
+    ready = dict(zip(robot.humanoid.commanded_joints, robot.humanoid.ready.tolist(), strict=True))
+    view = camera_named("front", robot.humanoid).sized(320, 240)
+    empty = replace(view, target=(5.0, 0.0, 0.36))
+    drawn = []
+    for humanoid in (robot.humanoid, without_meshes(robot.humanoid)):
+        renderer = Renderer(Robot(humanoid))
+        image, background = (renderer.render(ready, camera).astype(int) for camera in (view, empty))
+        drawn.append(np.abs(image - background).sum(axis=2) > 20)
+    meshes, shapes = drawn
+    assert np.count_nonzero(meshes & shapes) > 0.85 * np.count_nonzero(meshes)
+    assert np.count_nonzero(meshes & shapes) > 0.75 * np.count_nonzero(shapes)
+
+
+def without_meshes(humanoid: Humanoid) -> Humanoid:
+    """The same robot on a machine without its package."""
+    bare = Humanoid(humanoid.urdf_path().parents[1])
+    bare.file = msgspec.structs.replace(humanoid.file, meshes=None)
+    return bare
+
+
+def test_a_mesh_file_that_is_none_is_refused(tmp_path):
+    pytest.importorskip("trimesh")
+    path = tmp_path / "part.stl"
+    path.write_bytes(b"no mesh")
+    with pytest.raises(DescriptionError, match=r"part\.stl") as caught:
+        from_file(path, np.ones(3))
+    assert caught.value.code == "bad_mesh"

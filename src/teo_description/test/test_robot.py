@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from teo_names import ALL_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND
 
-from teo_description import ALL_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, DescriptionError
+from teo_description import DescriptionError
 
 
 def test_joints_not_named_are_at_home(robot):

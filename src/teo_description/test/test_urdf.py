@@ -7,21 +7,22 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-
-import teo_description
-from teo_description import (
+import teo_names
+from teo_names import (
     ALL_JOINTS,
     COMMANDED_JOINTS,
     HOME,
     LEFT_HAND,
     RIGHT_HAND,
-    DescriptionError,
     description_hash,
     joint_limits,
     urdf_path,
     urdf_text,
 )
-from teo_description.urdf.urdf_writer import urdf
+
+from teo_description import DescriptionError
+from teo_description.humanoid import urdf_hash
+from teo_description.teo.urdf_writer import urdf
 
 # Position limits [deg] of teo-configuration-files, share/robots/teo/nodes, typed once more.
 PUBLISHED = {
@@ -104,8 +105,8 @@ def test_limits_of_an_unknown_or_following_joint_are_refused():
 
 def test_groups_hold_every_joint_once():
     groups = [
-        getattr(teo_description, name)
-        for part in ("HEAD", "TRUNK", "{}_ARM", "{}_HAND", "{}_LEG")
+        getattr(teo_names, name)
+        for part in ("HEAD", "TRUNK", "{}_ARM", "{}_HAND", "LEG_JOINTS")
         for name in dict.fromkeys(part.format(side) for side in ("LEFT", "RIGHT"))
     ]
     assert tuple(name for group in groups for name in group) == ALL_JOINTS
@@ -199,8 +200,7 @@ def test_shapes_are_primitives_only(tree):
         ('box size="0.1', 'box size="0.2', False),
     ],
 )
-def test_hash_names_what_joint_angles_are_made_for(monkeypatch, old, new, same):
+def test_hash_names_what_joint_angles_are_made_for(old, new, same):
     changed = urdf_text().replace(old, new, 1)
     assert changed != urdf_text()
-    monkeypatch.setattr(teo_description.limits, "urdf_text", lambda: changed)
-    assert (teo_description.limits.description_hash.__wrapped__() == description_hash()) is same
+    assert (urdf_hash(changed) == description_hash()) is same

@@ -1,14 +1,15 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The executor with the simulated driver: motions as goals of its action, and newer texts that replace."""
+"""The executor with the simulated driver: its action, newer texts, several robots, a simulator's clock."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -16,6 +17,10 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
+from sensor_msgs.msg import JointState
+from simulated_clock import SECOND, SimulatedClock
+from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import DriverState, ExecutorStatus, SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory
 
@@ -25,25 +30,35 @@ from teo_signs.tokens import parse_printed
 from teo_sim_driver.node.driver_node import DriverNode
 
 SIGNING, REFUSED = ExecutorStatus.STATE_SIGNING, ExecutorStatus.STATE_REFUSED
+NewLab = Callable[..., "Lab"]
 
 
 class Lab(Node):
-    """Publishes sentences, and hears what becomes of them."""
+    """An executor and a driver, started as from the command line; publishes sentences, and hears the rest."""
 
-    def __init__(self, context: Context, executor_node: ExecutorNode, spin: Callable[[], None]) -> None:
+    def __init__(self, domain_id: int, arguments: Sequence[str], labs: Sequence[Lab]) -> None:
+        context = Context()
+        rclpy.init(context=context, domain_id=domain_id, args=["--ros-args", *arguments])
         super().__init__("lab", context=context)
-        self.executor_node = executor_node
-        self._spin = spin
+        self._labs = labs
+        self.executor_node = ExecutorNode(context=context)
+        self._nodes = (self, self.executor_node, DriverNode(context=context))
+        self._spinner = SingleThreadedExecutor(context=context)
         self.statuses: list[ExecutorStatus] = []
         self.sources: set[int] = set()
         self.by_topic: list[JointTrajectory] = []
+        self.states: list[JointState] = []
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(ExecutorStatus, "executor_status", self.statuses.append, latched)
         self.create_subscription(
             DriverState, "driver_state", lambda state: self.sources.add(state.source), latched
         )
         self.create_subscription(JointTrajectory, "joint_trajectory", self.by_topic.append, 10)
+        self.create_subscription(JointState, "joint_states", self.states.append, 100)
         self._tokens = self.create_publisher(SignSentence, "sign_tokens", 10)
+        for node in self._nodes:
+            self._spinner.add_node(node)
+        assert self.executor_node.start()
 
     def sign(self, utterance: str, text: str) -> None:
         tokens = [
@@ -57,7 +72,23 @@ class Lab(Node):
         deadline = time.monotonic() + timeout
         while not condition():
             assert time.monotonic() < deadline, f"not within {timeout} s"
-            self._spin()
+            self._turn()
+
+    def spin(self, seconds: float) -> None:
+        """Let time pass."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self._turn()
+
+    def _turn(self) -> None:
+        for lab in self._labs:
+            lab._spinner.spin_once(timeout_sec=0.05)
+
+    def close(self) -> None:
+        self._spinner.shutdown()
+        for node in self._nodes:
+            node.destroy_node()
+        rclpy.try_shutdown(context=self.context)
 
     def of(self, state: int) -> list[str]:
         """Which texts were told to be in a state, in order."""
@@ -70,29 +101,26 @@ class Lab(Node):
 
 
 @pytest.fixture
-def lab(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]) -> Iterator[Lab]:
+def new_lab(domain_id: int, table_directory: Path, make_sign: Callable[..., Any]) -> Iterator[NewLab]:
+    """Makes a lab with a table of quick signs; the arguments are ROS arguments."""
     for number, gloss in enumerate(("NOD", "TURN")):
         knots = [[0.1 * number, 0.05], [0.1 * number - 0.05, 0.0]]
         save_sign(table_directory, make_sign(gloss, knots, [0.0, 0.2], joints=("AxialNeck", "FrontalNeck")))
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    overrides = [
-        Parameter("lut_directory", value=str(table_directory)),
-        Parameter("journal", value=""),
-        Parameter("trajectory_interface", value="action"),
-    ]
-    node = ExecutorNode(context=context, parameter_overrides=overrides)
-    driver = DriverNode(context=context)
-    executor = SingleThreadedExecutor(context=context)
-    lab = Lab(context, node, lambda: executor.spin_once(timeout_sec=0.1))
-    for each in (node, driver, lab):
-        executor.add_node(each)
-    assert node.start()
-    yield lab
-    executor.shutdown()
-    for each in (lab, node, driver):
-        each.destroy_node()
-    rclpy.shutdown(context=context)
+    common = ("-p", f"lut_directory:={table_directory}", "-p", "journal:=''")
+    labs: list[Lab] = []
+
+    def make(*arguments: str) -> Lab:
+        labs.append(Lab(domain_id, (*common, *arguments), labs))
+        return labs[-1]
+
+    yield make
+    for lab in labs:
+        lab.close()
+
+
+@pytest.fixture
+def lab(new_lab: NewLab) -> Lab:
+    return new_lab("-p", "trajectory_interface:=action")
 
 
 def test_motions_as_goals_of_the_action_sign_sentences_in_a_row(lab: Lab) -> None:
@@ -118,3 +146,38 @@ def test_a_newer_text_replaces_the_one_that_is_signed_and_those_that_wait(lab: L
     assert replaced == ["old", "newer"], "each is named, once"
     assert lab.of(SIGNING)[0] == "old" and lab.of(SIGNING)[-1] == "newest"
     assert list(dict.fromkeys(lab.of(REFUSED))) == replaced
+
+
+def test_two_robots_in_namespaces_sign_side_by_side_in_simulated_time_and_stand_while_it_does(
+    new_lab: NewLab,
+) -> None:
+    texts = {"ana": "NOD NOD", "eva": "TURN TURN"}
+    labs = {name: new_lab("-r", f"__ns:=/{name}", "-p", "use_sim_time:=true") for name in texts}
+    ana, eva = labs.values()
+    clock = SimulatedClock(ana.context, rate=2.0)
+    try:
+        for name, lab in labs.items():
+            lab.sign(name, texts[name])
+        ana.until(lambda: bool(ana.of(SIGNING)))
+        clock.pause()
+        ana.spin(1.7)  # longer than the sentence takes, than `joint_state_timeout` and `path_time`
+        assert ana.statuses[-1].state == SIGNING, "no time passes: it is not over"
+        assert Time.from_msg(ana.states[-1].header.stamp).nanoseconds <= clock.now
+        codes = {status.code for lab in (ana, eva) for status in lab.statuses}
+        assert not codes & {"stale_joint_states", "not_followed", "not_reached"}, "and nothing is amiss"
+        clock.go_on()
+        for name, lab in labs.items():
+            lab.rest(name)
+    finally:
+        clock.close()
+    for name, lab in labs.items():
+        assert {status.utterance_id for status in lab.statuses} <= {name, ""}
+        assert not lab.of(REFUSED)
+        signing = [status for status in lab.statuses if status.state == SIGNING][-1]
+        begun, ended = (Time.from_msg(status.header.stamp) for status in (signing, lab.statuses[-1]))
+        assert (ended - begun).nanoseconds / SECOND == pytest.approx(signing.duration, abs=1.0)
+    # NOD turns the neck by -0.05 rad, TURN by 0.1: each robot has moved as it was told, and no further.
+    neck = ALL_JOINTS.index("AxialNeck")
+    turned = [[state.position[neck] for state in lab.states] for lab in (ana, eva)]
+    assert np.min(turned[0]) == pytest.approx(-0.05, abs=0.01) and np.max(turned[0]) < 0.01
+    assert np.max(turned[1]) == pytest.approx(0.1, abs=0.01) and np.min(turned[1]) > -0.01

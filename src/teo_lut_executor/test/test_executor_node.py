@@ -8,10 +8,12 @@ import os
 import signal
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import made_languages
 import numpy as np
 import pytest
 import rclpy
@@ -24,19 +26,22 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
+from teo_names import COMMANDED_JOINTS, HEAD, HOME, joint_limits
 from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
 from trajectory_msgs.msg import JointTrajectory
 
-from teo_description import COMMANDED_JOINTS, HEAD, HOME, joint_limits
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import Sentence
 from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
-from teo_motion.sentence.rest_posture import REST
+from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
+
+REST = load_humanoid().ready
 
 RATE = 100.0  # joint states a second [Hz]
 
@@ -147,21 +152,29 @@ def graph(
     for number, gloss in enumerate(QUICK):
         knots = [[0.1 * number, 0.05], [0.1 * number - 0.05, 0.0]]
         save_sign(table_directory, make_sign(gloss, knots, [0.0, 0.2], joints=joints))
-    context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
-    overrides = [
+    with running(
+        domain_id,
         Parameter("lut_directory", value=str(table_directory)),
-        Parameter("final_hold", value=0.0),
         Parameter("capacity", value=5),
         Parameter("journal", value=str(tmp_path / "journal")),
-    ]
+    ) as graph:
+        yield graph
+
+
+@contextmanager
+def running(domain_id: int, *overrides: Parameter) -> Iterator[Graph]:
+    """An executor and the small robot; where a `lut_directory` is given, signs are saved there."""
+    context = Context()
+    rclpy.init(context=context, domain_id=domain_id)
+    overrides = (Parameter("final_hold", value=0.0), *overrides)
     node = ExecutorNode(context=context, parameter_overrides=overrides)
     robot = SmallRobot(context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     executor.add_node(robot)
     assert node.start()
-    yield Graph(node, robot, executor, table_directory)
+    directory = node.get_parameter("lut_directory").value
+    yield Graph(node, robot, executor, Path(directory))
     executor.shutdown()
     robot.destroy_node()
     node.destroy_node()
@@ -470,3 +483,39 @@ def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_n
         assert ExecutorStatus.STATE_SIGNING not in graph.robot.states()
     finally:
         third.destroy_node()
+
+
+def test_each_sentence_is_signed_in_its_own_language_or_refused_while_languages_change(
+    domain_id: int, data_home: Path, make_sign: Callable[..., Any]
+) -> None:
+    def nod(language: str, turn: float) -> Sign:
+        sign = make_sign("NOD", [[0.0, 0.0], [turn, 0.0]], [0.0, 0.4], joints=("AxialNeck", "FrontalNeck"))
+        return replace(sign, language=language)
+
+    other = made_languages.CODE
+    save_sign(data_home / "teo" / "lut", nod("ssp", 0.2))
+    made_languages.make_language(data_home, {"NOD": nod(other, -0.3)})
+    with running(domain_id, Parameter("journal", value="")) as graph:
+        first, early, waiting, late, last = (graph.sentence("NOD") for _ in range(5))
+        first.language = late.language = "ssp"
+        early.language = last.language = other
+        assert waiting.language == "", "that of the executor"
+        for message in (first, early, waiting):
+            graph.publish(message)
+        graph.spin_until(lambda: any(status.queued for status in graph.robot.statuses))
+        assert graph.refused() == [("other_language", early.utterance_id)]
+        (result,) = graph.node.set_parameters([Parameter("language", value=other)])
+        assert result.successful, result.reason
+        graph.publish(late)
+        graph.publish(last)
+        graph.rest(signed=3)
+        refused = [("other_language", message.utterance_id) for message in (early, late)]
+        assert graph.refused() == refused
+        turns = np.array(
+            [positions[COMMANDED_JOINTS.index("AxialNeck")] for _, positions in graph.robot.path]
+        )
+        left, right = np.flatnonzero(turns > 0.15), np.flatnonzero(turns < -0.25)
+        assert np.count_nonzero(np.diff(left) > 1) == 1, "two sentences turn to the left"
+        assert left[-1] < right[0], "and then one to the right"
+        (result,) = graph.node.set_parameters([Parameter("language", value="qqq")])
+        assert result.reason.startswith("[unknown_language]")

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from queue_world import World
+from teo_names import COMMANDED_JOINTS
 
-from teo_description import COMMANDED_JOINTS
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import (
     Activity,
     Begun,
@@ -16,9 +17,10 @@ from teo_lut_executor.execution.events import (
     PlanWanted,
     QueueSettings,
 )
-from teo_motion.sentence.rest_posture import REST
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
+
+REST = load_humanoid().ready
 
 
 @pytest.fixture

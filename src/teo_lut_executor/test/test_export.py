@@ -19,9 +19,10 @@ from hypothesis import strategies as st
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from teo_names import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
 from typer.testing import CliRunner, Result
 
-from teo_description import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.cli.lut import app
 from teo_motion.lone_sign import sign_motion
 from teo_motion.planner import Planner
@@ -29,7 +30,7 @@ from teo_motion.sentence.rest_posture import RestPosture
 from teo_signs.errors import LutError
 from teo_signs.export.play_motion2 import play_motion2_parameters
 from teo_signs.export.playback_thread import playback_mask, playback_table, save_playback_tables
-from teo_signs.export.sign_motion import PARTS, SignMotion
+from teo_signs.export.sign_motion import SignMotion
 from teo_signs.sign import Sign
 
 MAXIMUM_VELOCITY = math.radians(50.0)
@@ -89,8 +90,8 @@ def test_a_motion_goes_from_rest_over_every_knot_back_to_rest(table: Mapping[str
 
 
 def test_only_the_parts_that_move_are_exported(table: Mapping[str, Sign]) -> None:
-    assert planned(table, "L").parts == ("rightArm", "rightHand")
-    assert planned(table, "CASA").parts == ("leftArm", "rightArm", "leftHand", "rightHand")
+    assert tuple(planned(table, "L").limbs) == ("right_arm", "right_hand")
+    assert tuple(planned(table, "CASA").limbs) == ("left_arm", "right_arm", "left_hand", "right_hand")
 
 
 def test_a_motion_is_as_slow_as_teo_must_be(make_sign: Callable[..., Sign]) -> None:
@@ -119,17 +120,17 @@ def test_what_is_written_is_read_back(
     np.testing.assert_allclose(rows, motion.positions, atol=5.1e-10)
     np.testing.assert_allclose(read["times_from_start"], motion.times, atol=1e-9)
 
-    for part in motion.parts:
-        rows = np.array(parse_playback(playback_table(motion, part)))
+    for limb in motion.limbs:
+        rows = np.array(parse_playback(playback_table(motion, limb)))
         np.testing.assert_allclose(rows[:, 0], np.arange(len(rows)) * period, atol=1e-9)
-        if part.endswith("Hand"):
+        if limb.endswith("hand"):
             angles = [[dextra_angle(axis, v) for axis, v in enumerate(row)] for row in rows[:, 1:]]
             # Half a digit of a thumb's millimetre, 1e-4, is 18 times as much in degrees.
-            np.testing.assert_allclose(angles, motion.part(part), atol=math.radians(18.1 * 0.5e-4))
+            np.testing.assert_allclose(angles, motion.limb(limb), atol=math.radians(18.1 * 0.5e-4))
             assert (rows[:, 1:] >= 0.0).all()
             assert (rows[:, 1:] <= [90.0, 10.0, 20.0, 20.0, 20.0, 20.0]).all()
         else:
-            np.testing.assert_allclose(np.radians(rows[:, 1:]), motion.part(part), atol=math.radians(0.51e-4))
+            np.testing.assert_allclose(np.radians(rows[:, 1:]), motion.limb(limb), atol=math.radians(0.51e-4))
 
 
 @pytest.mark.parametrize("gloss", ["NO", "Y", "N", "7", "ÑANDÚ", "ON", "NULL", "POR_QUÉ"])
@@ -174,26 +175,27 @@ def test_ros_itself_reads_the_parameters(
 
 def test_the_boards_have_their_axes_in_the_robots_order() -> None:
     """As launchCanBus/wholeBody.ini of teo-configuration-files and the Dextra's Synapse.cpp list them."""
+    limbs = load_humanoid("teo").limbs
     arm = ("Frontal{}Shoulder", "Sagittal{}Shoulder", "Axial{}Shoulder", "Frontal{}Elbow", "Axial{}Wrist")
     for side in ("Left", "Right"):
         names = tuple(name.format(side) for name in (*arm, "Frontal{}Wrist"))
-        assert PARTS[f"{side.lower()}Arm"] == names
+        assert limbs[f"{side.lower()}_arm"] == names
         fingers = ("Thumb", "Index", "Middle", "Ring", "Pinky")
         hand = (f"{side}HandAbductor", *(f"{side}{finger}Finger" for finger in fingers))
-        assert PARTS[f"{side.lower()}Hand"] == hand
-    assert PARTS["head"] == ("AxialNeck", "FrontalNeck")
-    assert PARTS["trunk"] == ("AxialTrunk", "FrontalTrunk")
+        assert limbs[f"{side.lower()}_hand"] == hand
+    assert limbs["head"] == ("AxialNeck", "FrontalNeck")
+    assert limbs["trunk"] == ("AxialTrunk", "FrontalTrunk")
 
 
 def test_the_mask_leaves_the_time_out(table: Mapping[str, Sign]) -> None:
-    assert playback_mask("rightArm") == "(mask 0 1 1 1 1 1 1)"
-    assert playback_mask("head") == "(mask 0 1 1)"
-    row = parse_playback(playback_table(planned(table, "L"), "rightArm"))[0]
-    assert len(row) == len(playback_mask("rightArm").split()) - 1
+    assert playback_mask(6) == "(mask 0 1 1 1 1 1 1)"
+    assert playback_mask(2) == "(mask 0 1 1)"
+    row = parse_playback(playback_table(planned(table, "L"), "right_arm"))[0]
+    assert len(row) == len(playback_mask(6).split()) - 1
 
 
 def test_the_arm_is_in_degrees_and_at_rest_in_the_first_row(table: Mapping[str, Sign]) -> None:
-    row = parse_playback(playback_table(planned(table, "L"), "rightArm"))[0]
+    row = parse_playback(playback_table(planned(table, "L"), "right_arm"))[0]
     np.testing.assert_allclose(row[1:], [math.degrees(HOME[joint]) for joint in RIGHT_ARM], atol=1e-4)
 
 
@@ -228,7 +230,9 @@ def test_a_folder_is_replaced_whole_and_only_on_request(tmp_path: Path, table: M
     assert error.value.code == "exists"
     assert (tmp_path / "CASA" / "head.txt").exists()
     files = save_playback_tables(tmp_path, planned(table, "CASA"), replace=True)
-    assert sorted(files) == sorted((tmp_path / "CASA").iterdir())
+    about = tmp_path / "CASA" / "SIGN.txt"
+    assert sorted([*files, about]) == sorted((tmp_path / "CASA").iterdir())
+    assert "of ssp for teo" in about.read_text()
     assert [path.name for path in tmp_path.iterdir()] == ["CASA"]
 
 
@@ -239,7 +243,11 @@ def test_the_command_writes_both_formats(tmp_path: Path, table_directory: Path) 
     assert set(parse_motions(out.read_text("utf-8"))) == {"TÚ", "L"}
     result = run("TÚ", "--format", "yarp", "--out", tmp_path / "yarp", "--lut", table_directory)
     assert result.exit_code == 0, result.output
-    assert {path.name for path in (tmp_path / "yarp" / "TÚ").iterdir()} == {"rightArm.txt", "rightHand.txt"}
+    assert {path.name for path in (tmp_path / "yarp" / "TÚ").iterdir()} == {
+        "rightArm.txt",
+        "rightHand.txt",
+        "SIGN.txt",
+    }
     assert "timeIdx 0, timeScale 1, (mask 0 1 1 1 1 1 1)" in result.output
 
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_description.robot import Robot
 from teo_lut_executor.node.parameters import PARAMETERS, left_handed_from
 from teo_motion.planner import Planner

@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, joint_limits
 
-from teo_description import COMMANDED_JOINTS, joint_limits
-from teo_motion.sentence.rest_posture import REST
+from teo_description.humanoid import load_humanoid
+
+REST = load_humanoid().ready
 
 # What it does must not depend on ROS: importing it would fail here.
 _RUN = "import sys; sys.modules['rclpy'] = None; from teo_lut_executor.cli.plan import main; main()"

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from queue_world import TICK, World
 
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import (
     Activity,
     DriverMode,
@@ -18,8 +19,9 @@ from teo_lut_executor.execution.events import (
     Preemption,
     QueueSettings,
 )
-from teo_motion.sentence.rest_posture import REST
 from teo_signs.sign import Sign
+
+REST = load_humanoid().ready
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""One sign as the planner plays it: from rest over the sign, slowed down where TEO must be, back to rest."""
+"""One sign as the planner plays it: from rest over the sign, slowed down where need be, back to rest."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from teo_common.arrays import Array
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import sample_at
 from teo_signs.errors import LutError
-from teo_signs.export.sign_motion import PARTS, SignMotion
+from teo_signs.export.sign_motion import SignMotion
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 
@@ -49,8 +49,9 @@ def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD)
         for name, column in zip(plan.names, np.ptp(plan.positions, axis=0).tolist(), strict=True)
         if column > _STILL
     }
-    parts = tuple(part for part, joints in PARTS.items() if not moving.isdisjoint(joints))
-    columns = [plan.names.index(joint) for part in parts for joint in PARTS[part]]
+    humanoid = planner.limits.humanoid
+    limbs = {limb: joints for limb, joints in humanoid.limbs.items() if not moving.isdisjoint(joints)}
+    columns = humanoid.columns(joint for joints in limbs.values() for joint in joints)
     rows = math.ceil(plan.duration / period - 1e-9) + 1
     times: Array = np.arange(rows, dtype=np.float64) * period
     positions = sample_at(plan.motions, times).positions[:, columns].copy()
@@ -60,7 +61,7 @@ def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD)
     timing = plan.timings[0]
     return SignMotion(
         sign=sign,
-        parts=parts,
+        limbs=limbs,
         times=times,
         positions=positions,
         start=timing.start,

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from teo_description.hand_geometry import dextra_table
+from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
 from teo_motion.collision.collision_avoidance import CollisionAvoidance
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
@@ -25,13 +25,14 @@ from teo_motion.sentence.composition import compose
 from teo_motion.sentence.head_gestures import head_gestures
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
-from teo_motion.sentence.rest_posture import DEFAULT_REST, REST_POSITIONS, RestPosture
+from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, check_form
 from teo_motion.sentence.sign_size import SignSize
 from teo_motion.sentence.timing import SentenceTiming
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
+from teo_sign_languages import Language
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import DEFAULT_STANDING, Lexicon, SignedToken
 from teo_signs.sign import Sign
@@ -75,19 +76,22 @@ class Planner:
         max_duration: float = DEFAULT_MAX_DURATION,
         least_standing: Standing = DEFAULT_STANDING,
         rest_posture: RestPosture = DEFAULT_REST,
+        language: Language | None = None,
     ) -> None:
         """Prepare.
 
         Args:
             signs: The table.
-            limits: Limits of the 28 commanded joints; None for TEO's with the default acceleration and jerk.
+            limits: Limits of the commanded joints; None: of `robot` with the default acceleration and jerk.
             style: Times of holds and pauses; None for the defaults.
-            robot: For distances between parts of the robot; None plans without looking at them.
+            robot: For distances between parts of it; None plans without looking at them. Without `limits`,
+                too, it is the default one's.
             least_clearance: Distance that parts of the robot keep [m].
             period: Time between two samples of a plan [s].
             max_duration: A longer motion is refused [s].
             least_standing: Signs of a lower standing are spelled.
             rest_posture: Where sentences end, and begin if nothing else is said.
+            language: The table's: how numbers are put together, what the head says; None for the default one.
 
         Raises:
             PlanError: The period or the duration is not above 0 ("bad_period").
@@ -95,13 +99,15 @@ class Planner:
         for name, value in (("period", period), ("max_duration", max_duration)):
             if not value > 0.0:
                 raise PlanError("bad_period", f"{name}: expected a time above 0 s, got {value}")
-        self.limits = MotionLimits.of_robot() if limits is None else limits
+        if limits is None:
+            limits = MotionLimits.of_robot(None if robot is None else robot.humanoid)
+        self.limits = limits
         self.style = SigningStyle() if style is None else style
-        self._lexicon = Lexicon(signs, least_standing)
+        self._lexicon = Lexicon(signs, least_standing, None if language is None else language.numbers)
         motion_clearance = None if robot is None else MotionClearance(robot)
         self._motion_clearance = motion_clearance
         self._least_clearance = least_clearance
-        self._rest = REST_POSITIONS[rest_posture]
+        self._rest = rest_posture.of(self.limits.humanoid)
         self._period = period
         self._max_duration = max_duration
         self._size = (
@@ -110,11 +116,12 @@ class Planner:
         self._avoidance = CollisionAvoidance(
             SentenceTiming(limits=self.limits, period=period, max_duration=max_duration),
             motion_clearance,
-            None if robot is None else dextra_table(robot),
+            None if robot is None else hand_table(robot),
             limits=self.limits,
             least_clearance=least_clearance,
             arm_rest=self.style.arm_rest,
         )
+        self._grammar = None if language is None else language.head
         self._head = HeadOverlay(
             motion_clearance,
             limits=self.limits,
@@ -153,7 +160,7 @@ class Planner:
 
         Args:
             tokens: What to sign, in order.
-            start: State of the 28 commanded joints, which may be in motion; None for rest.
+            start: State of the commanded joints, which may be in motion; None for rest.
             form: Type and negation, which the head shows.
             hold: Time for which limbs that stand still at the start stay there first [s].
 
@@ -172,7 +179,8 @@ class Planner:
                 signed, start=begin, limits=self.limits, style=style, rest=self._rest, hold=hold
             )
             plan = self._avoidance.plan(composition)
-            return self._head.overlaid(plan, signed, head_gestures([item.token for item in signed], form))
+            gestures = head_gestures([item.token for item in signed], form, self._grammar)
+            return self._head.overlaid(plan, signed, gestures)
 
         # Signs in other postures and sizes may touch on their way where their entries keep apart.
         tried: list[Sequence[SignedToken]] = []
@@ -195,7 +203,7 @@ class Planner:
 
         Args:
             tokens: What is to be signed.
-            start: State of the 28 commanded joints, at a standstill.
+            start: State of the commanded joints, at a standstill.
             lasting: Time after which the plan of the whole sentence will take over [s].
 
         Returns:

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from teo_description import BODY_JOINTS, COMMANDED_JOINTS
-from teo_description.limits import effort_limits
 from teo_description.robot import Robot
 from teo_motion.sentence.plan import Plan
 
@@ -38,8 +36,9 @@ def peak_torques(plan: Plan, robot: Robot) -> tuple[PeakTorque, ...]:
     """
     needed = np.abs(robot.torques(plan.positions, plan.velocities, plan.accelerations))
     peaks = []
-    for joint, effort in zip(BODY_JOINTS, effort_limits(BODY_JOINTS), strict=True):
-        column = needed[:, COMMANDED_JOINTS.index(joint)]
+    joints = robot.humanoid.body_joints
+    for joint, effort in zip(joints, robot.humanoid.effort_limits(joints).tolist(), strict=True):
+        column = needed[:, plan.names.index(joint)]
         row = int(column.argmax())
         torque = float(column[row])
         peaks.append(

@@ -8,27 +8,20 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
-from teo_description import (
-    COMMANDED_JOINTS,
-    LEFT_ARM,
-    LEFT_HAND,
-    RIGHT_ARM,
-    RIGHT_HAND,
-    joint_limits,
-)
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Samples
-from teo_motion.sentence.rest_posture import HANGING, REST
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
-from teo_signs.mirroring import mirrored_positions
 from teo_signs.sign import Sign
 from teo_signs.tokens import Token
 
 BOTH = RIGHT_ARM + RIGHT_HAND + LEFT_ARM + LEFT_HAND
+HANGING, REST = load_humanoid().hanging, load_humanoid().ready
 OPEN = np.radians([0.0, -25.0, 7.0, 7.0, 7.0, 7.0])
 
 MakeSign = Callable[..., Sign]
@@ -53,7 +46,7 @@ def arms(lut: Lut, gloss: str, knot: int) -> tuple[np.ndarray, np.ndarray]:
 
 def mirrored_arm(arm: np.ndarray) -> np.ndarray:
     """The other arm in the mirror image of this one; both have the same axes in the same order."""
-    return mirrored_positions(RIGHT_ARM, arm)
+    return arm * load_humanoid().mirror_signs(RIGHT_ARM)
 
 
 def without_looking(signs: dict[str, Sign], glosses: str, robot: Robot) -> float:

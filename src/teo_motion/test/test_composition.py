@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
 
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
 from teo_motion.sentence.composition import Composition, compose
-from teo_motion.sentence.rest_posture import HANGING, REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -20,6 +19,7 @@ from teo_signs.tokens import Token, parse_printed
 
 STYLE = SigningStyle()
 LIMITS = MotionLimits.of_robot()
+HANGING, REST = LIMITS.humanoid.hanging, LIMITS.humanoid.ready
 START = State(position=REST, velocity=np.zeros(28), acceleration=np.zeros(28))
 ELBOW = COMMANDED_JOINTS.index("FrontalRightElbow")
 RIGHT_ARM_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Right" in name]
@@ -28,7 +28,7 @@ LEFT_COLUMNS = [COMMANDED_JOINTS.index(name) for name in COMMANDED_JOINTS if "Le
 
 def composed(table: Mapping[str, Sign], text: str | list[Token], style: SigningStyle = STYLE) -> Composition:
     tokens = parse_printed(text) if isinstance(text, str) else text
-    return compose(Lexicon(table).resolve(tokens), start=START, limits=LIMITS, style=style)
+    return compose(Lexicon(table).resolve(tokens), start=START, limits=LIMITS, style=style, rest=REST)
 
 
 def held(composition: Composition, index: int) -> float:
@@ -157,7 +157,7 @@ def test_limbs_that_a_sign_does_not_use_are_free_and_listed_as_idle(table: Mappi
     composition = composed(table, "CASA TÚ CASA")
     middle = composition.spans[1]
     assert np.isnan(composition.targets[middle.first : middle.last + 1, LEFT_COLUMNS]).all()
-    spans = {(span.first, span.last) for span in composition.idle if span.limb in (2, 4)}
+    spans = {(span.first, span.last) for span in composition.idle if span.limb in ("left_arm", "left_hand")}
     assert (composition.spans[0].last, composition.spans[2].first) in spans
 
 

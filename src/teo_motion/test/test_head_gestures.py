@@ -6,6 +6,7 @@ import pytest
 
 from teo_motion.sentence.head_gestures import head_gestures
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType
+from teo_sign_languages import HeadGrammar, load_language
 from teo_signs.tokens import parse_printed
 
 YES_NO = SentenceForm(type=SentenceType.YES_NO_QUESTION)
@@ -76,3 +77,19 @@ def test_a_negated_question_leans_and_shakes() -> None:
 def test_pauses_alone_have_no_gesture() -> None:
     for form in (NEGATED, YES_NO, WH, EXCLAMATION):
         assert head_gestures(parse_printed("_ _"), form) == ()
+
+
+def test_american_signs_shake_at_what_follows_the_negative_sign_and_lean_forward_to_ask() -> None:
+    def american(text: str, form: SentenceForm) -> list[tuple[str, int, int]]:
+        found = head_gestures(parse_printed(text), form, load_language("ase").head)
+        return [(item.kind.value, item.first, item.last) for item in found]
+
+    assert american("I NOT KNOW", NEGATED) == [("shake", 1, 2)]
+    assert american("I KNOW NOT", NEGATED) == [("shake", 2, 2)]
+    assert american("YOUR NAME WHAT", WH) == [("forward", 2, 2)]
+    assert american("YOU DEAF", YES_NO) == [("forward", 0, 1)]
+
+
+@pytest.mark.parametrize("form", [NEGATED, WH, YES_NO, EXCLAMATION])
+def test_a_language_of_which_nothing_is_said_keeps_its_head_still(form: SentenceForm) -> None:
+    assert head_gestures(parse_printed("YO NO QUÉ"), form, HeadGrammar()) == ()

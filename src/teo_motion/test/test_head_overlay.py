@@ -11,11 +11,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.head_gestures import GestureKind
 from teo_motion.sentence.plan import Plan, TokenTiming
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sentence_form import STATEMENT, SentenceForm, SentenceType
 from teo_motion.trajectory.limits import MotionLimits
@@ -25,6 +25,8 @@ from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed
+
+REST = load_humanoid().ready
 
 LIMITS = MotionLimits.of_robot()
 YAW, PITCH = (LIMITS.names.index(name) for name in ("AxialNeck", "FrontalNeck"))

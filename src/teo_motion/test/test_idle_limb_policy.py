@@ -8,16 +8,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
 
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
+from teo_description.humanoid import load_humanoid
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
+
+REST = load_humanoid().ready
 
 
 def columns(names: tuple[str, ...]) -> list[int]:
@@ -98,7 +100,7 @@ def test_least_times_are_those_that_ruckig_finds(
 ) -> None:
     one = np.ones(1)
     limits = MotionLimits(
-        names=("joint",),
+        humanoid=load_humanoid(),
         lower=-10 * one,
         upper=10 * one,
         velocity=velocity * one,

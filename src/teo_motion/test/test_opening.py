@@ -7,14 +7,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.planner import Planner
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.tokens import parse_printed
+
+REST = load_humanoid().ready
 
 STILL = State(position=REST, velocity=np.zeros(REST.size), acceleration=np.zeros(REST.size))
 SENTENCES = ("HOLA", "TÚ AGUA BEBER", "A-N-A", "MI NOMBRE", "352", "NO")

@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner, plan
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rest_posture import REST, RestPosture
+from teo_motion.sentence.rest_posture import RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -21,6 +21,7 @@ from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed
 
 LIMITS = MotionLimits.of_robot()
+REST = LIMITS.humanoid.ready
 
 
 @pytest.fixture(scope="module")

@@ -10,10 +10,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from nearest_parts import touching
+from teo_names import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
 
-from teo_description import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sign_size import SignSize
 from teo_motion.trajectory.limits import MotionLimits
@@ -22,6 +22,8 @@ from teo_signs.lexicon import SignedToken
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
+
+REST = load_humanoid().ready
 
 JOINTS = (*RIGHT_ARM, *RIGHT_HAND)
 # The right hand before the chest, clear of the body; fingers open.

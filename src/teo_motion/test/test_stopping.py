@@ -3,57 +3,94 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_motion.sentence.rest_posture import REST
+from teo_description.humanoid import load_humanoid
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
 from teo_motion.trajectory.stopping import stop
 
-LIMITS = MotionLimits.of_robot()
+ROBOTS = {name: MotionLimits.of_robot(load_humanoid(name)) for name in ("teo", "gr1t2")}
 
 
-def quintic(
-    time: float, start: tuple[float, float, float], end: float, looks: int = 200
-) -> tuple[np.ndarray, np.ndarray]:
-    """Position and velocity of the quintic to a standstill: what a driver makes of one point."""
+def quintic(time: float, start: tuple[float, float, float], end: float, looks: int = 200) -> np.ndarray:
+    """Position and three derivatives of the quintic to a standstill: what a driver makes of one point."""
     p, v, a = start
-    s = np.linspace(0.0, 1.0, looks)
     d, w, b = end - p, v * time, a * time**2
-    c = (10 * d - 6 * w - 1.5 * b, -15 * d + 8 * w + 1.5 * b, 6 * d - 3 * w - 0.5 * b)
-    position = p + w * s + b / 2 * s**2 + c[0] * s**3 + c[1] * s**4 + c[2] * s**5
-    velocity = (w + b * s + 3 * c[0] * s**2 + 4 * c[1] * s**3 + 5 * c[2] * s**4) / time
-    return position, velocity
+    curve = np.polynomial.Polynomial(
+        [p, w, b / 2, 10 * d - 6 * w - 1.5 * b, -15 * d + 8 * w + 1.5 * b, 6 * d - 3 * w - 0.5 * b]
+    )
+    s = np.linspace(0.0, 1.0, looks)
+    return np.array([curve.deriv(order)(s) / time**order for order in range(4)])
 
 
-def test_what_stands_still_stays() -> None:
-    still = np.zeros(28)
-    end, time = stop(State(position=REST, velocity=still, acceleration=still), LIMITS)
-    np.testing.assert_array_equal(end.position, REST)
+def right_elbow(limits: MotionLimits) -> int:
+    """Column of a joint that is in the middle of its range in the ready posture."""
+    return limits.names.index(limits.humanoid.elbows[0])
+
+
+def fastest(limits: MotionLimits, joint: int) -> float:
+    """Speed of a joint in the ready posture that it may have there [rad/s].
+
+    A joint of TEO may have any; a faster one only that from which it comes to rest within its range, half of
+    what the square root of acceleration times way gives, as jerk and late states take their part.
+    """
+    at = limits.humanoid.ready[joint]
+    room = min(at - limits.lower[joint], limits.upper[joint] - at)
+    return float(min(limits.velocity[joint], 0.5 * np.sqrt(limits.acceleration[joint] * room)))
+
+
+@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+def test_what_stands_still_stays(limits: MotionLimits) -> None:
+    rest = limits.humanoid.ready
+    still = np.zeros_like(rest)
+    end, time = stop(State(position=rest, velocity=still, acceleration=still), limits)
+    np.testing.assert_array_equal(end.position, rest)
     assert 0.1 <= time < 0.2
 
 
+@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
 @settings(max_examples=200)
 @given(
     share=st.floats(-1.0, 1.0),
     late=st.floats(-0.02, 0.04),
 )
-def test_a_robot_a_little_before_or_behind_stops_without_going_faster(share: float, late: float) -> None:
-    joint = 13  # the right elbow, in the middle of its range
-    velocity = np.zeros(28)
-    velocity[joint] = share * LIMITS.velocity[joint]
-    position = REST.copy()
-    end, time = stop(State(position=position, velocity=velocity, acceleration=np.zeros(28)), LIMITS)
+def test_a_robot_a_little_before_or_behind_stops_without_going_faster(
+    limits: MotionLimits, share: float, late: float
+) -> None:
+    joint, position = right_elbow(limits), limits.humanoid.ready
+    velocity = np.zeros_like(position)
+    velocity[joint] = share * fastest(limits, joint)
+    start = State(position=position, velocity=velocity, acceleration=np.zeros_like(position))
+    end, time = stop(start, limits)
     assert (end.velocity == 0.0).all() and (end.acceleration == 0.0).all()
     # The robot has gone on for so long when the command arrives, or is not yet where it said.
     here = position[joint] + late * velocity[joint]
-    _, speeds = quintic(time, (here, velocity[joint], 0.0), end.position[joint])
-    assert np.abs(speeds).max() <= LIMITS.velocity[joint] * 1.001
+    speeds = quintic(time, (here, velocity[joint], 0.0), end.position[joint])[1]
+    assert np.abs(speeds).max() <= limits.velocity[joint] * 1.001
 
 
-def test_a_stop_stays_within_the_limits() -> None:
-    velocity = np.full(28, -0.8)
-    position = LIMITS.lower + 0.01
-    end, _ = stop(State(position=position, velocity=velocity, acceleration=np.zeros(28)), LIMITS)
-    assert (end.position >= LIMITS.lower).all()
+@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+@settings(max_examples=200)
+@given(share=st.floats(-1.0, 1.0), push=st.floats(-1.0, 1.0), late=st.floats(0.005, 0.035))
+def test_a_robot_that_speeds_up_or_slows_down_stops_within_its_acceleration_and_jerk(
+    limits: MotionLimits, share: float, push: float, late: float
+) -> None:
+    joint, position = right_elbow(limits), limits.humanoid.ready
+    velocity, acceleration = np.zeros_like(position), np.zeros_like(position)
+    velocity[joint] = share * fastest(limits, joint)
+    acceleration[joint] = push * limits.acceleration[joint]
+    end, time = stop(State(position=position, velocity=velocity, acceleration=acceleration), limits)
+    here = position[joint] + late * velocity[joint]
+    _, _, pushed, jerked = quintic(time, (here, velocity[joint], acceleration[joint]), end.position[joint])
+    assert np.abs(pushed).max() <= limits.acceleration[joint] * 1.001
+    assert np.abs(jerked).max() <= limits.jerk[joint] * 1.001
+
+
+@pytest.mark.parametrize("limits", ROBOTS.values(), ids=ROBOTS)
+def test_a_stop_stays_within_the_limits(limits: MotionLimits) -> None:
+    position, velocity = limits.lower + 0.01, -0.9 * limits.velocity
+    end, _ = stop(State(position=position, velocity=velocity, acceleration=np.zeros_like(position)), limits)
+    assert (end.position >= limits.lower).all()

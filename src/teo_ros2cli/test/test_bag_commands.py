@@ -257,6 +257,18 @@ def test_the_clock_is_played(graph: Any, ros2: Command, tmp_path: Path) -> None:
     assert 1e9 <= came[0] < came[-1] <= 1e9 + 1.1
 
 
+def test_the_clock_goes_on_with_the_messages(graph: Any, ros2: Command, tmp_path: Path) -> None:
+    make_text_bag(tmp_path / "bag", 5, step=30_000_000)
+    came: list[int] = []
+    graph.node.create_subscription(
+        Clock, "/clock", lambda message: came.append(message.clock.nanosec // 1_000_000), DEEP
+    )
+    assert ros2("bag", "play", str(tmp_path / "bag"), "--clock-topics", "/text").returncode == 0
+    graph.wait_until(lambda: came == [0, 30, 60, 90, 120], "the clock was told before each message")
+    both = ros2("bag", "play", str(tmp_path / "bag"), "--clock", "10", "--clock-topics-all")
+    assert (both.returncode, "not allowed with argument" in both.stderr) == (2, True)
+
+
 def make_text_bag(directory: Path, count: int, step: int, kind: str = "std_msgs/msg/String") -> None:
     """Write a bag of numbers as text; with a type of another name to make it unknown."""
     from rclpy.serialization import serialize_message

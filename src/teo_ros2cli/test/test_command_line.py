@@ -4,16 +4,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from ros2_words import FILE, words_table
 
 from teo_ros2cli.cli import options
 from teo_ros2cli.main import COMMANDS
@@ -55,6 +58,21 @@ def test_run_passes_signals_on(start: Callable[..., Any], number: signal.Signals
     running = start("run", "tools", "sleep")
     running.wait_for_line("ready")
     assert running.stop(number) == status
+
+
+def test_ctrl_c_while_python_starts_is_answered_in_silence(ros2_path: Path) -> None:
+    began = time.monotonic()
+    subprocess.run([ros2_path, "--help"], stdout=subprocess.DEVNULL, check=True)
+    took = time.monotonic() - began
+    for share in (0.05, 0.2, 0.4, 0.6, 0.8):
+        running = subprocess.Popen(
+            [ros2_path, "topic", "list"], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE
+        )
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            running.wait(share * took)
+        running.send_signal(signal.SIGINT)
+        assert running.communicate(timeout=60.0)[1] == b""
+        assert running.returncode in (2, -signal.SIGINT)
 
 
 @pytest.mark.usefixtures("tools")
@@ -159,6 +177,71 @@ def test_a_message_that_cannot_be_is_refused_before_joining_the_graph(
     done = ros2("topic", "pub", *words)
     assert (done.returncode, done.stdout) == (1, "")
     assert sentence in done.stderr
+
+
+def test_a_profile_that_fast_dds_would_pass_over_is_refused_before_joining_the_graph(
+    ros2: Callable[..., Any], tmp_path: Path
+) -> None:
+    profile = tmp_path / "tls.xml"
+    for text, told in ((None, "not there"), ("<dds", "Fast DDS can read")):
+        if text is not None:
+            profile.write_text(text)
+        done = ros2("topic", "list", env=os.environ | {"FASTRTPS_DEFAULT_PROFILES_FILE": str(profile)})
+        assert done.returncode == 1
+        assert "/rosout" not in done.stdout  # where Fast DDS writes, too
+        assert told in done.stderr
+        assert "Traceback" not in done.stderr
+
+
+def test_the_table_of_words_is_up_to_date() -> None:
+    assert FILE.read_text(encoding="utf-8") == words_table(), "run python scripts/ros2_words.py"
+
+
+@pytest.mark.parametrize(
+    ("line", "first"),
+    [
+        ("ros2 to", ["topic"]),
+        ("ros2 topic p", ["pub"]),
+        ("ros2 bag play --re", ["--read-ahead-queue-size", "--regex", "--remap"]),
+        ("ros2 param set --timeout 3 --inc", ["--include-hidden-nodes"]),
+        ("ros2 run tools s", ["show", "sleep"]),
+        ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
+        ("ros2 service call /x std_srvs/srv/T", ["std_srvs/srv/Trigger"]),
+    ],
+)
+def test_words_are_completed_in_the_shell(
+    tools: Path, ros2_path: Path, tmp_path: Path, line: str, first: list[str]
+) -> None:
+    del tools
+    answer = tmp_path / "words"
+    asked = {
+        "_ARGCOMPLETE": "1",
+        "_ARGCOMPLETE_IFS": "\n",
+        "_ARGCOMPLETE_STDOUT_FILENAME": str(answer),
+        "COMP_LINE": line,
+        "COMP_POINT": str(len(line)),
+        "COMP_TYPE": "9",
+    }
+    subprocess.run([ros2_path], env={**os.environ, **asked}, timeout=30, check=True)
+    assert [word.strip() for word in answer.read_text().splitlines()] == first
+
+
+def test_datagrams_to_a_group_are_sent_and_received(start: Callable[..., Any], ros2_here: Any) -> None:
+    words = ("--group", "225.0.0.7", "--port", "49177")
+    receiver = start("multicast", "receive", *words, "--timeout", "20")
+    receiver.wait_for_line("Waiting for UDP multicast datagram...")
+    while receiver.process.poll() is None:  # it is bound a moment before or after it says so
+        sent = ros2_here("multicast", "send", *words)
+        if sent.returncode:
+            pytest.skip(f"this machine has no network that takes multicast: {sent.stderr}")
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            receiver.process.wait(0.2)
+    assert receiver.finish() == 0
+    assert receiver.lines[-1].startswith("Received from ")
+    assert receiver.lines[-1].endswith(": 'Hello World!'")
+    late = ros2_here("multicast", "receive", *words, "--timeout", "0.1")
+    assert (late.returncode, late.stderr) == (1, "Timed out waiting for UDP multicast datagram\n")
+    assert ros2_here("multicast", "send", "--group", "nowhere").returncode == 1
 
 
 def test_interfaces_are_shown(ros2: Callable[..., Any]) -> None:

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-from teo_ros2cli.graph.cli_node import count_participants
+import time
+
+from teo_ros2cli.graph.cli_node import count_participants, look_again
 
 HEADER = "   sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode\n"
 
@@ -22,3 +24,11 @@ def test_discovery_ports_of_the_domain_are_counted_once() -> None:
 def test_an_odd_table_counts_nothing() -> None:
     assert count_participants("", 0) == 0
     assert count_participants(HEADER + "nonsense\n 1: zz:xx\n 2:\n", 0) == 0
+
+
+def test_what_appears_a_moment_late_is_found_and_what_never_comes_ends_the_look() -> None:
+    looks = iter([[], [], ["std_msgs/msg/String"]])
+    assert look_again(lambda: next(looks)) == ["std_msgs/msg/String"]
+    started = time.monotonic()
+    assert look_again(lambda: []) == []
+    assert time.monotonic() - started >= 0.75  # three of the announcements of config/fastdds.xml

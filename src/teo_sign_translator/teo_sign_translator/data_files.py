@@ -1,21 +1,19 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The package's data files: where they are, and reading those with columns."""
+"""The text side of a language: where its files are, and reading those with columns."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from teo_common.package_files import package_path
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_sign_translator.errors import TranslationError
-
-PACKAGE = "teo_sign_translator"
 
 
 def data_file(name: str) -> Path:
-    """Path of a file or folder of the package's `data` folder; it need not be there."""
-    return package_path(PACKAGE, "data") / name
+    """Path of a file or folder of the text side of the default language; it need not be there."""
+    return load_language(DEFAULT_LANGUAGE).text / name
 
 
 def read_rows(path: Path, columns: int) -> Iterator[tuple[int, list[str]]]:

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError
 
 from teo_common.atomic_files import write_atomically
-from teo_common.package_files import package_path
-from teo_sign_translator.data_files import PACKAGE
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_sign_translator.errors import TranslationError
 
 Weights = Mapping[str, NDArray[np.float32]]
@@ -24,12 +23,12 @@ Model = TypeVar("Model")
 
 
 def models_directory() -> Path:
-    """Folder of the models that ship with the package."""
-    return package_path(PACKAGE, "models")
+    """Folder of the models of the default language."""
+    return load_language(DEFAULT_LANGUAGE).models
 
 
 def available_models(directory: Path | None = None) -> tuple[str, ...]:
-    """Names of the models in a folder (by default the package's), sorted."""
+    """Names of the models in a folder (by default the default language's), sorted."""
     weights = (directory or models_directory()).glob("*.safetensors")
     return tuple(sorted(path.stem for path in weights if path.with_suffix(".json").is_file()))
 
@@ -45,7 +44,7 @@ def card_schema(name: str, directory: Path | None = None) -> object:
 
 
 def read_card(name: str, schema: int, directory: Path | None = None) -> dict[str, Any]:
-    """The card of a model in a folder (by default the package's).
+    """The card of a model in a folder (by default the default language's).
 
     Raises:
         TranslationError: "invalid_model" if it cannot be read or has another schema.
@@ -68,7 +67,7 @@ def read_model(
     Args:
         name: Of its two files.
         schema: Of its card.
-        directory: Folder of the models; by default the package's.
+        directory: Folder of the models; by default the default language's.
         build: Makes the model of card and weights.
 
     Raises:

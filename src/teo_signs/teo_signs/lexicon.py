@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from teo_common.text_folding import without_accents
+from teo_sign_languages import DEFAULT_LANGUAGE, Numbers, load_language
 from teo_signs.errors import LutError, PlanError
 from teo_signs.numbers import number_glosses
 from teo_signs.sign import Sign, gloss_key
@@ -17,6 +18,7 @@ from teo_signs.sign_schema import STANDINGS, Standing
 from teo_signs.tokens import Kind, Token, check_tokens
 
 _SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
+_TOKEN_KIND = {sign: token for token, sign in _SIGN_KIND.items()}
 
 # Lowest standing (evidence of the form) with which a lexical sign is used; with a lower one it is spelled. A
 # sketch has no source: whoever knows LSE would read something else, or nothing, where letters tell the word.
@@ -39,22 +41,30 @@ class Lexicon:
 
     A lexical gloss that the table lacks is spelled with the table's own letters, longest match first, so
     that CH, LL and RR are one sign where the table has them; digits in it become number signs and "_" a
-    pause. Accents are dropped first, except on Ñ, which is a letter of its own. So is a gloss whose sign is
+    pause. Accents are dropped first, except on letters of their own (Ñ). So is a gloss whose sign is
     of too low a standing; letters and digits are always used, for nothing could stand for them.
 
-    The tokens of one word that hold digits are one number, whose signs `numbers` chooses: 352 is 3 100 5 2
-    where the table has no sign for it. A token with an inflection is made with that form of its sign
-    ("2>1": from the addressee to the signer), or with the citation form where the entry has no such form.
+    The tokens of one word that hold digits are one number, whose signs `number_glosses` chooses: 352 is
+    3 100 5 2 in LSE, whose table has no sign for it. A token with an inflection is made with that form of
+    its sign ("2>1": from the addressee to the signer), or with the citation form where the entry has no such
+    form.
     """
 
-    def __init__(self, signs: Mapping[str, Sign], least_standing: Standing = DEFAULT_STANDING) -> None:
+    def __init__(
+        self,
+        signs: Mapping[str, Sign],
+        least_standing: Standing = DEFAULT_STANDING,
+        numbers: Numbers | None = None,
+    ) -> None:
         """Use a table, which may change between two calls of `resolve`.
 
         Args:
             signs: The table.
             least_standing: The lowest standing that a lexical sign may have.
+            numbers: How the table's language puts numbers together; None for the default language.
         """
         self._signs = signs
+        self._numbers = load_language(DEFAULT_LANGUAGE).numbers if numbers is None else numbers
         self._good_enough = STANDINGS[: STANDINGS.index(least_standing) + 1]
 
     def resolve(self, tokens: Sequence[Token]) -> tuple[SignedToken, ...]:
@@ -92,21 +102,32 @@ class Lexicon:
         if sign is not None:
             return [SignedToken(token=token, sign=sign.inflected(token.inflection))]
         if token.kind == Kind.LETTER:
-            sign = self._find(without_accents(gloss), Kind.LETTER)
+            sign = self._find(self._plain(gloss), Kind.LETTER)
             if sign is None:
                 raise PlanError("unknown_sign", f"expected a letter of the table, got {token.gloss!r}")
             return [SignedToken(token=token, sign=sign)]
-        return self._spell(token, without_accents(gloss))
+        return self._spell(token, self._plain(gloss))
+
+    def _plain(self, text: str) -> str:
+        """A text without accents, but for those of letters of their own: Ñ in Spanish, Å in Swedish."""
+        own = (c if c.isascii() or self._find(c, Kind.LETTER) else without_accents(c) for c in text)
+        return "".join(own)
 
     def _number(self, token: Token, digits: str) -> list[SignedToken]:
         """The signs of a number, each with a token of its own."""
         signed: list[SignedToken] = []
-        for gloss in number_glosses(digits, lambda gloss: self._find(gloss, Kind.NUMBER) is not None):
-            sign = self._find(gloss, Kind.NUMBER)
+        for gloss in number_glosses(digits, self._numbers, lambda gloss: self._part(gloss) is not None):
+            sign = self._part(gloss)
             if sign is None:
                 raise PlanError("unknown_sign", self._missing(token, gloss))
-            signed.append(SignedToken(token=dataclasses.replace(token, gloss=gloss), sign=sign))
+            kind = _TOKEN_KIND[sign.kind]
+            signed.append(SignedToken(token=dataclasses.replace(token, gloss=gloss, kind=kind), sign=sign))
         return signed
+
+    def _part(self, gloss: str) -> Sign | None:
+        """The sign of a part of a number; what says hundred may be a letter or a word."""
+        kinds = (Kind.NUMBER,) if gloss.isdecimal() else (Kind.LETTER, Kind.LEXICAL)
+        return next(filter(None, (self._find(gloss, kind) for kind in kinds)), None)
 
     def _find(self, gloss: str, kind: Kind) -> Sign | None:
         if gloss not in self._signs:

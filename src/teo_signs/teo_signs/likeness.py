@@ -16,6 +16,7 @@ from itertools import combinations
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_description.humanoid import SIDES, Side
 from teo_description.robot import Robot
 from teo_signs.sign import Sign
 
@@ -32,8 +33,6 @@ SEEN_PLACE = 0.028
 _ONE_FORM = 1e-3
 
 _MOMENTS = 25
-_FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
-_SIDES = ("Right", "Left")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +64,7 @@ class Difference:
 
 def nearest_pairs(robot: Robot, signs: Iterable[Sign]) -> list[Difference]:
     """Every pair of signs, the most alike first; two names of one sign are no pair."""
-    seen = [(sign, [_appearance(robot, sign, side) for side in _SIDES]) for sign in signs]
+    seen = [(sign, [_appearance(robot, sign, side) for side in SIDES]) for sign in signs]
     found = [
         _difference(first, second, zip(one, other, strict=True))
         for (first, one), (second, other) in combinations(seen, 2)
@@ -83,19 +82,21 @@ class _Appearance:
     """One hand in a sign."""
 
     local_tips: Array
-    """Finger tips in palm axes [m]. Shape (moments, 5, 3)."""
+    """Finger tips in palm axes [m]. Shape (moments, digits, 3)."""
     palms: Array
     """Orientations of the palm. Shape (moments, 3, 3)."""
     ways: Array
-    """Finger tips from their middle over the sign [m]. Shape (moments, 5, 3)."""
+    """Finger tips from their middle over the sign [m]. Shape (moments, digits, 3)."""
     place: Array
     """Middle of the palm's places [m]. Shape (3,)."""
 
 
-def _appearance(robot: Robot, sign: Sign, side: str) -> _Appearance:
+def _appearance(robot: Robot, sign: Sign, side: Side) -> _Appearance:
     moments = np.linspace(0.0, sign.duration, _MOMENTS)
     positions = np.column_stack([np.interp(moments, sign.times, column) for column in sign.knots.T])
-    frames = (f"{side.lower()}_palm", *(f"{side}{finger}FingerTip" for finger in _FINGERS))
+    hand = robot.humanoid.file.hand
+    right = (hand.palm, hand.thumb[-1], *(frames[-1] for frames in hand.fingers.values()))
+    frames = right if side == "right" else tuple(map(robot.humanoid.mirrored_name, right))
     places = np.array(
         [
             robot.placements(robot.configuration(dict(zip(sign.joints, row.tolist(), strict=True))), frames)

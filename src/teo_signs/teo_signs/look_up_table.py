@@ -13,49 +13,68 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from teo_common.package_files import package_path
+from teo_sign_languages import DEFAULT_LANGUAGE, Language, LanguageError, load_language
 from teo_signs.errors import LutError
+from teo_signs.made_for import refuse_another
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_file import read_sign, save_sign
+from teo_signs.sign_schema import DEFAULT_ROBOT
 
-__all__ = ["LANGUAGE", "Lut", "LutError", "Sign", "default_lut_directory", "save_sign", "user_lut_directory"]
-
-LANGUAGE = "lse"
+__all__ = ["Lut", "LutError", "Sign", "default_lut_directory", "save_sign", "user_lut_directory"]
 
 
-def default_lut_directory() -> Path:
-    """The table of Spanish Sign Language that comes with the package.
+def default_lut_directory(language: str = DEFAULT_LANGUAGE, robot: str = DEFAULT_ROBOT) -> Path:
+    """The table of a language that comes with it.
+
+    Args:
+        language: Its code.
+        robot: Name of the robot.
 
     Raises:
-        LutError: Neither the installed package nor the source tree holds it ("no_directory").
+        LutError: No such language, or a broken one ("unknown_language", "invalid_language"), or no table of
+            it for the robot ("no_table").
     """
-    try:
-        return package_path("teo_signs", f"lut/{LANGUAGE}")
-    except FileNotFoundError as error:
-        raise LutError("no_directory", str(error)) from error
+    found = _language(language)
+    table = found.table(robot)
+    if not table.is_dir():
+        there = ", ".join(found.robots) or "none"
+        raise LutError(
+            "no_table",
+            f"expected a robot for which {found.names.en} ({found.code}) has a table ({there}), got {robot!r}"
+            f"; `ros2 run teo_lut_executor lut retarget --language {found.code} --robot {robot}` makes one",
+        )
+    return table
 
 
-def user_lut_directory() -> Path:
-    """The user's own table, which need not be there: ``teo/lut`` of the data home (XDG base directories)."""
+def user_lut_directory(language: str = DEFAULT_LANGUAGE, robot: str = DEFAULT_ROBOT) -> Path:
+    """The user's own table of a language, which need not be there, in the data home (XDG base directories).
+
+    That of the default language and robot is ``teo/lut``, where it was when there were no others; that of
+    others ``teo/lut/<language>/<robot>``.
+    """
     base = os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share"
-    return Path(base) / "teo" / "lut"
+    own = Path(base) / "teo" / "lut"
+    code = _language(language).code
+    return own if (code, robot) == (DEFAULT_LANGUAGE, DEFAULT_ROBOT) else own / code / robot
 
 
-def held_entry(table: Path, gloss: str) -> Path | None:
+def held_entry(table: Path, gloss: str, *, robot: str = DEFAULT_ROBOT) -> Path | None:
     """The file that a gloss has in a table; None if it has none.
 
     Args:
         table: Directory of the entries. What the package's table holds counts as well for the user's own, as
             it is signed where that has nothing.
         gloss: Name of the sign.
+        robot: Name of the robot whose table it is.
 
     Raises:
         LutError: The directory cannot be looked at ("no_directory").
     """
     name = f"{gloss_key(gloss)}.json"
     directories = [table]
-    if table == user_lut_directory():
-        directories.append(default_lut_directory())
+    language = _language(DEFAULT_LANGUAGE)
+    if table == user_lut_directory(robot=robot) and robot in language.robots:
+        directories.append(language.table(robot))
     for directory in directories:
         path = directory / name
         try:
@@ -73,33 +92,61 @@ class Lut(Mapping[str, Sign]):
     kept once read; what changed on disk since is seen with `refresh` or `reload`.
     """
 
-    def __init__(self, directory: Path, *, own: Path | None = None) -> None:
+    def __init__(self, directory: Path, language: Language, robot: str, *, own: Path | None = None) -> None:
         """List directories; see `open`.
 
         Args:
             directory: Of the entries; must be there.
+            language: That all entries must be of.
+            robot: That all entries must be for.
             own: Of entries that take the place of those; may be missing.
         """
         self._directory, self._own = directory, own
+        self._language, self._robot = language, robot
         self._paths: dict[str, Path] = {}
         self._signs: dict[str, Sign] = {}
         self._modified: tuple[int, ...] = ()
         self.reload()
 
     @classmethod
-    def open(cls, directory: str | os.PathLike[str] | None = None) -> Lut:
+    def open(
+        cls,
+        directory: str | os.PathLike[str] | None = None,
+        *,
+        language: str = DEFAULT_LANGUAGE,
+        robot: str = DEFAULT_ROBOT,
+    ) -> Lut:
         """Open a table.
 
         Args:
             directory: Directory of the entries; None for the user's own table and, for what it does not hold,
-                the table of the package.
+                the one that comes with the language.
+            language: Code of the language whose signs are wanted.
+            robot: Name of the robot whose motions are wanted.
 
         Raises:
-            LutError: No such directory ("no_directory"), or two files of one gloss ("duplicate_gloss").
+            LutError: No such language ("unknown_language", "invalid_language"), table ("no_table") or
+                directory ("no_directory"), two files of one gloss ("duplicate_gloss"), or a table of
+                another language or robot ("other_language", "other_robot").
         """
         if directory is None:
-            return cls(default_lut_directory(), own=user_lut_directory())
-        return cls(Path(directory))
+            known, own = _language(language), user_lut_directory(language, robot)
+            if own.is_dir() and not known.table(robot).is_dir():
+                return cls(own, known, robot)  # a robot of one's own
+            return cls(default_lut_directory(language, robot), known, robot, own=own)
+        lut = cls(Path(directory), _language(language), robot)
+        lut._refuse_another()
+        return lut
+
+    @property
+    def language(self) -> Language:
+        """The language of the signs."""
+        return self._language
+
+    @property
+    def robot(self) -> str:
+        """Name of the robot whose joints the signs move."""
+        return self._robot
 
     @property
     def directories(self) -> tuple[Path, ...]:
@@ -164,12 +211,15 @@ class Lut(Mapping[str, Sign]):
         """Look a sign up.
 
         Raises:
-            LutError: The table does not hold it ("unknown_sign"), or its entry is not a good one.
+            LutError: The table does not hold it ("unknown_sign"), or its entry is not a good one, or of
+                another language or robot ("other_language", "other_robot").
         """
         key = gloss_key(gloss)
         sign = self._signs.get(key)
         if sign is None:
-            sign = self._signs[key] = read_sign(self.path(gloss))
+            sign = read_sign(self.path(gloss))
+            refuse_another(sign, self.path(gloss), self._language, self._robot)
+            self._signs[key] = sign
         return sign
 
     def __contains__(self, gloss: object) -> bool:
@@ -183,6 +233,22 @@ class Lut(Mapping[str, Sign]):
     def __len__(self) -> int:
         """How many signs the table lists."""
         return len(self._paths)
+
+    def _refuse_another(self) -> None:
+        """Refuse a table of another language or robot by its first entry."""
+        for gloss in self.glosses()[:1]:
+            try:
+                self[gloss]
+            except LutError as error:
+                if error.code in ("other_language", "other_robot"):  # a bad entry is named when asked for
+                    raise
+
+
+def _language(code: str) -> Language:
+    try:
+        return load_language(code)
+    except LanguageError as error:
+        raise LutError(error.code, str(error)) from error
 
 
 def _stamp(directory: Path) -> int:

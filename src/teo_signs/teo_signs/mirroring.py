@@ -3,10 +3,10 @@
 """The table as a left-handed signer makes it: every sign as its mirror image.
 
 What the right hand does the left one does, and the other way round; head and trunk turn to the other side.
-The limits of TEO's arms are not quite mirror images: the left upper arm turns in 5.4 deg less than the right
-one, its wrist turns out 4 deg less. A posture that lies beyond is replaced by the one within the limits that
-brings the hand nearest to its mirror image, and the sign says how far off that is (`mirror_error_mm`,
-`mirror_error_deg` in its quality): by 14 mm and 8 deg at most in the package's table. What is beyond a limit
+The limits of a robot's arms need not be mirror images: TEO's left upper arm turns in 5.4 deg less than the
+right one, its wrist turns out 4 deg less. A posture that lies beyond is replaced by the one within the limits
+that brings the hand nearest to its mirror image, and the sign says how far off that is (`mirror_error_mm`,
+`mirror_error_deg` in its quality): by 14 mm and 8 deg at most in TEO's table. What is beyond a limit
 elsewhere stays so, and a planner refuses it by name.
 """
 
@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits, mirrored_name
+from teo_description.humanoid import SIDES, Side
 from teo_description.robot import Robot
 from teo_signs.motion_hash import with_alternatives
 from teo_signs.sign import Sign
@@ -28,7 +28,6 @@ from teo_signs.sign_file import LIMIT_TOLERANCE
 from teo_signs.sign_schema import Handedness
 
 _OTHER_HAND: dict[Handedness, Handedness] = {"right": "left", "left": "right", "both": "both"}
-_ARMS = {"right": RIGHT_ARM, "left": LEFT_ARM}
 
 # Weight of the hand's place against its orientation [rad/m]: 2 cm count as much as 9 deg of the palm.
 _PLACE = 8.0
@@ -49,7 +48,7 @@ class MirroredSigns(Mapping[str, Sign]):
 
         Args:
             signs: The table; signs keep their names.
-            robot: TEO.
+            robot: Whose signs they are.
         """
         self._signs = signs
         self._robot = robot
@@ -81,19 +80,9 @@ class MirroredSigns(Mapping[str, Sign]):
         return len(self._signs)
 
 
-def mirrored_positions(joints: tuple[str, ...], positions: Array) -> Array:
-    """Positions of the mirrored joints in the mirror image of a posture [rad], in the same order.
-
-    Axes across the body (Frontal) turn the same way on both sides, and a hand's axes are flexions; turns
-    about an upright axis or one to the front change sign.
-    """
-    turned: Array = positions * [-1.0 if name.startswith(("Axial", "Sagittal")) else 1.0 for name in joints]
-    return turned
-
-
 def mirrored_sign(robot: Robot, sign: Sign) -> Sign:
     """The mirror image of a sign, within the limits."""
-    joints = tuple(mirrored_name(name) for name in sign.joints)
+    joints = tuple(map(robot.humanoid.mirrored_name, sign.joints))
     knots, errors = _mirrored_knots(robot, sign.joints, joints, sign.knots)
     forms, alternatives = {}, []
     for inflection, form in sign.forms.items():
@@ -125,18 +114,19 @@ def _mirrored_knots(
     """Mirrored knots within the limits [rad], and how far off a palm is at most [m], [rad].
 
     Args:
-        robot: TEO.
+        robot: The robot.
         joints: What the knots' columns are.
         mirrored: What they are in the mirror.
         knots: Shape (n, joints).
     """
-    mirror = mirrored_positions(joints, knots)
+    mirror: Array = knots * robot.humanoid.mirror_signs(joints)
     errors = np.zeros(2)
-    for side, arm in _ARMS.items():
+    for side in SIDES:
+        arm = robot.humanoid.arm(side)
         if not set(arm) <= set(mirrored):
             continue
         columns = [mirrored.index(name) for name in arm]
-        limits = joint_limits(arm)
+        limits = robot.humanoid.limits(arm)
         for row in mirror:
             within = np.clip(row[columns], limits.lower, limits.upper)
             # An entry keeps six decimals: what is beyond by less is on the limit.
@@ -156,25 +146,30 @@ def _is_clear(robot: Robot, joints: tuple[str, ...], row: Array) -> bool:
 
 
 def _nearest(
-    robot: Robot, side: str, wanted: Array, start: Array, near: float
+    robot: Robot, side: Side, wanted: Array, start: Array, near: float
 ) -> tuple[Array, tuple[float, float]]:
     """The arm within its limits that brings the hand nearest to where another arm would.
 
     Args:
-        robot: TEO.
+        robot: The robot.
         side: Which arm.
-        wanted: The arm beyond its limits [rad]. Shape (6,).
-        start: The same within them. Shape (6,).
+        wanted: The arm beyond its limits [rad]. Shape (joints,).
+        start: The same within them. Shape (joints,).
         near: What a radian of way from the start costs.
 
     Returns:
-        The arm, shape (6,), and how far off its palm is [m] and [rad].
+        The arm, shape (joints,), and how far off its palm is [m] and [rad].
     """
-    limits = joint_limits(_ARMS[side])
+    humanoid = robot.humanoid
+    joints = humanoid.arm(side)
+    limits = humanoid.limits(joints)
+    palm_frame = (
+        humanoid.file.hand.palm if side == "right" else humanoid.mirrored_name(humanoid.file.hand.palm)
+    )
 
     def palm(arm: Array) -> Array:
-        q = robot.configuration(dict(zip(_ARMS[side], arm.tolist(), strict=True)))
-        return robot.placement(q, f"{side}_palm")
+        q = robot.configuration(dict(zip(joints, arm.tolist(), strict=True)))
+        return robot.placement(q, palm_frame)
 
     goal = palm(wanted)
 

@@ -12,26 +12,26 @@ import numpy as np
 from PIL import Image as PILImage
 
 from teo_common.atomic_files import write_atomically
-from teo_description.pictures.rendering import Camera, Image, film_strip, render_pose, save_png, write_video
+from teo_description.humanoid import load_humanoid
+from teo_description.pictures.rendering import (
+    Image,
+    camera_named,
+    film_strip,
+    render_pose,
+    save_png,
+    write_video,
+)
 from teo_signs.sign import Sign
 
 # Frames of a film a second [Hz].
 FRAME_RATE = 25.0
 
-# As somebody spoken to sees TEO from the waist up, and that person's look at the right hand.
-FRONT = Camera(
-    position=(2.3, 0.0, 0.60),
-    target=(0.0, -0.08, 0.55),
-    field_of_view=float(np.radians(25.0)),
-    size=(480, 480),
-)
-CLOSE_UP = Camera(
-    position=(0.9, 0.0, 0.03),
-    target=(0.0, 0.0, 0.0),
-    field_of_view=float(np.radians(20.0)),
-    size=(480, 480),
-    follows="RightMiddleFinger_link",
-)
+# The robot from the waist up as somebody spoken to sees it, and that person's look at the right hand: cameras
+# of the robot's description.
+FRONT, CLOSE_UP = "sign", "sign_hand"
+
+# Width and height of a picture [pixel].
+_SIZE = (480, 480)
 
 _STRIP_MOMENTS = 6
 
@@ -56,6 +56,12 @@ def pose_at(sign: Sign, time: float) -> dict[str, float]:
     }
 
 
+def render_sign(sign: Sign, time: float, camera: str = FRONT, size: tuple[int, int] = _SIZE) -> Image:
+    """Draw the sign's robot at a time from the sign's start [s]."""
+    view = camera_named(camera, load_humanoid(sign.robot)).sized(*size)
+    return render_pose(pose_at(sign, time), view, robot=sign.robot)
+
+
 def moves(sign: Sign) -> bool:
     """Whether anything moves in a sign."""
     return bool(np.ptp(sign.knots, axis=0).max() > _MOVES)
@@ -64,10 +70,9 @@ def moves(sign: Sign) -> bool:
 def save_picture(path: Path, sign: Sign) -> None:
     """Draw a sign: front and close-up, at its middle or, if it moves, at moments spread over it."""
     moments = np.linspace(0.0, sign.duration, _STRIP_MOMENTS) if moves(sign) else [sign.duration / 2.0]
-    poses = [pose_at(sign, float(moment)) for moment in moments]
-    frames = [render_pose(pose, camera) for camera in (FRONT, CLOSE_UP) for pose in poses]
+    frames = [render_sign(sign, float(moment), camera) for camera in (FRONT, CLOSE_UP) for moment in moments]
     captions = [f"{sign.gloss}  {moment:.2f} s" for moment in moments] if moves(sign) else [sign.gloss]
-    save_png(path, film_strip(frames, captions, columns=max(2, len(poses))))
+    save_png(path, film_strip(frames, captions, columns=max(2, len(moments))))
 
 
 def save_film(path: Path, sign: Sign) -> int:
@@ -77,7 +82,7 @@ def save_film(path: Path, sign: Sign) -> int:
         How many frames were written.
     """
     count = 1 + round(max(sign.duration, _STILL_FILM) * FRAME_RATE)
-    frames = (render_pose(pose_at(sign, frame / FRAME_RATE), FRONT) for frame in range(count))
+    frames = (render_sign(sign, frame / FRAME_RATE) for frame in range(count))
     return write_video(path, frames, [sign.gloss] * count, frames_per_second=FRAME_RATE)
 
 
@@ -97,11 +102,11 @@ def save_overview(path: Path, signs: Iterable[Sign]) -> None:
 
     The moments are its beginning and where it is farthest from it: many signs end as they begin.
     """
-    camera = FRONT.sized(_OVERVIEW_SIZE, _OVERVIEW_SIZE)
+    size = (_OVERVIEW_SIZE, _OVERVIEW_SIZE)
     frames: list[Image] = []
     captions: list[str] = []
     for sign in signs:
-        frames += [render_pose(pose_at(sign, moment), camera) for moment in (0.0, _farthest(sign))]
+        frames += [render_sign(sign, moment, size=size) for moment in (0.0, _farthest(sign))]
         captions += [sign.gloss, ""]
     sheet = film_strip(frames, captions, columns=_OVERVIEW_COLUMNS)
     # A picture of grey robots needs no 16 million colours, and a page of documentation no 8 MB.
@@ -124,6 +129,5 @@ def _cells(sign: Sign) -> Iterator[tuple[Image, str]]:
     """One picture of each sign that is still, two of each that moves: front and close-up side by side."""
     moments = [(0.0, "begins"), (sign.duration, "ends")] if moves(sign) else [(sign.duration / 2.0, "")]
     for moment, word in moments:
-        pose = pose_at(sign, moment)
-        pair = [render_pose(pose, camera.sized(240, 240)) for camera in (FRONT, CLOSE_UP)]
+        pair = [render_sign(sign, moment, camera, (240, 240)) for camera in (FRONT, CLOSE_UP)]
         yield np.hstack(pair), f"{sign.gloss}  {word}".strip()

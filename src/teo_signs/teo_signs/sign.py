@@ -12,8 +12,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import description_hash
-from teo_signs.sign_schema import Handedness, Kind, Provenance
+from teo_description.humanoid import SIDES, load_humanoid
+from teo_signs.sign_schema import DEFAULT_ROBOT, Handedness, Kind, Provenance
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,7 +35,7 @@ class Sign:
 
     Attributes:
         gloss: Name, upper-case Spanish with accents, a space written "_".
-        language: Sign language, "lse".
+        language: ISO 639-3 code of the sign language.
         kind: "lexical", "letter" or "number".
         handedness: Hands that make the sign: "right", "left" or "both".
         joints: Names of the joints that the sign moves; the others are free.
@@ -49,6 +49,7 @@ class Sign:
             each as `knots`, at the same times. Read-only.
         alternatives_of: `motion_hash.citation_hash` of the sign that they were made for; empty without. An
             entry that changed since has the hash, or "unknown", and no alternatives.
+        robot: Name of the robot whose joints they are.
     """
 
     gloss: str
@@ -63,6 +64,7 @@ class Sign:
     forms: Mapping[str, Form] = field(default_factory=lambda: MappingProxyType({}))
     alternatives: tuple[NDArray[np.float64], ...] = ()
     alternatives_of: str = ""
+    robot: str = DEFAULT_ROBOT
 
     @property
     def duration(self) -> float:
@@ -90,14 +92,16 @@ def gloss_key(gloss: str) -> str:
 def sign_warnings(sign: Sign) -> tuple[str, ...]:
     """What is odd about a sign that can be used all the same; a sentence each."""
     warnings = []
-    made_for, in_use = sign.provenance.description_hash, description_hash()
+    humanoid = load_humanoid(sign.robot)
+    made_for, in_use = sign.provenance.description_hash, humanoid.description_hash
     if made_for != in_use:
         warnings.append(
             f"{sign.gloss}: provenance.description_hash: expected {in_use[:12]}… (the robot in use), "
             f"got {made_for[:12]}…; made for another description of the robot, look at it again"
         )
-    sides = {side for side in ("Left", "Right") if any(side in joint for joint in sign.joints)}
-    expected = {"right": {"Right"}, "left": {"Left"}, "both": {"Left", "Right"}}[sign.handedness]
+    moved = set(sign.joints)
+    sides = {side for side in SIDES if moved.intersection(humanoid.arm(side) + humanoid.hand(side))}
+    expected = {*SIDES} if sign.handedness == "both" else {sign.handedness}
     if sides != expected:
         warnings.append(
             f"{sign.gloss}: handedness: expected joints of {', '.join(sorted(expected))} for "

@@ -16,8 +16,10 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from teo_common.atomic_files import write_atomically
-from teo_description import COMMANDED_JOINTS, joint_limits
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import Humanoid, load_humanoid
 from teo_signs.errors import LutError
+from teo_signs.made_for import refuse_mixed
 from teo_signs.motion_hash import with_alternatives_in_force, with_standing_in_force
 from teo_signs.sign import Form, Sign, gloss_key
 from teo_signs.sign_schema import SCHEMA_VERSION, FormFile, Provenance, SignFile
@@ -63,6 +65,7 @@ def parse_sign(text: str | bytes, *, file: str | Path) -> Sign:
         forms=MappingProxyType(forms),
         alternatives=tuple(_array(other) for other in content.alternatives),
         alternatives_of=content.alternatives_of,
+        robot=content.robot,
     )
     return with_standing_in_force(with_alternatives_in_force(sign))
 
@@ -88,22 +91,19 @@ def format_sign(sign: Sign) -> str:
         "schema": SCHEMA_VERSION,
         "gloss": sign.gloss,
         "language": sign.language,
+        "robot": sign.robot,
         "kind": sign.kind,
         "handedness": sign.handedness,
         "joints": list(sign.joints),
         "times": np.round(sign.times, _DECIMALS).tolist(),
     }
     lines = [f'  "{key}": {_json(value)}' for key, value in head.items()]
-    lines.append(
-        _block("knots", "[]", [_json(row) for row in _rounded_within(sign.joints, sign.knots).tolist()])
-    )
+    lines.append(_block("knots", "[]", [_json(row) for row in _rounded_within(sign, sign.knots).tolist()]))
     if sign.forms:
-        forms = [
-            f"{_json(inflection)}: {_form(sign.joints, form)}" for inflection, form in sign.forms.items()
-        ]
+        forms = [f"{_json(inflection)}: {_form(sign, form)}" for inflection, form in sign.forms.items()]
         lines.append(_block("forms", "{}", forms))
     if sign.alternatives:
-        others = [_json(_rounded_within(sign.joints, other).tolist()) for other in sign.alternatives]
+        others = [_json(_rounded_within(sign, other).tolist()) for other in sign.alternatives]
         lines.append(_block("alternatives", "[]", others))
         lines.append(f'  "alternatives_of": {_json(sign.alternatives_of)}')
     unasked = {"review"} if sign.provenance.review is None else set()
@@ -125,7 +125,8 @@ def save_sign(directory: Path, sign: Sign, *, replace: bool = False) -> Path:
         The file written.
 
     Raises:
-        LutError: The sign is not a good one ("outside_limits", ...), or is there already ("exists").
+        LutError: The sign is not a good one ("outside_limits", ...), is there already ("exists"), or of
+            another language or robot than the table's ("other_language", "other_robot").
         OSError: The directory cannot be written.
     """
     path = directory / f"{gloss_key(sign.gloss)}.json"
@@ -137,6 +138,7 @@ def save_sign(directory: Path, sign: Sign, *, replace: bool = False) -> Path:
     if not replace and path.exists():
         message = f"{path.name}: expected a gloss that {directory} does not hold, got {sign.gloss!r}"
         raise LutError("exists", message)
+    refuse_mixed(sign, path)
     directory.mkdir(parents=True, exist_ok=True)
     write_atomically(path, text.encode("utf-8"))
     return path
@@ -153,6 +155,7 @@ class _Reader:
         content = self._check_fields(self._load_json(text))
         if content.gloss != self._stem:
             self._refuse("gloss_mismatch", "gloss", f"{self._stem!r}, the file's name", repr(content.gloss))
+        self._humanoid = _humanoid(content.robot, self._name)
         self._check_joints(content.joints)
         self._check_motion(content.joints, content, "")
         for inflection, form in content.forms.items():
@@ -230,8 +233,8 @@ class _Reader:
     def _check_joints(self, joints: list[str]) -> None:
         seen: set[str] = set()
         for index, joint in enumerate(joints):
-            if joint not in _limits():
-                names = ", ".join(_limits())
+            if joint not in self._humanoid.commanded_joints:
+                names = ", ".join(self._humanoid.commanded_joints)
                 self._refuse("unknown_joint", f"joints[{index}]", f"one of {names}", repr(joint))
             if joint in seen:
                 self._refuse("duplicate_joint", f"joints[{index}]", "each joint once", f"{joint!r} again")
@@ -257,7 +260,7 @@ class _Reader:
                 expected = f"{len(joints)} positions, one a joint"
                 self._refuse("wrong_length", f"{field}[{index}]", expected, f"{len(row)}")
         knots = np.array(given, dtype=np.float64)
-        lower, upper = _bounds(joints)
+        lower, upper = _bounds(self._humanoid, joints)
         outside = np.argwhere((knots < lower - LIMIT_TOLERANCE) | (knots > upper + LIMIT_TOLERANCE))
         if outside.size:
             row_index, column = outside[0].tolist()
@@ -266,15 +269,23 @@ class _Reader:
             self._refuse("outside_limits", f"{field}[{row_index}][{column}]", expected, got)
 
 
+def _humanoid(name: str, where: str) -> Humanoid:
+    try:
+        return load_humanoid(name)
+    except DescriptionError as error:
+        raise LutError(error.code, f"{where}: robot: {error}") from error
+
+
 @functools.cache
-def _limits() -> dict[str, tuple[float, float]]:
-    limits = joint_limits(COMMANDED_JOINTS)
+def _limits(humanoid: Humanoid) -> dict[str, tuple[float, float]]:
+    limits = humanoid.limits()
     bounds = zip(limits.lower.tolist(), limits.upper.tolist(), strict=True)
     return dict(zip(limits.names, bounds, strict=True))
 
 
-def _bounds(joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    lower, upper = np.array([_limits()[joint] for joint in joints]).T
+def _bounds(humanoid: Humanoid, joints: list[str]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    limits = _limits(humanoid)
+    lower, upper = np.array([limits[joint] for joint in joints]).T
     return lower, upper
 
 
@@ -284,19 +295,21 @@ def _array(values: list[float] | list[list[float]]) -> NDArray[np.float64]:
     return array
 
 
-def _form(joints: tuple[str, ...], form: Form) -> str:
+def _form(sign: Sign, form: Form) -> str:
     """The text of a form: its times, then a line for each knot."""
-    rows = ",\n".join(f"      {_json(row)}" for row in _rounded_within(joints, form.knots).tolist())
+    rows = ",\n".join(f"      {_json(row)}" for row in _rounded_within(sign, form.knots).tolist())
     times = _json(np.round(form.times, _DECIMALS).tolist())
     return f'{{\n      "times": {times},\n      "knots": [\n{rows}\n      ]\n    }}'
 
 
-def _rounded_within(joints: tuple[str, ...], knots: NDArray[np.float64]) -> NDArray[np.float64]:
+def _rounded_within(sign: Sign, knots: NDArray[np.float64]) -> NDArray[np.float64]:
     """Knots rounded for the file, inwards where the nearest digit lies beyond a limit that the knot keeps."""
     rounded: NDArray[np.float64] = np.round(knots, _DECIMALS)
-    if not set(joints) <= set(_limits()) or rounded.ndim != 2 or not np.isfinite(rounded).all():
+    humanoid = _humanoid(sign.robot, sign.gloss)
+    known = set(sign.joints) <= set(humanoid.commanded_joints)
+    if not known or rounded.ndim != 2 or not np.isfinite(rounded).all():
         return rounded  # refused by name when it is read
-    lower, upper = _bounds(list(joints))
+    lower, upper = _bounds(humanoid, list(sign.joints))
     step = 10.0**-_DECIMALS
     rounded = np.where((rounded > upper) & (knots <= upper), np.round(rounded - step, _DECIMALS), rounded)
     return np.where((rounded < lower) & (knots >= lower), np.round(rounded + step, _DECIMALS), rounded)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The text form of a sign, field by field: one JSON object, `SCHEMA_VERSION` 1.
 
-`sign_json_schema()` is published as `lut/sign.schema.json`, so that editors and other programs can check an
+`sign_json_schema()` is published as `sign.schema.json`, so that editors and other programs can check an
 entry without this package. What a schema cannot say (limits of the robot, order of the times, one row of
 knots for each time) is checked in `sign_file.py`.
 """
@@ -16,6 +16,9 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, FiniteFloat, model_validator
 
 SCHEMA_VERSION = 1
+
+#: The robot that entries without a name are for: the first, when there was no other.
+DEFAULT_ROBOT = "teo"
 
 Kind = Literal["lexical", "letter", "number"]
 Handedness = Literal["right", "left", "both"]
@@ -142,9 +145,14 @@ class SignFile(BaseModel):
     # "schema" is the field's name in the file; pydantic keeps that name for itself.
     schema_version: Literal[1] = Field(alias="schema", description="Version of this format.")
     gloss: Gloss = Field(
-        description="Name of the sign: upper-case Spanish with accents (NFC), a space written '_'."
+        description="Name of the sign: capitals with their accents (NFC), a space written '_'."
     )
-    language: str = Field(pattern=r"^[a-z]{3}$", description="Sign language: 'lse' is Spanish Sign Language.")
+    language: str = Field(pattern=r"^[a-z]{3}$", description="ISO 639-3 code of the sign language.")
+    robot: str = Field(
+        default=DEFAULT_ROBOT,
+        pattern=r"^[a-z0-9][a-z0-9_]*$",
+        description="Name of the robot whose joints the sign moves; entries of TEO may leave it out.",
+    )
     kind: Kind = Field(description="A sign of its own, a letter of the manual alphabet, or a number.")
     handedness: Handedness = Field(description="The hands that make the sign.")
     joints: list[str] = Field(
@@ -160,7 +168,7 @@ class SignFile(BaseModel):
     forms: dict[Inflection, FormFile] = Field(
         default={},
         description="Inflected forms beside that citation form, by inflection: '2>1' is from the addressee "
-        "to the signer, 'CABEZA' at the head. May be left out.",
+        "to the signer, the gloss of a place is there. May be left out.",
     )
     alternatives: list[list[list[FiniteFloat]]] = Field(
         default=[],

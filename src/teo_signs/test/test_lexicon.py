@@ -167,3 +167,11 @@ def test_a_broken_entry_is_refused_with_its_reason(table: Mapping[str, Sign]) ->
     with pytest.raises(PlanError, match=r"TÚ\.json") as refusal:
         Lexicon(Broken(table)).resolve([lexical("TÚ")])
     assert refusal.value.code == "invalid_sign"
+
+
+def test_a_letter_with_an_accent_of_its_own_keeps_it_where_the_table_has_it(
+    table: Mapping[str, Sign], make_sign: Callable[..., Sign]
+) -> None:
+    ring = make_sign("Å", table["A"].knots, kind="letter")
+    assert resolved(table, lexical("ÅL")) == [("A", "A"), ("L", "L")]
+    assert resolved({**table, "Å": ring}, lexical("ÅL")) == [("Å", "Å"), ("L", "L")]

@@ -4,12 +4,16 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 import unicodedata
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from teo_sign_languages import load_language
 from teo_signs.look_up_table import Lut, LutError, default_lut_directory, held_entry, user_lut_directory
 from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
@@ -178,7 +182,7 @@ def test_the_table_holds_alphabet_digits_demonstrated_signs_and_every_score_with
         *map(str, range(21)),
         *("30", "40", "50", "100", "1000"),
     }
-    scores = {path.stem for path in (SOURCES / "teo_sign_capture" / "scores" / "lse").glob("*.yaml")}
+    scores = {path.stem for path in load_language("ssp").scores.glob("*.yaml")}
     assert {gloss for gloss in lut if lut[gloss].kind != "letter"} == {"HOLA", "MI", "NOMBRE"} | scores
     assert [warning for gloss in lut for warning in sign_warnings(lut[gloss])] == []
 
@@ -199,3 +203,64 @@ def test_an_entry_for_another_robot_or_hand_is_warned_of(tmp_path: Path) -> None
     assert len(warnings) == 2
     assert "provenance.description_hash" in warnings[0]
     assert "handedness" in warnings[1]
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "told"),
+    [
+        ({"language": "ase"}, "other_language", "--language ase"),
+        (
+            {"robot": "gr1t2", "joints": ["R_index_proximal_joint"], "knots": [[0.0]], "times": [0.0]},
+            "other_robot",
+            "lut retarget --language ssp --robot teo",
+        ),
+    ],
+)
+def test_a_table_of_another_language_or_robot_is_refused_with_what_to_do(
+    tmp_path: Path, change: dict[str, Any], code: str, told: str
+) -> None:
+    entry = json.loads((TABLE / "A.json").read_text("utf-8"))
+    changed = {**entry, "alternatives": [], "alternatives_of": "", **change}
+    (tmp_path / "A.json").write_text(json.dumps(changed), "utf-8")
+    with pytest.raises(LutError, match=told) as refusal:
+        Lut.open(tmp_path)
+    assert refusal.value.code == code
+    # One among others is refused when it is asked for, and these are not.
+    shutil.copy(TABLE / "0.json", tmp_path)
+    lut = Lut.open(tmp_path)
+    assert lut["0"].kind == "number"
+    with pytest.raises(LutError, match=r"A\.json"):
+        lut["A"]
+
+
+def test_an_entry_from_before_languages_and_robots_had_names_is_of_the_default_ones(tmp_path: Path) -> None:
+    entry = json.loads((TABLE / "A.json").read_text("utf-8"))
+    del entry["robot"]
+    (tmp_path / "A.json").write_text(json.dumps(entry | {"language": "lse"}), "utf-8")
+    assert Lut.open(tmp_path)["A"].robot == "teo"
+
+
+def test_a_robot_without_a_table_is_told_how_to_get_one() -> None:
+    with pytest.raises(LutError, match="lut retarget --language ssp --robot r2d2") as refusal:
+        Lut.open(robot="r2d2")
+    assert refusal.value.code == "no_table"
+    with pytest.raises(LutError) as refusal:
+        Lut.open(language="qqq")
+    assert refusal.value.code == "unknown_language"
+
+
+@pytest.mark.usefixtures("data_home")
+def test_a_robot_of_ones_own_signs_out_of_the_users_own_table_alone() -> None:
+    own = user_lut_directory(robot="r2d2")
+    own.mkdir(parents=True)
+    entry = json.loads((TABLE / "A.json").read_text("utf-8"))
+    (own / "A.json").write_text(json.dumps(entry | {"robot": "r2d2"}), "utf-8")
+    lut = Lut.open(robot="r2d2")
+    assert lut.directories == (own,)
+    assert list(lut) == ["A"]
+
+
+def test_the_users_own_signs_are_kept_apart_by_language_and_robot(data_home: Path) -> None:
+    own = data_home / "teo" / "lut"
+    assert user_lut_directory("lse") == user_lut_directory() == own
+    assert user_lut_directory(robot="gr1t2") == own / "ssp" / "gr1t2"

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from teo_names import COMMANDED_JOINTS, description_hash, joint_limits
 
-from teo_description import COMMANDED_JOINTS, description_hash, joint_limits
 from teo_signs.errors import LutError
 from teo_signs.motion_hash import with_alternatives
 from teo_signs.sign import Sign, sign_warnings
@@ -29,7 +29,7 @@ def entry() -> dict[str, Any]:
     return {
         "schema": 1,
         "gloss": "TÚ",
-        "language": "lse",
+        "language": "ssp",
         "kind": "lexical",
         "handedness": "right",
         "joints": ["FrontalRightElbow", "RightIndexFinger"],
@@ -187,7 +187,7 @@ def test_a_file_that_cannot_be_read_says_so(tmp_path: Path) -> None:
 def made(knots: np.ndarray, times: np.ndarray, joints: tuple[str, ...], gloss: str = "TÚ") -> Sign:
     return Sign(
         gloss=gloss,
-        language="lse",
+        language="ssp",
         kind="letter",
         handedness="right",
         joints=joints,
@@ -301,7 +301,7 @@ def test_a_failed_write_leaves_the_old_entry(tmp_path: Path, monkeypatch: pytest
 
 
 def test_the_published_schema_is_the_one_in_use() -> None:
-    published = json.loads((PACKAGE / "lut" / "sign.schema.json").read_text(encoding="utf-8"))
+    published = json.loads((PACKAGE / "sign.schema.json").read_text(encoding="utf-8"))
     assert published == sign_json_schema(), "write it anew: ros2 run teo_lut_executor lut schema"
 
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+from teo_names import LEFT_HAND, RIGHT_HAND
 
-from teo_description import LEFT_HAND, RIGHT_HAND
 from teo_description.hand_contact import TOUCH, thumb_gaps
-from teo_description.hand_geometry import dextra_table
+from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
 from teo_signs.look_up_table import Lut, default_lut_directory
 
 
 def test_no_sign_of_the_table_has_its_thumb_in_a_finger() -> None:
-    table = dextra_table(Robot.load())
+    table = hand_table(Robot.load())
     deep = {}
     for gloss, sign in Lut.open(default_lut_directory()).items():
         postures = [sign.knots, *sign.alternatives, *(form.knots for form in sign.forms.values())]

@@ -6,8 +6,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from teo_description import COMMANDED_JOINTS
-from teo_description.joints import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
+from teo_description.humanoid import Humanoid
 
 
 class JointGroup(NamedTuple):
@@ -23,14 +22,7 @@ class JointGroup(NamedTuple):
         return f"{self.name}/" if self.name else ""
 
 
-WHOLE_BODY = JointGroup("", COMMANDED_JOINTS)
-
-# As the real robot divides its control boards.
-LIMBS = (
-    JointGroup("head", HEAD),
-    JointGroup("trunk", TRUNK),
-    JointGroup("left_arm", LEFT_ARM),
-    JointGroup("right_arm", RIGHT_ARM),
-    JointGroup("left_hand", LEFT_HAND),
-    JointGroup("right_hand", RIGHT_HAND),
-)
+def joint_groups(humanoid: Humanoid) -> tuple[JointGroup, ...]:
+    """The whole body, then each limb that has joints."""
+    limbs = (JointGroup(name, joints) for name, joints in humanoid.limbs.items() if joints)
+    return JointGroup("", humanoid.commanded_joints), *limbs

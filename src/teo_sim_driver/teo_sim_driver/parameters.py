@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from teo_common.parameters import ParameterRow
-from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
+from teo_common.parameters import ROBOT, ParameterRow
 from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
 from teo_sim_driver.plants.faults import Faults
 from teo_sim_driver.rules import Rules
@@ -105,6 +104,7 @@ FAULT_PARAMETERS = (
 )
 
 PARAMETERS = (
+    ROBOT,
     ParameterRow(
         name="update_rate",
         default=100,
@@ -133,9 +133,9 @@ PARAMETERS = (
     ),
     ParameterRow(
         name="hand_drive",
-        default=DEFAULT_HAND_DRIVE,
-        choices=tuple(HAND_DRIVES),
-        description="Gearmotors of the hands, which limit the speed of their axes.",
+        default="",
+        description="Gearmotors of the hands, which limit the speed of their axes: one of the robot's "
+        "`hand_drives`, where it has several; empty for its default.",
         read_only=True,
     ),
     *RULE_PARAMETERS,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The edge to the real robot: what its position-direct topics are to be told.
+"""The edge to the real TEO: what its position-direct topics are to be told.
 
 TEO's control boards are YARP devices, each behind a controlBoard_nws_ros2 (robotology/yarp-devices-ros2). It
 listens on ``/teo/<board>/position_direct`` (yarp_control_msgs/PositionDirect: names, positions), takes
@@ -16,20 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_description import COMMANDED_JOINTS
-from teo_description.tendons import HAND_AXES, hand_setpoints
-from teo_sim_driver.groups import LIMBS
+from teo_description.errors import DescriptionError
+from teo_description.hand_setpoints import hand_setpoints
+from teo_description.humanoid import Humanoid
 from teo_sim_driver.motion.bezier import FloatArray
-
-# Names of the control boards, of this project's groups of joints.
-_BOARDS = {
-    "head": "head",
-    "trunk": "trunk",
-    "left_arm": "leftArm",
-    "right_arm": "rightArm",
-    "left_hand": "leftHand",
-    "right_hand": "rightHand",
-}
 
 
 class PositionDirect(NamedTuple):
@@ -42,24 +32,29 @@ class PositionDirect(NamedTuple):
     """[rad]; of tendons, millimetres that are passed off as degrees."""
 
 
-def position_direct(positions: FloatArray, robot: str = "/teo") -> list[PositionDirect]:
+def position_direct(humanoid: Humanoid, positions: FloatArray, robot: str = "/teo") -> list[PositionDirect]:
     """Set-points for every control board that signs.
 
     Args:
-        positions: Of the commanded joints, in the driver's order [rad]. Shape (28,).
+        humanoid: A robot whose description names its control boards.
+        positions: Of the commanded joints, in the driver's order [rad]. Shape (joints,).
         robot: What the names of its ports and topics begin with; ``/teoSim`` for its simulation.
 
     Raises:
-        DescriptionError: ``outside_hand_range``.
+        DescriptionError: ``outside_hand_range``; ``no_boards``.
     """
-    values = dict(zip(COMMANDED_JOINTS, positions.tolist(), strict=True))
-    setpoints = np.radians(hand_setpoints(COMMANDED_JOINTS, positions))
-    values.update(zip((axis.joint for axis in HAND_AXES), setpoints.tolist(), strict=True))
+    controllers = humanoid.file.controllers
+    if controllers is None:
+        message = f"expected a robot whose robot.yaml names its control boards, got {humanoid.name}"
+        raise DescriptionError("no_boards", message)
+    told = positions.copy()
+    hands = humanoid.columns(humanoid.hand("left") + humanoid.hand("right"))
+    told[hands] = np.radians(hand_setpoints(humanoid, positions[hands]))
     return [
         PositionDirect(
-            f"{robot}/{_BOARDS[group.name]}/position_direct",
-            group.joints,
-            tuple(values[name] for name in group.joints),
+            f"{robot}/{controllers.boards[limb]}/position_direct",
+            joints,
+            tuple(told[humanoid.columns(joints)].tolist()),
         )
-        for group in LIMBS
+        for limb, joints in humanoid.limbs.items()
     ]

@@ -15,10 +15,12 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
+from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS, JointLimits, joint_limits
+from teo_description import JointLimits
+from teo_description.humanoid import Humanoid, load_humanoid
 from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.node.driver_node import DriverNode
@@ -28,23 +30,31 @@ PERIOD = 0.01  # [s]
 START = 1_700_000_000_000_000_000  # a time of day as ROS counts it [ns]
 
 
-@pytest.fixture(scope="session")
-def limits() -> JointLimits:
-    return joint_limits(COMMANDED_JOINTS)
+@pytest.fixture(scope="module")
+def humanoid() -> Humanoid:
+    """The robot; a module of tests may have them run on others."""
+    return load_humanoid("teo")
 
 
-@pytest.fixture(scope="session")
-def home() -> NDArray[np.float64]:
-    return np.array([HOME[name] for name in COMMANDED_JOINTS])
+@pytest.fixture(scope="module")
+def limits(humanoid: Humanoid) -> JointLimits:
+    return humanoid.limits()
 
 
-@pytest.fixture(scope="session")
-def new_follower(limits: JointLimits, home: NDArray[np.float64]) -> Callable[..., JointFollower]:
-    """A follower that stands at HOME and has made its first step at START."""
+@pytest.fixture(scope="module")
+def home(humanoid: Humanoid) -> NDArray[np.float64]:
+    return humanoid.hanging
+
+
+@pytest.fixture(scope="module")
+def new_follower(
+    humanoid: Humanoid, limits: JointLimits, home: NDArray[np.float64]
+) -> Callable[..., JointFollower]:
+    """A follower that stands at home and has made its first step at START."""
 
     def make(**arguments: object) -> JointFollower:
         follower = JointFollower(
-            **{"limits": limits, "start": home, "period": PERIOD, "held": LEG_JOINTS, **arguments}
+            **{"limits": limits, "start": home, "period": PERIOD, "held": humanoid.standing, **arguments}
         )
         follower.step(START)
         return follower
@@ -52,12 +62,14 @@ def new_follower(limits: JointLimits, home: NDArray[np.float64]) -> Callable[...
     return make
 
 
-@pytest.fixture(scope="session")
-def swing(limits: JointLimits, home: NDArray[np.float64]) -> Callable[..., PlainTrajectory]:
-    """From HOME, one joint to an angle and back as (4 u (1 - u))^3: no acceleration at either end."""
+@pytest.fixture(scope="module")
+def swing(
+    humanoid: Humanoid, limits: JointLimits, home: NDArray[np.float64]
+) -> Callable[..., PlainTrajectory]:
+    """From home, one joint to an angle and back as (4 u (1 - u))^3: no acceleration at either end."""
 
     def make(
-        joint: str = "FrontalRightElbow",
+        joint: str = humanoid.elbows[0],
         angle: float = -0.5,
         duration: float = 4.0,
         **stamp: int,
@@ -74,7 +86,7 @@ def swing(limits: JointLimits, home: NDArray[np.float64]) -> Callable[..., Plain
     return make
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def as_ros() -> Callable[[PlainTrajectory], JointTrajectory]:
     """Makes a ROS message of a plain one."""
     return _as_ros
@@ -96,7 +108,7 @@ def _as_ros(plain):
     return message
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def one_way(swing: Callable[..., PlainTrajectory]) -> Callable[..., JointTrajectory]:
     """The first half of a swing as a ROS message; it ends at rest at its angle."""
 

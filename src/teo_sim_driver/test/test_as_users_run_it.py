@@ -2,56 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Two robots in namespaces, and simulated time."""
 
-import threading
-
 import numpy as np
 import pytest
-import rclpy
 from rclpy.parameter import Parameter
-from rosgraph_msgs.msg import Clock
+from simulated_clock import SECOND, SimulatedClock
+from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import DriverState
 
-from teo_description import ALL_JOINTS
-
 ELBOW = ALL_JOINTS.index("FrontalRightElbow")
-SECOND = 10**9
-
-
-class SimulatedClock:
-    """Publishes /clock from a thread: 10 ms of simulated time every 4 ms, unless it is paused."""
-
-    def __init__(self, context):
-        self.node = rclpy.create_node("simulator", context=context)
-        self._publisher = self.node.create_publisher(Clock, "/clock", 10)
-        self._end, self._running = threading.Event(), threading.Event()
-        self._running.set()
-        self.now = 1000 * SECOND  # [ns]
-        self._thread = threading.Thread(target=self._run)
-        self._thread.start()
-
-    def pause(self):
-        self._running.clear()
-
-    def go_on(self):
-        self._running.set()
-
-    def close(self):
-        self._end.set()
-        self._thread.join()
-        self.node.destroy_node()
-
-    def _run(self):
-        while not self._end.wait(0.004):
-            if self._running.is_set():
-                self.now += SECOND // 100
-                message = Clock()
-                message.clock.sec, message.clock.nanosec = divmod(self.now, SECOND)
-                self._publisher.publish(message)
 
 
 @pytest.fixture
 def clock(context):
-    clock = SimulatedClock(context)
+    clock = SimulatedClock(context, rate=2.5)
     yield clock
     clock.close()
 

@@ -4,21 +4,22 @@
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 
-from teo_description.joints import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
+from teo_description.humanoid import load_humanoid
 from teo_sim_driver.checking.message import plain_trajectory
 from teo_sim_driver.checking.reading import MessageFields
 from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.follower_report import Mode, Source
-from teo_sim_driver.groups import LIMBS, WHOLE_BODY
+from teo_sim_driver.groups import joint_groups
 from teo_sim_driver.motion.path_time import SECOND
 from teo_sim_driver.rules import Rules
 
 START = 1_700_000_000 * SECOND
 PERIOD = 10_000_000
 LEFT, RIGHT = "FrontalLeftElbow", "FrontalRightElbow"
-GROUPS = {group.name: group for group in (WHOLE_BODY, *LIMBS)}
+GROUPS = {group.name: group for group in joint_groups(load_humanoid())}
 
 
 def column(joint):
@@ -56,7 +57,8 @@ def robot(new_follower, home):
 
 
 def test_every_commanded_joint_is_in_one_limb():
-    assert sorted(name for group in LIMBS for name in group.joints) == sorted(COMMANDED_JOINTS)
+    limbs = joint_groups(load_humanoid())[1:]
+    assert sorted(name for group in limbs for name in group.joints) == sorted(COMMANDED_JOINTS)
 
 
 def test_two_limbs_move_at_once_each_to_its_own_end(robot, new_follower, home):

@@ -7,9 +7,9 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pinocchio as pin
 import pytest
+from teo_names import BODY_JOINTS, COMMANDED_JOINTS, urdf_text
 
-from teo_description import COMMANDED_JOINTS, urdf_text
-from teo_description.joints import BODY_JOINTS
+from teo_description.humanoid import load_humanoid
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.plants.physics import PhysicsPlant
 
@@ -18,7 +18,7 @@ BODY = len(BODY_JOINTS)
 
 @pytest.fixture
 def plant():
-    return PhysicsPlant()
+    return PhysicsPlant(load_humanoid("teo"))
 
 
 def go(plant, home, goal, seconds=2.0, rest=0.5):

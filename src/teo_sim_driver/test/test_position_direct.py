@@ -6,8 +6,10 @@ import math
 
 import numpy as np
 import pytest
+from teo_names import COMMANDED_JOINTS, HOME
 
-from teo_description import COMMANDED_JOINTS, HOME, DescriptionError
+from teo_description import DescriptionError
+from teo_description.humanoid import load_humanoid
 from teo_sim_driver.position_direct import position_direct
 
 # axesNames of wholeBody.ini of teo-configuration-files, and of the Dextra's Synapse.cpp, board by board.
@@ -28,7 +30,7 @@ BOARDS = {
 def told(**angles):
     """What the boards are told at HOME but for some joints [rad]."""
     positions = np.array([{**HOME, **angles}[name] for name in COMMANDED_JOINTS])
-    return {each.topic: each for each in position_direct(positions)}
+    return {each.topic: each for each in position_direct(load_humanoid("teo"), positions)}
 
 
 def as_the_board_hears(message, joint):

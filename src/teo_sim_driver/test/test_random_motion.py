@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from teo_description.humanoid import load_humanoid
 from teo_sim_driver.checking.message import PlainTime, plain_trajectory
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode
@@ -19,6 +20,12 @@ START = 1_700_000_000 * SECOND
 FRACTIONS = np.linspace(0.0, 1.0, 401)
 TOO_FAST = {"start_too_fast", "velocity_limit", "speed_between_points", "velocity_between_points"}
 GIVEN = {1: [0], 3: [0, 1], 5: [0, 1, 2]}  # derivatives given at a point, by the degree of the curve
+
+
+@pytest.fixture(scope="module", params=("teo", "gr1t2"))
+def humanoid(request):
+    """Every test here is about every robot."""
+    return load_humanoid(request.param)
 
 
 def curves(degree, durations, knots):
@@ -107,7 +114,7 @@ class Watch:
             self.step(int(rng.integers(2_000_000, 80_000_000)))
 
 
-@settings(max_examples=2000, deadline=None, derandomize=True)
+@settings(max_examples=1000, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
 def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     new_follower, limits, home, seed, tightness
@@ -122,7 +129,7 @@ def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(1.002, 3.0))
 def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     new_follower, limits, home, seed, tightness
@@ -134,7 +141,7 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     assert refusal.value.code in TOO_FAST
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32))
 def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, limits, home, seed):
     rng = np.random.default_rng(seed)
@@ -156,7 +163,7 @@ def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, lim
     assert watch.follower.report().limited_steps == 0
 
 
-@settings(max_examples=80, deadline=None, derandomize=True)
+@settings(max_examples=40, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32))
 def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, seed):
     rng = np.random.default_rng(seed)
@@ -279,7 +286,7 @@ def test_thousands_of_spoilt_messages_never_crash_and_always_get_a_reason(new_fo
     good = swing(duration=0.6, angle=-0.05)
     codes: Counter[str] = Counter()
 
-    @settings(max_examples=2500, deadline=None, derandomize=True)
+    @settings(max_examples=1250, deadline=None, derandomize=True)
     @given(seed=st.integers(0, 2**32), spoil=st.lists(st.sampled_from(SPOIL), min_size=1, max_size=4))
     def check(seed, spoil):
         rng = np.random.default_rng(seed)

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from teo_names import LEG_JOINTS
 
-from teo_description import LEG_JOINTS
 from teo_sim_driver.checking.message import PlainTime, plain_trajectory
 from teo_sim_driver.checking.scheduling import validate
 from teo_sim_driver.errors import Refusal, TrajectoryError
@@ -188,6 +188,12 @@ def test_a_close_name_is_proposed(swing, refused):
     message = swing()
     message.joint_names = ["FrontalRightElbov" if name == ELBOW else name for name in message.joint_names]
     assert "did you mean 'FrontalRightElbow'?" in refused(message).sentence
+
+
+def test_a_motion_of_another_robot_is_refused_with_what_to_do(swing, refused):
+    message = swing()
+    message.joint_names = [f"right_{name}_joint" for name in message.joint_names]
+    assert "parameter robot that it was made for" in refused(message).sentence
 
 
 def test_a_name_of_a_megabyte_is_not_repeated_in_full(swing, refused):

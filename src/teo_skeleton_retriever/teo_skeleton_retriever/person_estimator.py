@@ -13,10 +13,11 @@ from teo_skeleton_retriever.arrays import FloatArray, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
 from teo_skeleton_retriever.depth.face_depth import face_depths
-from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of
+from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of, points_of
 from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
 from teo_skeleton_retriever.depth.head_depth import EARS, HEAD, HeadDepths, head_depths
 from teo_skeleton_retriever.depth.occluders import occluders
+from teo_skeleton_retriever.depth.shoulder_outline import by_outline
 from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays, viewing_rays
 from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
@@ -39,6 +40,7 @@ from teo_skeleton_retriever.layouts.person_layout import (
     DRIFT,
     FACE,
     GAP,
+    GIRDLE,
     HAND_BONES,
     HANDS,
     JUMP,
@@ -107,20 +109,25 @@ class PersonEstimator:
             distance: Of the person along the optical axis [m].
         """
         before = self._filter.predict(frame.stamp)
-        seen = self._seen(frame, person)
+        near = np.where(np.isfinite(before.depth), before.depth, distance)
+        seen, outlined = self._seen(frame, person, near)
         seen = seen.only(self._filter.believable(frame.stamp, seen.rays, JUMP))
         surfaces = self._lookup.surfaces(
             frame.depth,
             seen.pixels,
             focal=frame.camera.fx,
-            distance=np.where(np.isfinite(before.depth), before.depth, distance),
+            distance=near,
             radius=RADIUS,
             gap=GAP,
         ).between(*self._reach(before, distance))
         depth, sigma = np.full(N, np.nan), np.full(N, np.nan)
         optimised = np.zeros(N, dtype=bool)
         fits = self._fit_hands(person, seen, surfaces, before)
-        body = self._find_body(seen, surfaces, before, fits)
+        hands = {side: fit.points for side, fit in fits.items()}
+        trunk = surfaces.part(GIRDLE)
+        arms = occluders(points_of(before.part(BODY)), hands)
+        trunk = trunk.without(arms.shown(seen.rays[GIRDLE], trunk.depth))
+        body = self._find_body(seen, surfaces.replaced(GIRDLE, trunk), before, fits)
         depth[BODY], sigma[BODY], optimised[BODY] = body.depths, body.sigma, body.optimised
         rays = np.concatenate([body.rays, seen.rays[BODY.stop :]])
         for side, fit in fits.items():
@@ -130,7 +137,6 @@ class PersonEstimator:
             rays[HANDS[side]] = fit.points[:, :2] / fit.points[:, 2:]
             depth[HANDS[side]], sigma[HANDS[side]] = fit.points[:, 2] + moved, fit.sigma
             optimised[HANDS[side]] = ~fit.measured
-        hands = {side: fit.points for side, fit in fits.items()}
         arms = occluders(_in_space(body.rays, body.depths), hands)
         free = surfaces.part(_HEAD_AND_FACE)
         free = free.without(arms.shown(seen.rays[_HEAD_AND_FACE], free.depth))
@@ -153,7 +159,7 @@ class PersonEstimator:
         output = self._filter.step(
             frame.stamp, np.column_stack([rays, depth]), np.column_stack([across, across, sigma])
         )
-        self._size.step(body.measured)
+        self._size.step(body.measured, outlined=outlined)
         self._confidence = np.where(seen.seen, seen.confidence, self._confidence)
         away = np.minimum(output.age, self._parameters.hold_time)
         carried = np.where(output.fresh, 0.0, np.where(_ON_HANDS, _CARRIED, DRIFT * away))
@@ -191,12 +197,23 @@ class PersonEstimator:
         middle = trunk if np.isfinite(trunk) else distance
         return middle - _BEFORE_TRUNK, middle + _BEHIND_TRUNK
 
-    def _seen(self, frame: DetectionFrame, person: Person2D) -> ViewingRays:
+    def _seen(
+        self, frame: DetectionFrame, person: Person2D, distance: FloatArray
+    ) -> tuple[ViewingRays, bool]:
+        """Give what is seen, and whether the shoulders are where the body's outline says."""
+        outlined = np.zeros(2, dtype=bool)
         keypoints = np.zeros((N, 3))
         keypoints[BODY] = as_body_25(person.body)
         if self._parameters.detector == "mediapipe":
             keypoints[BODY] = corrected_body(keypoints[BODY], BODY_SHIFTS)
             keypoints[_SHOULDERS, :2] = widened(keypoints[_SHOULDERS, :2], self._size.widening)
+            keypoints[BODY], outlined = by_outline(
+                keypoints[BODY],
+                frame.depth,
+                at=distance[_SHOULDERS],
+                focal=frame.camera.fx,
+                scale=self._size.scale,
+            )
         for rows, part in (
             (LEFT_HAND, person.left_hand),
             (RIGHT_HAND, person.right_hand),
@@ -204,7 +221,7 @@ class PersonEstimator:
         ):
             if len(part):
                 keypoints[rows] = part
-        return viewing_rays(keypoints, frame.camera, self._parameters.min_confidence)
+        return viewing_rays(keypoints, frame.camera, self._parameters.min_confidence), bool(outlined.all())
 
     def _fit_hands(
         self, person: Person2D, seen: ViewingRays, surfaces: Surfaces, before: FilterOutput

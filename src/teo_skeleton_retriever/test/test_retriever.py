@@ -51,7 +51,8 @@ def error(found: np.ndarray, truth: np.ndarray) -> float:
 
 
 def test_joints_are_found_behind_the_skin_that_the_camera_sees() -> None:
-    retriever = Retriever(AT_ONCE)
+    # Of a detector that sees joints where they are, not beside them as MediaPipe does.
+    retriever = Retriever(replace(AT_ONCE, detector="other"))
     errors, hands = [], []
     for i, found in enumerate(
         follow(retriever, 2.0, lambda t: frame(t, signing(t), noise=0.004, jitter=0.35))
@@ -60,7 +61,7 @@ def test_joints_are_found_behind_the_skin_that_the_camera_sees() -> None:
         errors.append(error(skeleton.body.points[ARMS], truth.body[ARMS]))
         hands.append(error(skeleton.left_hand.points, truth.left_hand))
         hands.append(error(skeleton.right_hand.points, truth.right_hand))
-    assert np.mean(errors[15:]) < 0.025
+    assert np.mean(errors[15:]) < 0.012
     assert np.mean(hands[30:]) < 0.015
 
 

@@ -114,7 +114,7 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
             path.write_bytes(as_json(store.answers()))
             job = await workbench.jobs.run(project_commands.enter_reviews(path))
         workbench.signs.changed()
-        return {"output": job.output}
+        return job.result
 
     return [
         web.get("/api/series", answering(all_series)),
@@ -145,7 +145,7 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
             NewItem(
                 kind="sign",
                 meaning=sign.gloss,
-                language="lse",
+                language=sign.language,
                 motion_hash=sign.motion_hash,
                 motion=await _planned(workbench, sign.gloss),
                 choices=offered(sign.gloss, near, words, seed) if wanted.choices else (),
@@ -156,7 +156,8 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
         job = await workbench.jobs.run(project_commands.translate(text))
         mark = text.strip()[-1:]
         motion = await _planned(workbench, job.output.strip() + (mark if mark in "?!" else ""))
-        items.append(NewItem(kind="sentence", meaning=text, language="lse", motion_hash="", motion=motion))
+        language = next(iter(listed.values())).language
+        items.append(NewItem(kind="sentence", meaning=text, language=language, motion_hash="", motion=motion))
         told.done += 1
     return workbench.reviews.add_series(wanted.kind, wanted.title, items, seed)
 

@@ -24,6 +24,7 @@ class ListedSign(Struct, frozen=True, kw_only=True):
     """One sign as `lut list --json` tells it."""
 
     gloss: str
+    language: str
     kind: str
     handedness: str
     duration: float

@@ -78,8 +78,8 @@ def translate(text: str) -> Command:
 
 
 def enter_reviews(export: Path) -> Command:
-    """Enter an export of reviews into the user's own table."""
-    return _reading("enter", _TABLE_SECONDS, "review", str(export))
+    """Enter an export of reviews into the user's own table; what came of it as JSON."""
+    return _reading("enter", _TABLE_SECONDS, "review", str(export), "--json")
 
 
 def plan(glosses: str, out: Path) -> Command:

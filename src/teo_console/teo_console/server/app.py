@@ -11,6 +11,7 @@ from aiohttp import web
 
 from teo_console.errors import ConsoleError
 from teo_console.server.access import Access, guard, refusal
+from teo_console.server.drawable_urdf import drawable_urdf
 from teo_console.server.hub import Hub
 
 # Bytes of a request's body: JSON of a form. A route that takes films reads a stream, with a limit of its own.
@@ -40,7 +41,7 @@ def make_app(
 
     async def robot(_: web.Request) -> web.StreamResponse:
         if text := urdf():
-            return web.Response(text=text, content_type="application/xml")
+            return web.Response(text=drawable_urdf(text), content_type="application/xml")
         return refusal(
             ConsoleError("no_robot", "expected robot_description from a driver, none has come yet"), 404
         )

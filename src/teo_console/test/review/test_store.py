@@ -27,7 +27,7 @@ WORDS = ("CASA", "MADRE", "SÍ", "POR_FAVOR")
 
 def item(meaning: str, choices: tuple[str, ...] = ()) -> NewItem:
     return NewItem(
-        kind="sign", meaning=meaning, language="lse", motion_hash="0" * 64, motion=MOTION, choices=choices
+        kind="sign", meaning=meaning, language="ssp", motion_hash="0" * 64, motion=MOTION, choices=choices
     )
 
 

@@ -7,7 +7,7 @@ import { h } from "./dom.js";
 import { speak, t } from "./i18n.js";
 import { Live } from "./live.js";
 import { settings } from "./settings.js";
-import { Socket } from "./socket.js";
+import { RECONNECT, Socket } from "./socket.js";
 import { refusalText, statusOf } from "./status.js";
 
 // Each tab is a module with `mount(element, context)`, which returns what is to be done when it is left.
@@ -39,7 +39,7 @@ async function attempt(action) {
   try {
     return await action();
   } catch (error) {
-    notify(refusalText(error.code, error.message));
+    notify(refusalText(error.code ?? error.name));
     return null;
   }
 }
@@ -62,9 +62,21 @@ const context = {
   /** Places the robot in an element: see robot_view.js, which is loaded when it is first wanted, and after the words. */
   robotView: async (place, options) => {
     await painted;
-    return (await import("./robot_view.js")).robotView(place, { socket, live, t, ...options });
+    return (await loaded(() => import("./robot_view.js"))).robotView(place, { socket, live, t, ...options });
   },
 };
+
+/** A module of the page, as soon as it can be had: the node that serves it may just be gone. */
+async function loaded(load) {
+  for (;;) {
+    try {
+      return await load();
+    } catch (error) {
+      if (!(error instanceof TypeError)) throw error; // not the way to it is wrong, but the module
+    }
+    await new Promise((resolve) => setTimeout(resolve, RECONNECT));
+  }
+}
 
 function tabNow() {
   const name = location.hash.slice(1).split("/")[0];
@@ -75,11 +87,14 @@ let mounting = 0;
 async function show() {
   const name = tabNow();
   const turn = ++mounting;
-  const { mount } = await TABS[name]();
+  const { mount } = await loaded(TABS[name]);
   if (turn !== mounting) return; // another tab was chosen meanwhile
   leave();
+  leave = () => {};
   const content = element("content");
-  content.replaceChildren();
+  // Of its own: a tab that another replaced while it was being made goes on writing to what is not shown.
+  const page = h("div");
+  content.replaceChildren(page);
   content.dataset.tab = name;
   const items = Object.keys(TABS).map((tab) => {
     const link = h("a", { href: `#${tab}` }, t(`tab.${tab}`));
@@ -87,16 +102,15 @@ async function show() {
     return h("li", {}, link);
   });
   element("tabs").replaceChildren(...items);
-  leave = (await mount(content, context)) ?? (() => {});
+  const left = (await mount(page, context)) ?? (() => {});
+  if (turn === mounting) leave = left;
+  else left();
 }
 
 function showStatus() {
-  const { text, tone, said } = statusOf(socket.connected, socket.situation);
+  const { text, tone } = statusOf(socket.connected, socket.situation);
   const status = element("status");
-  const whole = said ? `${text} ${said}` : text;
-  if (status.textContent !== whole) { // else it would be read aloud again
-    status.replaceChildren(text, ...(said ? [" ", h("span", { lang: "en" }, said)] : []));
-  }
+  if (status.textContent !== text) status.textContent = text; // else it would be read aloud again
   status.dataset.tone = tone;
   const mode = socket.situation?.robot.mode;
   element("rearm").disabled = !socket.connected || (mode !== "stopped" && mode !== "fault");
@@ -120,7 +134,7 @@ document.querySelector(".skip").addEventListener("click", (event) => {
 });
 window.addEventListener("hashchange", show);
 for (const name of ["situation", "connection"]) socket.addEventListener(name, showStatus);
-socket.addEventListener("refused", ({ detail }) => notify(refusalText(detail.code, detail.message)));
+socket.addEventListener("refused", ({ detail }) => notify(refusalText(detail.code)));
 
 socket.connect();
 await setLanguage(settings.get("language"));

@@ -8,15 +8,15 @@ import {
 import { h } from "./dom.js";
 
 // Presets in the robot's axes [m]: x forward, y to its left, z up, from the base; `view` is the vertical opening [deg].
-// `follow` names links: the camera keeps its place relative to the one that moves. The signer's view is from the eyes.
+// Heights are those of a robot whose head ends at `TOP`; others have theirs in proportion. `hand` is relative to the
+// hand that moves. The signer's view is from the eyes.
 const CAMERAS = {
   front: { from: [1.85, 0.0, 0.55], at: [0.0, 0.0, 0.47], view: 36 },
-  hand: {
-    from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36,
-    follow: { right: "RightMiddleFinger_link", left: "LeftMiddleFinger_link" },
-  },
+  hand: { from: [0.46, -0.08, 0.04], at: [0, 0, 0], view: 36 },
   signer: { from: [0.1, 0.0, 0.76], at: [0.5, 0.0, 0.64], view: 85 },
 };
+const TOP = 0.8087; // TEO
+const FINGERS = 3; // links on which so many chains of joints hang, and none with as many, are hands
 const WIDEST_VIEW = 90; // [deg], to which a narrow picture may open
 // A hand that moved this much more than the other is the one that signs [m], within about a second of frames.
 const HAND_LEAD = 0.02;
@@ -30,6 +30,9 @@ const SLOW = 60; // [ms]
 const SLOW_FRAMES = 5;
 const COARSER = 0.7; // times the pixels of a row
 const COARSEST = 0.35; // of the page's
+// Pictures that a processor draws come this far apart at least [ms]: fifteen a second show a movement, and what is left
+// of it receives poses and looks at films.
+const PROCESSOR_PERIOD = 1000 / 15;
 
 let description = null; // one download for all views
 
@@ -50,7 +53,8 @@ class RobotView {
   frames = 0;
   #robot = null;
   #motion = null;
-  #hand = new HandThatSigns();
+  #hand = new HandThatSigns({});
+  #height = 1; // of the robot's head over TOP
   #preset = "front";
   #shown = null;
   #dirty = true;
@@ -65,7 +69,9 @@ class RobotView {
     place.classList.add("stage");
     this.empty = h("p", { class: "empty" }, t("view.waiting"));
     place.append(this.empty);
-    this.renderer = renderer();
+    this.renderer = rendererByCard();
+    this.period = this.renderer ? 0 : PROCESSOR_PERIOD;
+    this.renderer ??= rendererByProcessor();
     if (!this.renderer) {
       this.empty.textContent = t("view.no_webgl");
       return;
@@ -102,6 +108,10 @@ class RobotView {
       }
       lighten(this.#robot);
       this.scene.add(this.#robot);
+      this.#robot.updateMatrixWorld(true);
+      this.#height = topOf(this.#robot) / TOP;
+      this.#hand = new HandThatSigns(handsOf(this.#robot));
+      this.camera(this.#preset);
       this.empty.hidden = true;
       this.#dirty = true;
     };
@@ -114,12 +124,12 @@ class RobotView {
   camera(name) {
     this.#preset = name;
     if (!this.eye) return;
-    const { from, at, follow } = CAMERAS[name];
-    if (!follow) {
-      this.eye.position.set(...from);
-      this.controls.target.set(...at);
-    } else {
+    const { from, at } = CAMERAS[name];
+    if (name === "hand") {
       this.#chase(1);
+    } else {
+      this.eye.position.set(from[0], from[1], from[2] * this.#height);
+      this.controls.target.set(at[0], at[1], at[2] * this.#height);
     }
     this.controls.update();
     this.#resize();
@@ -155,6 +165,10 @@ class RobotView {
   #draw(before = performance.now()) {
     if (this.#removed.signal.aborted) return;
     const now = performance.now();
+    if (now - before < this.period) {
+      requestAnimationFrame(() => this.#draw(before));
+      return;
+    }
     const passed = (now - before) / 1000;
     requestAnimationFrame(() => this.#draw(now));
     const time = this.live.clock.now();
@@ -163,9 +177,9 @@ class RobotView {
       joints.forEach((name, i) => this.#robot.setJointValue(name, positions[i]));
       this.#shown = positions;
       this.#dirty = true;
-      this.#hand.look(this.#robot);
+      this.#hand.look();
     }
-    if (CAMERAS[this.#preset].follow) this.#chase(1 - Math.exp(-passed / CHASE));
+    if (this.#preset === "hand") this.#chase(1 - Math.exp(-passed / CHASE));
     if (!this.#dirty) {
       this.#drawnAt = null;
       return;
@@ -198,9 +212,9 @@ class RobotView {
   }
 
   #chase(share) {
-    if (!this.#robot) return;
-    const { from, follow } = CAMERAS.hand;
-    const link = this.#robot.links[follow[this.#hand.side]];
+    const link = this.#hand.link;
+    if (!link) return;
+    const { from } = CAMERAS.hand;
     const at = link.getWorldPosition(new Vector3());
     const side = this.#hand.side === "right" ? 1 : -1;
     const eye = at.clone().add(new Vector3(from[0], from[1] * side, from[2]));
@@ -233,19 +247,60 @@ function lighten(robot) {
   });
 }
 
-/** What draws; smooth edges only where a graphics card makes them. Null where there is no WebGL 2. */
-function renderer() {
-  const options = { alpha: true, powerPreference: "low-power" };
-  try {
-    return new WebGLRenderer({ ...options, antialias: true, failIfMajorPerformanceCaveat: true });
-  } catch {
-    // by its processor, or not at all
-  }
+/** Height at which a robot ends [m]. */
+function topOf(robot) {
+  let top = 0;
+  robot.traverse((part) => {
+    if (!part.geometry) return;
+    part.geometry.computeBoundingBox();
+    top = Math.max(top, part.geometry.boundingBox.clone().applyMatrix4(part.matrixWorld).max.z);
+  });
+  return top;
+}
+
+const RENDERER = { alpha: true, powerPreference: "low-power" };
+
+/** Draws on a graphics card, with smooth edges; null where there is none. */
+function rendererByCard() {
+  return rendererWith({ ...RENDERER, antialias: true, failIfMajorPerformanceCaveat: true });
+}
+
+/** Draws by the processor; null where there is no WebGL 2. */
+function rendererByProcessor() {
+  return rendererWith(RENDERER);
+}
+
+function rendererWith(options) {
   try {
     return new WebGLRenderer(options);
   } catch {
     return null;
   }
+}
+
+/**
+ * The hands of a robot, whatever its links are called: of each the knuckle in the middle.
+ * @returns {{right?: Object, left?: Object}} Links.
+ */
+function handsOf(robot) {
+  const chains = (link) => link.children.filter((joint) => joint.isURDFJoint && joint.jointType !== "fixed");
+  const isHand = (link) => chains(link).length >= FINGERS;
+  const links = Object.values(robot.links).filter(isHand);
+  const hands = links.filter((link) => !links.some((other) => other !== link && within(other, link)));
+  const found = {};
+  for (const hand of hands) {
+    const knuckles = chains(hand).map((joint) => joint.getWorldPosition(new Vector3()));
+    const middle = knuckles.reduce((sum, at) => sum.add(at), new Vector3()).divideScalar(knuckles.length);
+    const nearest = knuckles.map((at) => at.distanceTo(middle));
+    const joint = chains(hand)[nearest.indexOf(Math.min(...nearest))];
+    found[middle.y < 0 ? "right" : "left"] = joint.children.find((child) => child.isURDFLink);
+  }
+  return found;
+}
+
+function within(part, whole) {
+  for (let above = part.parent; above; above = above.parent) if (above === whole) return true;
+  return false;
 }
 
 /** Which hand signs: the one that has moved farther lately. */
@@ -254,9 +309,17 @@ class HandThatSigns {
   #way = { right: 0, left: 0 };
   #last = {};
 
-  look(robot) {
-    for (const [side, name] of Object.entries(CAMERAS.hand.follow)) {
-      const at = robot.links[name].getWorldPosition(new Vector3());
+  constructor(hands) {
+    this.hands = hands;
+  }
+
+  get link() {
+    return this.hands[this.side];
+  }
+
+  look() {
+    for (const [side, link] of Object.entries(this.hands)) {
+      const at = link.getWorldPosition(new Vector3());
       this.#way[side] = this.#way[side] * FORGET + (this.#last[side]?.distanceTo(at) ?? 0);
       this.#last[side] = at;
     }

@@ -6,7 +6,8 @@ import { Refused } from "./api.js";
 
 // The node repeats the situation every second: three of them missed, and it is gone [ms].
 const SILENCE = 3500;
-const RECONNECT = 1000; // [ms]
+/** What the node did not give is asked for again after so long [ms]. */
+export const RECONNECT = 1000;
 
 /** Events: "situation", "welcome", "pose" (detail: what came), "connection" (detail: whether it stands). */
 export class Socket extends EventTarget {

@@ -8,7 +8,7 @@ import { has, t } from "./i18n.js";
  * Says how things are.
  * @param {boolean} connected Whether the console answers.
  * @param {?Object} situation
- * @returns {{text: string, tone: "good"|"warn"|"bad", said: ?string}} `said` are a node's own words, in English.
+ * @returns {{text: string, tone: "good"|"warn"|"bad"}}
  */
 export function statusOf(connected, situation) {
   if (!connected || !situation) return { text: t("status.no_console"), tone: "bad" };
@@ -20,7 +20,7 @@ export function statusOf(connected, situation) {
   }
   if (robot.mode === "stopped") return { text: t("status.stopped"), tone: "bad" };
   if (robot.mode === "fault" || robot.executor === "fault") {
-    return { text: t("status.fault", { why: why(robot) }), tone: "bad" };
+    return { text: t("status.fault", { why: robot.executor === "fault" ? refusalText(robot.executor_code) : "" }).trim(), tone: "bad" };
   }
   if (robot.mode === "inactive") return { text: t("status.inactive"), tone: "warn" };
   if (robot.mode === "paused") return { text: t("status.paused"), tone: "warn" };
@@ -28,7 +28,7 @@ export function statusOf(connected, situation) {
   const signing = current ? t("status.signing", { text: current.text || t("untitled") }) : null;
   if (unwell) {
     const text = t("status.unwell", { node: t(`node.${unwell.role}`) });
-    return { text: signing ? `${signing} ${text}` : text, tone: "warn", said: unwell.message };
+    return { text: signing ? `${signing} ${text}` : text, tone: "warn" };
   }
   if (signing) return { text: signing, tone: "good" };
   if (robot.executor === "waiting" && queue.length) return { text: t("status.waiting"), tone: "good" };
@@ -36,13 +36,7 @@ export function statusOf(connected, situation) {
   return { text: t("status.ready"), tone: "good" };
 }
 
-function why(robot) {
-  const code = robot.executor === "fault" ? robot.executor_code : "";
-  if (has(`code.${code}`)) return t(`code.${code}`);
-  return robot.mode === "fault" ? robot.message : robot.executor_message;
-}
-
-/** A refusal in the user's language, or as it was said. */
-export function refusalText(code, message) {
-  return has(`code.${code}`) ? t(`code.${code}`, { message }) : message;
+/** A refusal in the user's language, from its stable reason: what a node says of it is in English. */
+export function refusalText(code) {
+  return has(`code.${code}`) ? t(`code.${code}`) : t("code.other", { code });
 }

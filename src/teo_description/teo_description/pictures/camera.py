@@ -7,13 +7,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.errors import DescriptionError
-from teo_description.urdf.figures import Vector
+from teo_description.humanoid import Humanoid
+from teo_description.schema.numbers import Vector
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,34 +86,31 @@ class Camera:
         return matrix
 
 
-# The views that have a name.
-CAMERAS: Mapping[str, Camera] = MappingProxyType(
-    {
-        # As somebody spoken to sees TEO: at arm's length and a step, eyes a little above its shoulders.
-        "front": Camera(position=(2.3, 0.0, 0.55), target=(0.0, 0.0, 0.45), field_of_view=math.radians(29.0)),
-        # The right hand from the same side, wherever it is.
-        "hand": Camera(
-            position=(0.9, 0.0, 0.05),
-            target=(0.0, 0.0, 0.0),
-            field_of_view=math.radians(20.0),
-            near=0.55,  # a hand behind the back is seen through the body
-            follows="RightMiddleFinger_link",
-        ),
-        "full": Camera(position=(4.6, 0.0, 0.35), target=(0.0, 0.0, 0.04), field_of_view=math.radians(24.5)),
+def cameras(humanoid: Humanoid) -> Mapping[str, Camera]:
+    """The views of a robot that have a name."""
+    return {
+        name: Camera(
+            position=view.position,
+            target=view.target,
+            field_of_view=math.radians(view.field_of_view_deg),
+            near=view.near,
+            follows=view.follows,
+        )
+        for name, view in humanoid.file.cameras.items()
     }
-)
 
 
-def camera_named(camera: Camera | str) -> Camera:
-    """Look a view up; a camera comes back as it is.
+def camera_named(camera: Camera | str, humanoid: Humanoid) -> Camera:
+    """Look a view of a robot up; a camera comes back as it is.
 
     Raises:
         DescriptionError: ``unknown_camera``.
     """
     if isinstance(camera, Camera):
         return camera
-    if camera not in CAMERAS:
+    known = cameras(humanoid)
+    if camera not in known:
         raise DescriptionError(
-            "unknown_camera", f"expected a camera among {', '.join(CAMERAS)}; got {camera!r}"
+            "unknown_camera", f"expected a camera among {', '.join(known)}; got {camera!r}"
         )
-    return CAMERAS[camera]
+    return known[camera]

@@ -1,14 +1,24 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Triangles for the boxes, cylinders and spheres of the robot description."""
+"""Triangles for the boxes, cylinders, spheres and mesh files of a robot description."""
 
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from teo_description.errors import DescriptionError
+
+# Triangles that are left of a mesh longer than 8 cm, such as a trunk, and of a smaller one, such as a finger.
+_LARGE, _TRIANGLES_LARGE, _TRIANGLES_SMALL = 0.08, 2000, 400
+
+
+# Cosine of the angle to the surface about its corner up to which a mesh's triangle is shaded as round.
+_CREASE = math.cos(math.radians(35.0))
 
 
 class Mesh(NamedTuple):
@@ -127,6 +137,50 @@ def sphere(radius: float) -> Mesh:
         ]
     )
     return Mesh(normals * radius, normals, triangles.astype(np.int32))
+
+
+def from_file(path: Path, scale: NDArray[np.float64]) -> Mesh:
+    """A mesh file with so few triangles as its size on a picture asks for.
+
+    Args:
+        path: An STL, OBJ or DAE file.
+        scale: What its coordinates are multiplied by for metres. Shape (3,).
+
+    Raises:
+        DescriptionError: ``bad_mesh``; ``meshes_unavailable`` without the libraries that read them.
+    """
+    try:
+        import fast_simplification  # here: only robots with meshes need both
+        import trimesh
+    except ImportError as error:
+        raise DescriptionError(
+            "meshes_unavailable", f"expected {error.name} to draw {path.name}: make robots"
+        ) from error
+    try:
+        read = trimesh.load_mesh(path)
+        points, faces = np.asarray(read.vertices, np.float32) * scale, np.asarray(read.faces, np.int32)
+    except Exception as error:  # the reader of each format has its own
+        raise DescriptionError("bad_mesh", f"expected a mesh at {path}: {error}") from error
+    if not len(faces):
+        raise DescriptionError("bad_mesh", f"expected a mesh at {path}, got no triangle")
+    wanted = _TRIANGLES_LARGE if np.ptp(points, axis=0).max() > _LARGE else _TRIANGLES_SMALL
+    if len(faces) > wanted:  # by quadric error: Garland and Heckbert, 1997
+        points, faces = fast_simplification.simplify(points, faces, target_count=wanted)
+    return _smooth(points.astype(np.float64), faces)
+
+
+def _smooth(points: NDArray[np.float64], faces: NDArray[np.int32]) -> Mesh:
+    """Lit as round where a triangle's normal is near the mean of those about its corner, else as flat."""
+    corners = points[faces]
+    flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    round_ = np.zeros_like(points)
+    np.add.at(round_, faces, flat[:, None])  # by area: a normal is as long as its triangle is large
+    flat, round_ = (n / np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-12) for n in (flat, round_))
+    sharp = np.einsum("ij,ikj->ik", flat, round_[faces]) < _CREASE
+    rows = faces.astype(np.int32)
+    rows[sharp] = len(points) + np.arange(np.count_nonzero(sharp))
+    own = np.repeat(flat, 3, axis=0)[sharp.ravel()]
+    return Mesh(np.concatenate([points, corners[sharp]]), np.concatenate([round_, own]), rows)
 
 
 def _segments(radius: float) -> int:

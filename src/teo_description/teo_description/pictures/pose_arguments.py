@@ -12,16 +12,17 @@ from pathlib import Path
 import numpy as np
 
 from teo_description.errors import DescriptionError
-from teo_description.joints import ALL_JOINTS, check_joint_names
+from teo_description.humanoid import Humanoid
 from teo_description.motion_csv import check_limits
 
 
-def read_pose(arguments: Iterable[str]) -> dict[str, float]:
+def read_pose(arguments: Iterable[str], humanoid: Humanoid) -> dict[str, float]:
     """Read joint positions [rad] from arguments, the later ones over the earlier.
 
     Args:
         arguments: Each the path of a JSON file that holds an object from joint name to radians, or
             ``name=value`` with the value in radians, or in degrees when it ends in ``deg``.
+        humanoid: Whose joints they are.
 
     Raises:
         DescriptionError: ``unreadable_file``, ``bad_pose``, ``unknown_joint``, ``not_finite`` or
@@ -31,18 +32,18 @@ def read_pose(arguments: Iterable[str]) -> dict[str, float]:
     for argument in arguments:
         name, equals, value = argument.partition("=")
         # A joint's name before the sign decides, so that a path may contain one.
-        if equals and (name in ALL_JOINTS or not Path(argument).exists()):
+        if equals and (name in humanoid.all_joints or not Path(argument).exists()):
             pose[name] = _radians(name, value)
         else:
             pose.update(_from_json(Path(argument)))
-    check_joint_names(pose)
+    humanoid.check_joint_names(pose)
     bad = [name for name, value in pose.items() if not math.isfinite(value)]
     if bad:
         raise DescriptionError(
             "not_finite", f"expected finite positions, got NaN or infinity for {', '.join(bad)}"
         )
     if pose:
-        check_limits(tuple(pose), np.array([list(pose.values())]), "the pose")
+        check_limits(humanoid, tuple(pose), np.array([list(pose.values())]), "the pose")
     return pose
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Command: draw a pose of TEO, or a planned motion as a film and a film strip."""
+"""Command: draw a pose of a robot, or a planned motion as a film and a film strip."""
 
 from __future__ import annotations
 
@@ -14,10 +14,12 @@ from rich.console import Console
 from rich.progress import track
 
 from teo_description.errors import DescriptionError
+from teo_description.humanoid import Humanoid
 from teo_description.motion_csv import Motion, read_motion
 from teo_description.pictures.camera import Camera, camera_named
 from teo_description.pictures.pose_arguments import read_pose
 from teo_description.pictures.rendering import MotionVideo, Renderer, film_strip, save_png
+from teo_description.robot import Robot
 
 _console = Console(stderr=True)
 # No markup in the help: it would swallow units in brackets.
@@ -53,25 +55,27 @@ def _render(
         int, typer.Option(min=1, max=200, help="Pictures on the strip, evenly spread over the motion.")
     ] = 12,
     columns: Annotated[int, typer.Option(min=1, max=50, help="Pictures a row on the strip.")] = 6,
+    robot: Annotated[str, typer.Option(help="Name of a folder with robot.yaml; see `robots list`.")] = "teo",
 ) -> None:
     """Draw a pose to a PNG, or a motion to a film and a film strip.
 
-    Examples: render --pose FrontalRightElbow=-90deg RightHandAbductor=1.2 --out pose.png;
+    Examples: render --pose pose.json NAME=-90deg OTHER=1.2 --out pose.png;
     render --csv plan.csv --mp4 motion.mp4 --strip motion.png --camera hand
     """
     try:
-        view = _view(camera, size)
+        renderer = Renderer(Robot.load(robot))
+        view = _view(camera, size, renderer.humanoid)
         if csv is not None:
             if pose or more or out:
                 raise DescriptionError("bad_options", "expected either --csv or a pose with --out, got both")
-            _render_motion(csv, mp4, strip, view, fps, moments, columns)
+            _render_motion(renderer, csv, mp4, strip, view, fps, moments, columns)
         elif out is not None:
             if mp4 or strip:
                 raise DescriptionError(
                     "bad_options", "expected --csv with --mp4 and --strip; a pose goes to --out"
                 )
-            positions = read_pose([*(pose or ()), *(more or ())])
-            save_png(out, Renderer().render(positions, view))
+            positions = read_pose([*(pose or ()), *(more or ())], renderer.humanoid)
+            save_png(out, renderer.render(positions, view))
             _console.print(f"wrote {out}", highlight=False)
         else:
             raise DescriptionError(
@@ -89,20 +93,26 @@ def _complain(sentence: str) -> None:
     _console.print(f"render: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
 
 
-def _view(camera: str, size: str) -> Camera:
+def _view(camera: str, size: str, humanoid: Humanoid) -> Camera:
     parts = re.fullmatch(r"(\d{1,5})x(\d{1,5})", size)
     if parts is None:
         raise DescriptionError("bad_options", f"expected a size as 640x480, got {size!r}")
-    return camera_named(camera).sized(int(parts[1]), int(parts[2]))
+    return camera_named(camera, humanoid).sized(int(parts[1]), int(parts[2]))
 
 
 def _render_motion(
-    csv: Path, mp4: Path | None, strip: Path | None, view: Camera, fps: float, moments: int, columns: int
+    renderer: Renderer,
+    csv: Path,
+    mp4: Path | None,
+    strip: Path | None,
+    view: Camera,
+    fps: float,
+    moments: int,
+    columns: int,
 ) -> None:
     if mp4 is None and strip is None:
         raise DescriptionError("bad_options", "expected --mp4 or --strip, or both, with --csv")
-    motion = read_motion(csv)
-    renderer = Renderer()
+    motion = read_motion(csv, renderer.humanoid)
     if mp4 is not None:
         _film(motion, renderer, mp4, view, fps)
         _console.print(f"wrote {mp4} ({motion.duration:.2f} s)", highlight=False)

@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of TEO without a display: triangles drawn on the CPU by OpenCV's software rasteriser."""
+"""Pictures of a robot without a display: triangles drawn on the CPU by OpenCV's software rasteriser."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import cv2
 import numpy as np
@@ -13,9 +12,10 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from teo_description.errors import DescriptionError
-from teo_description.limits import urdf_text
+from teo_description.humanoid import Humanoid
 from teo_description.pictures import mesh
 from teo_description.pictures.camera import Camera, camera_named
+from teo_description.pictures.visual_parts import visual_parts
 from teo_description.robot import Robot
 
 # Red, green, blue in 0..255. Shape (height, width, 3).
@@ -55,13 +55,13 @@ _BACKGROUND_TOP, _BACKGROUND_BOTTOM = (0.90, 0.93, 0.96), (0.99, 0.99, 0.98)
 
 
 class Renderer:
-    """Draws poses of TEO; make one and use it for many frames (not by several threads at once)."""
+    """Draws poses of a robot; make one and use it for many frames (not by several threads at once)."""
 
     def __init__(self, robot: Robot | None = None) -> None:
-        """Tessellate the visual shapes of the URDF.
+        """Tessellate the visual shapes of the URDF and load its meshes.
 
         Args:
-            robot: Kinematics to use; loaded when not given.
+            robot: Kinematics to use; TEO's when not given.
 
         Raises:
             DescriptionError: ``renderer_unavailable`` when OpenCV has no rasteriser.
@@ -73,25 +73,27 @@ class Renderer:
                 "install opencv-python-headless>=5",
             )
         self._robot = robot or Robot.load()
-        geometry = pin.buildGeomFromUrdfString(self._robot.model, urdf_text(), pin.GeometryType.VISUAL)
-        items = sorted(geometry.geometryObjects, key=lambda item: item.parentJoint)
-        parts = [_part(item) for item in items]
-        whole = mesh.joined(*parts)
-        counts = [len(part.vertices) for part in parts]
-        self._vertices, self._normals, self._triangles = whole
-        self._colours = np.repeat([item.meshColor[:3] for item in items], counts, axis=0).astype(np.float32)
-        self._bodies = _slices([item.parentJoint for item in items], counts)
+        parts = sorted(visual_parts(self._robot), key=lambda part: part.joint)
+        counts = [len(part.mesh.vertices) for part in parts]
+        self._vertices, self._normals, self._triangles = mesh.joined(*(part.mesh for part in parts))
+        self._colours = np.repeat([part.colour for part in parts], counts, axis=0).astype(np.float32)
+        self._bodies = _slices([part.joint for part in parts], counts)
         self._settings = cv2.TriangleRasterizeSettings()
         self._settings.setCullingMode(cv2.RASTERIZE_CULLING_CW)
         self._settings.setShadingType(cv2.RASTERIZE_SHADING_SHADED)
         self._canvas: _Canvas | None = None
+
+    @property
+    def humanoid(self) -> Humanoid:
+        """Whom it draws."""
+        return self._robot.humanoid
 
     def render(self, positions: Mapping[str, float], camera: Camera | str = "front") -> Image:
         """Draw a pose.
 
         Args:
             positions: Joint positions [rad] by name; joints not named are at home.
-            camera: A camera or the name of one: ``front``, ``hand``, ``full``.
+            camera: A camera, or the name of one of the robot's: ``front``, ``hand``, ``full``.
 
         Returns:
             The picture, in the camera's size.
@@ -99,7 +101,7 @@ class Renderer:
         Raises:
             DescriptionError: ``unknown_joint``, ``not_finite``, ``unknown_camera`` or ``unknown_frame``.
         """
-        camera = camera_named(camera)
+        camera = camera_named(camera, self.humanoid)
         q = self._robot.configuration(positions)
         origin = np.zeros(3) if camera.follows is None else self._robot.placement(q, camera.follows)[:3, 3]
         vertices, colours = self._shaded(q)
@@ -147,22 +149,6 @@ class Renderer:
             np.matmul(self._normals[part], turned, out=normals[part])
         light = _DIFFUSE * np.maximum(normals @ _LIGHT, 0.0) + (_AMBIENT + _SKY * normals[:, 2])
         return vertices.astype(np.float32), self._colours * light.astype(np.float32)[:, None]
-
-
-def _part(item: Any) -> mesh.Mesh:
-    shape, placement = item.geometry, item.placement
-    kind = type(shape).__name__  # by name: the module is called coal or hppfcl, by the age of Pinocchio
-    if kind == "Box":
-        made = mesh.box(shape.halfSide)
-    elif kind == "Cylinder":
-        made = mesh.cylinder(shape.radius, shape.halfLength)
-    elif kind == "Sphere":
-        made = mesh.sphere(shape.radius)
-    else:
-        raise DescriptionError(
-            "unknown_shape", f"expected boxes, cylinders and spheres in the URDF, got {kind}"
-        )
-    return mesh.moved(made, placement.rotation, placement.translation)
 
 
 def _slices(joints: list[int], counts: list[int]) -> list[tuple[int, slice]]:

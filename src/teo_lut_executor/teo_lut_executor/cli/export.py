@@ -13,7 +13,10 @@ from rich.console import Console
 from rich.progress import track
 
 from teo_common.atomic_files import write_atomically
-from teo_lut_executor.cli.options import Replace, TableDirectory, fail
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import DEFAULT_ROBOT
+from teo_lut_executor.cli.options import LanguageCode, Replace, RobotName, TableDirectory, fail
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError, PlanError
 
 _output = Console(highlight=False)
@@ -39,8 +42,10 @@ def export(
     period: Annotated[float, typer.Option(help="Time between two rows [s].")] = 0.02,
     replace: Replace = False,
     lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
-    """Write signs as TEO would make them, from rest to rest, for programs that play motions."""
+    """Write signs as the robot would make them, from rest to rest, for programs that play motions."""
     from teo_description.robot import Robot
     from teo_motion.lone_sign import sign_motion
     from teo_motion.planner import Planner
@@ -50,13 +55,13 @@ def export(
     from teo_signs.look_up_table import Lut
 
     try:
-        signs = Lut.open(lut)
+        signs = Lut.open(lut, language=language, robot=robot)
         chosen = [signs[gloss] for gloss in dict.fromkeys(glosses)]
         if format_ is ExportFormat.PLAY_MOTION2 and out.exists() and not replace:
             raise LutError("exists", f"{out}: expected a file that is not there, or --replace")
-        # Other programs have TEO begin and end as it is parked.
+        # Other programs have a robot begin and end as it is parked.
         planner = Planner(
-            signs, robot=Robot.load(), least_standing="sketched", rest_posture=RestPosture.HANGING
+            signs, robot=Robot.load(robot), least_standing="sketched", rest_posture=RestPosture.HANGING
         )
         motions = [
             sign_motion(planner, sign, period=period)
@@ -68,15 +73,16 @@ def export(
             _output.print(f"wrote {out}: {len(motions)} motions", soft_wrap=True)
             return
         for motion in motions:
-            for file in save_playback_tables(out, motion, replace=replace):
+            files = save_playback_tables(out, motion, replace=replace)
+            for file, joints in zip(files, motion.limbs.values(), strict=True):
                 _output.print(
                     f"wrote {file}: {len(motion.times)} rows; timeIdx 0, timeScale 1, "
-                    f"{playback_mask(file.stem)}",
+                    f"{playback_mask(len(joints))}",
                     soft_wrap=True,
                 )
     except LutError as error:
         fail(error)
-    except PlanError as error:
+    except (PlanError, DescriptionError) as error:
         fail(LutError(error.code, str(error)))
     except OSError as error:
         fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))

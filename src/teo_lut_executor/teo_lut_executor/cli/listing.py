@@ -12,7 +12,9 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from teo_lut_executor.cli.options import AsJson, TableDirectory, open_table
+from teo_description.humanoid import DEFAULT_ROBOT
+from teo_lut_executor.cli.options import AsJson, LanguageCode, RobotName, TableDirectory, open_table
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.handshapes import Handshapes
 from teo_signs.look_up_table import Lut
@@ -27,11 +29,13 @@ _SOURCE_WIDTH = 17
 
 def list_signs(
     lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     kind: Annotated[str | None, typer.Option(help="lexical, letter or number.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """One line a sign: gloss, kind, hands, duration, knots, standing, source; and how many of each."""
-    table = open_table(lut)
+    table = open_table(lut, robot, language)
     signs, unreadable = _read(table)
     chosen = [sign for sign in signs if kind is None or sign.kind == kind]
     if as_json:
@@ -60,6 +64,7 @@ def _as_json(
         "signs": [
             {
                 "gloss": sign.gloss,
+                "language": table.language.code,
                 "kind": sign.kind,
                 "handedness": sign.handedness,
                 "duration": sign.duration,

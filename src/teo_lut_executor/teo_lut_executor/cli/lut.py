@@ -13,12 +13,21 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from teo_description.humanoid import DEFAULT_ROBOT
 from teo_lut_executor.cli.export import export
 from teo_lut_executor.cli.listing import list_signs
 from teo_lut_executor.cli.nearest import nearest
-from teo_lut_executor.cli.options import TableDirectory, fail, open_table, signs_of_kind
+from teo_lut_executor.cli.options import (
+    LanguageCode,
+    RobotName,
+    TableDirectory,
+    fail,
+    open_table,
+    signs_of_kind,
+)
 from teo_lut_executor.cli.plugins import add_plugins
 from teo_lut_executor.cli.review import review
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.look_up_table import Lut, LutError, Sign
 from teo_signs.sign import sign_warnings
 from teo_signs.sign_file import format_sign
@@ -40,30 +49,38 @@ _output = Console(highlight=False)
 
 
 @app.callback()
-def _remember_table(context: typer.Context) -> None:
+def _tell_tables(context: typer.Context) -> None:
     """Look into a table of signs."""
+    context.obj = _tables
+
+
+def _tables(language: str = DEFAULT_LANGUAGE) -> tuple[Path, ...]:
+    """Directories in which a gloss of a language is sought, for commands that join `lut`; may be none."""
     try:
-        context.obj = Lut.open().directories
+        return Lut.open(language=language).directories
     except LutError:  # other tables can be looked into all the same
-        context.obj = ()
+        return ()
 
 
 @app.command()
 def show(
     gloss: str,
     lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     as_json: Annotated[bool, typer.Option("--json", help="The entry as its file holds it.")] = False,
 ) -> None:
     """Everything that an entry says."""
     try:
-        signs = open_table(lut)
+        signs = open_table(lut, robot, language)
         sign, path = signs[gloss], signs.path(gloss)
     except LutError as error:
         fail(error)
     if as_json:
         print(format_sign(sign), end="")
         return
-    _output.print(f"{sign.gloss}: {sign.kind} of {sign.language}, {sign.handedness}, {sign.duration:.2f} s")
+    made_for = f"{sign.language} for {sign.robot}"
+    _output.print(f"{sign.gloss}: {sign.kind} of {made_for}, {sign.handedness}, {sign.duration:.2f} s")
     _output.print(f"  file: {path}", markup=False, soft_wrap=True)
     for name, value in sign.provenance.model_dump().items():
         _output.print(f"  {name}: {value if value not in (None, '') else '-'}", markup=False)
@@ -84,9 +101,11 @@ def validate(
         Path | None,
         typer.Argument(help="Directory of the table; your own and, beneath it, the package's without it."),
     ] = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Read every entry; exit status 1 if one is not valid."""
-    signs = open_table(directory)
+    signs = open_table(directory, robot, language)
     wrong = odd = 0
     for gloss in signs.glosses():
         try:
@@ -109,11 +128,13 @@ def render(
     out: Annotated[Path | None, typer.Option(help="A .png or .mp4 file; with --all a directory.")] = None,
     everything: Annotated[bool, typer.Option("--all", help="Sheets of letters, numbers and signs.")] = False,
     lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Draw a sign (PNG) or film it (MP4); with --all, one sheet for each kind of sign."""
     if out is None or everything == (gloss is not None):
         fail(LutError("bad_arguments", "expected GLOSS --out FILE.png|FILE.mp4, or --all --out DIRECTORY"))
-    signs = open_table(lut)
+    signs = open_table(lut, robot, language)
     try:
         if gloss is None:
             _render_sheets(out, signs)
@@ -130,11 +151,13 @@ def overview(
     out: Annotated[Path, typer.Option(help="A .png file.")],
     kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "lexical",
     lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Draw all signs of a kind on one small picture, each as it begins and farthest from there."""
     from teo_signs.pictures import save_overview
 
-    signs = signs_of_kind(open_table(lut), kind)
+    signs = signs_of_kind(open_table(lut, robot, language), kind)
     if not signs:
         fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
     try:

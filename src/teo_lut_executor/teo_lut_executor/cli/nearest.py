@@ -12,7 +12,17 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from teo_lut_executor.cli.options import AsJson, TableDirectory, fail, open_table, signs_of_kind
+from teo_description.humanoid import DEFAULT_ROBOT
+from teo_lut_executor.cli.options import (
+    AsJson,
+    LanguageCode,
+    RobotName,
+    TableDirectory,
+    fail,
+    open_table,
+    signs_of_kind,
+)
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.likeness import Difference, nearest_pairs
 
@@ -25,15 +35,17 @@ def nearest(
     ] = 15,
     kind: Annotated[str, typer.Option(help="lexical, letter or number.")] = "letter",
     lut: TableDirectory = None,
+    robot: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     as_json: AsJson = False,
 ) -> None:
-    """The pairs of signs that look most alike on TEO; with --json, for each sign those most like it."""
+    """The pairs of signs that look most alike; with --json, for each sign those most like it."""
     from teo_description.robot import Robot
 
-    signs = signs_of_kind(open_table(lut), kind)
+    signs = signs_of_kind(open_table(lut, robot, language), kind)
     if as_json and not signs:
         fail(LutError("unknown_sign", f"--kind: expected a kind that the table has, got {kind!r}"))
-    pairs = nearest_pairs(Robot.load(), signs)
+    pairs = nearest_pairs(Robot.load(robot), signs)
     if as_json:
         print(json.dumps(_of_each(pairs, count), ensure_ascii=False))
     else:

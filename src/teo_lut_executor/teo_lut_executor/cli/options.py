@@ -10,14 +10,20 @@ from typing import Annotated, NoReturn
 import typer
 from rich.console import Console
 
+from teo_description.humanoid import DEFAULT_ROBOT
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 
 TableDirectory = Annotated[
     Path | None,
-    typer.Option("--lut", help="Directory of the table; your own and, beneath it, the package's without it."),
+    typer.Option(
+        "--lut", help="Directory of the table; your own and, beneath it, the language's without it."
+    ),
 ]
+RobotName = Annotated[str, typer.Option("--robot", help="Name of the robot that makes the signs.")]
+LanguageCode = Annotated[str, typer.Option("--language", help="Sign language, by its ISO 639-3 code.")]
 AsJson = Annotated[bool, typer.Option("--json", help="As one JSON object, for programs.")]
 Replace = Annotated[bool, typer.Option("--replace", help="Replace what is there already.")]
 
@@ -30,10 +36,10 @@ def fail(error: LutError) -> NoReturn:
     raise typer.Exit(1) from error
 
 
-def open_table(directory: Path | None) -> Lut:
-    """Open the table that --lut names, or end with its error."""
+def open_table(directory: Path | None, robot: str = DEFAULT_ROBOT, language: str = DEFAULT_LANGUAGE) -> Lut:
+    """Open the table that --lut, --robot and --language name, or end with its error."""
     try:
-        return Lut.open(directory)
+        return Lut.open(directory, language=language, robot=robot)
     except LutError as error:
         fail(error)
 

@@ -18,13 +18,16 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
-from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES, DescriptionError
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import DEFAULT_ROBOT, Humanoid
 from teo_description.robot import Robot
+from teo_lut_executor.cli.options import LanguageCode, RobotName
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan, sample_at
 from teo_motion.sentence.sentence_form import SentenceType, printed_form, without_marks
 from teo_motion.torque import peak_torques
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK, MotionLimits
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.mirroring import MirroredSigns
@@ -79,33 +82,43 @@ def _plan(
         typer.Option(help="File for the motion, 100 rows a second: time [s], then [rad] for each joint."),
     ] = None,
     lut: Annotated[
-        Path | None, typer.Option(help="Directory of the look-up table; default: the package's LSE table.")
+        Path | None,
+        typer.Option(help="Directory of the look-up table; default: the language's for the robot."),
     ] = None,
+    robot_name: RobotName = DEFAULT_ROBOT,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     acceleration: Annotated[
         float, typer.Option(help="Greatest acceleration of every joint [rad/s^2].")
     ] = DEFAULT_ACCELERATION,
     jerk: Annotated[float, typer.Option(help="Greatest jerk of every joint [rad/s^3].")] = DEFAULT_JERK,
     hand_drive: Annotated[
-        str, typer.Option(help=f"Gearmotors of the hands: {', '.join(HAND_DRIVES)}.")
-    ] = DEFAULT_HAND_DRIVE,
+        str, typer.Option(help="Gearmotors of the hands, one of the robot's; default: its own.")
+    ] = "",
     left: Annotated[
         bool, typer.Option("--left", help="Sign as a left-handed signer: every sign as its mirror image.")
     ] = False,
     mp4: Annotated[Path | None, typer.Option(help="File for a film of the motion.")] = None,
     strip: Annotated[Path | None, typer.Option(help="PNG with the middle of every sign.")] = None,
 ) -> None:
-    """Plan how TEO signs a sentence, and print when each token is signed.
+    """Plan how a robot signs a sentence, and print when each token is signed.
 
     Exit status: 0 if it can be signed, 1 if not or if a file cannot be written, 2 for wrong options.
 
     Example: plan "TÚ AGUA BEBER?" --csv plan.csv --strip plan.png
     """
     try:
-        limits = MotionLimits.of_robot(acceleration=acceleration, jerk=jerk, hand_drive=hand_drive)
-        signs, robot = Lut.open(lut), Robot.load()
-        planner = Planner(MirroredSigns(signs, robot) if left else signs, limits=limits, robot=robot)
+        robot, signs = Robot.load(robot_name), Lut.open(lut, language=language, robot=robot_name)
+        limits = MotionLimits.of_robot(
+            robot.humanoid, acceleration=acceleration, jerk=jerk, hand_drive=hand_drive
+        )
+        planner = Planner(
+            MirroredSigns(signs, robot) if left else signs,
+            limits=limits,
+            robot=robot,
+            language=signs.language,
+        )
         tokens = parse_printed(without_marks(sentence))
-        form = printed_form(sentence, tokens)
+        form = printed_form(sentence, tokens, signs.language.head)
         if type_ is not None:
             form = replace(form, type=SentenceType[type_.name])
         if negated is not None:
@@ -113,7 +126,7 @@ def _plan(
         plan = planner.plan(tokens, form=form)
         _out.print(_table(plan))
         _out.print(_summary(plan, robot), highlight=False, soft_wrap=True)
-        _write(plan, csv, mp4, strip)
+        _write(plan, robot.humanoid, csv, mp4, strip)
     except (PlanError, LutError, DescriptionError) as error:
         _complain(f"{error.code}: {error}")
         raise typer.Exit(1) from None
@@ -151,7 +164,7 @@ def _summary(plan: Plan, robot: Robot) -> str:
     return "\n".join(lines)
 
 
-def _write(plan: Plan, csv: Path | None, mp4: Path | None, strip: Path | None) -> None:
+def _write(plan: Plan, humanoid: Humanoid, csv: Path | None, mp4: Path | None, strip: Path | None) -> None:
     if csv is not None:
         rows = _write_csv(csv, plan)
         _out.print(f"wrote {csv} ({rows} rows)", highlight=False, markup=False)
@@ -160,11 +173,11 @@ def _write(plan: Plan, csv: Path | None, mp4: Path | None, strip: Path | None) -
     from teo_lut_executor.cli.plan_film import frames, write_film, write_strip  # drawing is an extra
 
     if strip is not None:
-        write_strip(strip, plan)
+        write_strip(strip, plan, humanoid)
         _out.print(f"wrote {strip}", highlight=False, markup=False)
     if mp4 is not None:
         shown = track(frames(plan), description="drawing", console=_err, transient=True)
-        write_film(mp4, plan, shown)
+        write_film(mp4, plan, humanoid, shown)
         _out.print(f"wrote {mp4}", highlight=False, markup=False)
 
 

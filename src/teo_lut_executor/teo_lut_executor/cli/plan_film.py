@@ -8,28 +8,30 @@ import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from teo_description.pictures.rendering import CAMERAS, MotionVideo, film_strip, render_pose, save_png
+from teo_description.humanoid import Humanoid
+from teo_description.pictures.rendering import MotionVideo, camera_named, film_strip, render_pose, save_png
 from teo_motion.sentence.plan import Plan
 from teo_signs.tokens import Token
 
 FRAMES_PER_SECOND = 25
 
-_CAMERA = CAMERAS["front"]
-_STRIP_CAMERA = CAMERAS["front"].sized(400, 400)
+_CAMERA = "front"
+_STRIP_SIZE = (400, 400)
 _PAUSE = "(pause)"
 
 
 def frames(plan: Plan) -> range:
-    """Numbers of the frames of a plan's film; the last shows TEO at rest again."""
+    """Numbers of the frames of a plan's film; the last shows the robot at rest again."""
     return range(math.ceil(plan.duration * FRAMES_PER_SECOND) + 1)
 
 
-def write_film(path: Path, plan: Plan, numbers: Iterable[int] | None = None) -> None:
+def write_film(path: Path, plan: Plan, humanoid: Humanoid, numbers: Iterable[int] | None = None) -> None:
     """Write a film of a plan, with the gloss of each sign at its foot.
 
     Args:
         path: MP4 to write; its folder exists.
         plan: What to show.
+        humanoid: Who signs it.
         numbers: `frames` of the plan, wrapped if the caller shows progress.
     """
     with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as film:
@@ -37,13 +39,14 @@ def write_film(path: Path, plan: Plan, numbers: Iterable[int] | None = None) -> 
             time = number / FRAMES_PER_SECOND
             index = plan.token_at(time)
             caption = "" if index is None else _caption(plan.timings[index].token)
-            film.add(render_pose(_pose(plan, time), _CAMERA), caption)
+            film.add(render_pose(_pose(plan, time), _CAMERA, robot=humanoid.name), caption)
 
 
-def write_strip(path: Path, plan: Plan) -> None:
-    """Write a picture with TEO at rest, in the middle of every sign, and at rest again."""
+def write_strip(path: Path, plan: Plan, humanoid: Humanoid) -> None:
+    """Write a picture with the robot at rest, in the middle of every sign, and at rest again."""
     moments = list(_moments(plan))
-    pictures = [render_pose(_pose(plan, time), _STRIP_CAMERA) for time, _ in moments]
+    camera = camera_named(_CAMERA, humanoid).sized(*_STRIP_SIZE)
+    pictures = [render_pose(_pose(plan, time), camera, robot=humanoid.name) for time, _ in moments]
     save_png(path, film_strip(pictures, [caption for _, caption in moments], columns=6))
 
 

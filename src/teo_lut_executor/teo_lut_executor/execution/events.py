@@ -68,6 +68,7 @@ class Sentence:
         count: Number of sentences in the text.
         form: Type and negation.
         text: As it was typed; empty if not known.
+        language: Code of its sign language; empty for that of the executor that takes it.
     """
 
     tokens: tuple[Token, ...]
@@ -76,6 +77,7 @@ class Sentence:
     count: int = 1
     form: SentenceForm = STATEMENT
     text: str = ""
+    language: str = ""
 
 
 class Activity(enum.IntEnum):

@@ -8,7 +8,6 @@ import math
 
 from teo_lut_executor.execution.events import DriverMode, DriverReport, QueueSettings
 from teo_lut_executor.execution.robot_state import RobotState
-from teo_motion.sentence.rest_posture import REST_POSITIONS
 from teo_motion.trajectory.limits import MotionLimits
 
 # A step of the clock larger than this between two calls is a clock that was set, or a process that was not
@@ -85,7 +84,8 @@ class Situation:
     @property
     def at_rest(self) -> bool:
         """Whether every joint is, nearly, as in one of the postures in which a robot waits."""
-        away = min(self.robot.farthest(rest)[0] for rest in REST_POSITIONS.values())
+        humanoid = self.limits.humanoid
+        away = min(self.robot.farthest(rest)[0] for rest in (humanoid.hanging, humanoid.ready))
         return away <= self.settings.goal_tolerance
 
     @property

@@ -17,6 +17,7 @@ from teo_sign_msgs.msg import ExecutorStatus
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
 from teo_common.self_starting_node import SelfStartingNode, run_self_starting
+from teo_description.errors import DescriptionError
 from teo_lut_executor.execution.events import (
     Activity,
     Begun,
@@ -43,7 +44,6 @@ from teo_lut_executor.planning.planning_process import PlanningProcess
 from teo_lut_executor.planning.worker import NotPlanned, Opened, Planned
 from teo_motion.planner import Planner
 from teo_signs.errors import LutError, PlanError
-from teo_signs.look_up_table import Lut
 
 # How often the queue looks at the clock and the robot [Hz], and feedback is sent [Hz].
 _STEP_RATE = 50.0
@@ -76,10 +76,10 @@ class ExecutorNode(SelfStartingNode):
         """Open the table, start the process that plans, and listen."""
         try:
             settings = planner_settings_from(self._values())
-            self._lut = Lut.open(settings.lut_directory)
-            self._checker: Planner = settings.planner(self._lut, None)
+            self._lut = settings.table()
+            self._checker: Planner = settings.planner(self._lut, None, self._lut.language)
             queue_settings = queue_settings_from(self._values())
-        except (LutError, PlanError) as error:
+        except (LutError, PlanError, DescriptionError) as error:
             self.get_logger().error(f"cannot be configured: [{error.code}] {error}")
             return TransitionCallbackReturn.FAILURE
         self._queue = ExecutionQueue(self._checker.limits, queue_settings)
@@ -152,6 +152,7 @@ class ExecutorNode(SelfStartingNode):
             check=self._check_sentence,
             now=self._now,
             carry_out=self._take,
+            own_language=lambda: self._lut.language.code,
         )
 
     def _let_go(self) -> None:
@@ -179,8 +180,15 @@ class ExecutorNode(SelfStartingNode):
         """See whether a sentence is one, as far as that is known without planning it.
 
         Raises:
-            PlanError: It is none.
+            PlanError: It is none, or of another language ("other_language").
         """
+        language = self._lut.language
+        if sentence.language not in ("", language.code):
+            raise PlanError(
+                "other_language",
+                f"expected a sentence of {language.names.short} ({language.code}), the language in use, got "
+                f"one of {sentence.language!r}; give executor and translator the same parameter language",
+            )
         self._signs.refresh()
         self._checker.check(sentence.tokens, form=sentence.form)
 
@@ -277,19 +285,26 @@ class ExecutorNode(SelfStartingNode):
         )
 
     def _check_parameters(self, parameters: Sequence[Parameter]) -> SetParametersResult:
-        values = self._values() | {item.name: item.value for item in parameters}
+        asked = {item.name: item.value for item in parameters}
+        values = self._values() | asked
         try:
             queue_settings_from(values)
-            planner_settings_from(values).planner({}, None)
-        except PlanError as error:
+            settings = planner_settings_from(values)
+            settings.planner({}, None)
+            if "language" in asked:
+                self._next_lut = settings.table()
+        except (PlanError, LutError) as error:
             return SetParametersResult(successful=False, reason=f"[{error.code}] {error}")
         return SetParametersResult(successful=True)
 
-    def _apply_parameters(self, _: Sequence[Parameter]) -> None:
+    def _apply_parameters(self, parameters: Sequence[Parameter]) -> None:
         if not self._configured:  # configuring reads them
             return
         settings = planner_settings_from(self._values())
-        self._checker = settings.planner(self._lut, None)
+        if "language" in {item.name for item in parameters}:
+            self._lut = self._signs.lut = self._next_lut
+            self.get_logger().info(f"{len(self._lut)} signs of {self._lut.place}")
+        self._checker = settings.planner(self._lut, None, self._lut.language)
         self._planning.configure(settings)
         self._queue.configure(self._checker.limits, queue_settings_from(self._values()))
 

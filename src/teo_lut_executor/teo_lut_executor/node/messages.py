@@ -36,6 +36,7 @@ def to_sentence(message: SignSentence) -> Sentence:
             negated=message.negated,
         ),
         text=message.text,
+        language=message.language,
     )
 
 

@@ -8,14 +8,14 @@ from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 
-from teo_common.parameters import AUTOSTART, ParameterRow
-from teo_description import DEFAULT_HAND_DRIVE, HAND_DRIVES
+from teo_common.parameters import AUTOSTART, ROBOT, ParameterRow
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_lut_executor.planning.settings import PlannerSettings
 from teo_motion.planner import DEFAULT_CLEARANCE, DEFAULT_MAX_DURATION, DEFAULT_PERIOD
 from teo_motion.sentence.rest_posture import DEFAULT_REST, RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import DEFAULT_ACCELERATION, DEFAULT_JERK
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import DEFAULT_STANDING
 from teo_signs.sign_schema import STANDINGS, Standing
@@ -34,10 +34,17 @@ def _row(name: str, default: float, low: float, high: float, description: str) -
 
 
 PARAMETERS = (
+    ROBOT,
+    ParameterRow(
+        name="language",
+        default=DEFAULT_LANGUAGE,
+        description="Sign language, by its ISO 639-3 code. Sentences of another are refused; those taken "
+        "before a change are signed in their own.",
+    ),
     ParameterRow(
         name="lut_directory",
         default="",
-        description="Directory of the look-up table; empty for the user's own, then the package's.",
+        description="Directory of the look-up table; empty for the user's own, then the language's.",
         read_only=True,
     ),
     ParameterRow(
@@ -77,10 +84,10 @@ PARAMETERS = (
     # Motion.
     ParameterRow(
         name="hand_drive",
-        default=DEFAULT_HAND_DRIVE,
-        choices=tuple(HAND_DRIVES),
-        description="Gearmotors of the hands, which limit the speed of their axes; the driver's parameter "
-        "of that name must not name slower ones.",
+        default="",
+        description="Gearmotors of the hands, which limit the speed of their axes: one of the robot's "
+        "`hand_drives`, where it has several; empty for its default. The driver's parameter of that name "
+        "must not name slower ones.",
     ),
     _row("acceleration", DEFAULT_ACCELERATION, 0.5, 50.0, "Greatest acceleration of every joint [rad/s^2]."),
     _row("jerk", DEFAULT_JERK, 1.0, 1000.0, "Greatest jerk of every joint [rad/s^3]."),
@@ -229,6 +236,8 @@ def planner_settings_from(values: Mapping[str, Value]) -> PlannerSettings:
     """
     directory = str(values["lut_directory"])
     return PlannerSettings(
+        robot=str(values["robot"]),
+        language=str(values["language"]),
         lut_directory=Path(directory) if directory else None,
         left_handed=left_handed_from(values),
         least_standing=standing_from(values),

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TypedDict
 
 from rclpy.action.server import ServerGoalHandle
@@ -52,6 +53,7 @@ class SentenceIntake:
         check: Callable[[Sentence], None],
         now: Callable[[], float],
         carry_out: Callable[[Sequence[Event]], None],
+        own_language: Callable[[], str],
     ) -> None:
         """Listen, and serve the action.
 
@@ -63,10 +65,12 @@ class SentenceIntake:
             check: Raises `PlanError` if a sentence is none that can be signed.
             now: Time of the node's clock [s].
             carry_out: Does what the queue answers.
+            own_language: Code of the language of sentences that name none.
         """
         self._node, self._queue, self._journal = node, queue, journal
         self._journal_age = journal_age
         self._check, self._now, self._carry_out = check, now, carry_out
+        self._own_language = own_language
         self._began = time.time()
         self._goals = SentenceGoals(
             node,
@@ -155,6 +159,8 @@ class SentenceIntake:
         goal: ServerGoalHandle | None = None,
         message: MessageKey | None = None,
     ) -> None:
+        if not sentence.language:
+            sentence = replace(sentence, language=self._own_language())
         ticket, events = self._queue.submit(sentence, self._now(), attempts=attempts)
         if goal is not None:
             self._goals.add(ticket, goal)

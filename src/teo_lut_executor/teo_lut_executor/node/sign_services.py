@@ -17,7 +17,11 @@ _KINDS = {"lexical": SignToken.KIND_LEXICAL, "letter": SignToken.KIND_LETTER, "n
 
 
 class SignServices:
-    """Serves `list_signs` and `get_sign` from a table that may change meanwhile."""
+    """Serves `list_signs` and `get_sign` from a table that may change meanwhile.
+
+    Attributes:
+        lut: The table.
+    """
 
     def __init__(self, node: Node, lut: Lut) -> None:
         """Serve.
@@ -27,7 +31,7 @@ class SignServices:
             lut: The table.
         """
         self._node = node
-        self._lut = lut
+        self.lut = lut
         self._services = (
             node.create_service(ListSigns, "list_signs", self._on_list),
             node.create_service(GetSign, "get_sign", self._on_get),
@@ -35,7 +39,7 @@ class SignServices:
 
     def refresh(self) -> None:
         """Read the table again where it has changed."""
-        problem = self._lut.refresh()
+        problem = self.lut.refresh()
         if problem:
             self._node.get_logger().error(
                 f"look-up table not read again: {problem}", throttle_duration_sec=5.0
@@ -48,23 +52,24 @@ class SignServices:
 
     def _on_list(self, request: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
         self.refresh()
-        for problem in _list_signs(self._lut, request, response):
+        for problem in _list_signs(self.lut, request, response):
             self._node.get_logger().warning(problem)
         return response
 
     def _on_get(self, request: GetSign.Request, response: GetSign.Response) -> GetSign.Response:
         self.refresh()
-        _get_sign(self._lut, request, response)
+        _get_sign(self.lut, request, response)
         return response
 
 
 def _list_signs(lut: Lut, request: ListSigns.Request, response: ListSigns.Response) -> list[str]:
-    """Fill in the glosses that begin with the prefix, and their kinds.
+    """Fill in the language, the glosses that begin with the prefix, and their kinds.
 
     Returns:
         Why entries were left out; a sentence each.
     """
     problems: list[str] = []
+    response.language = lut.language.code
     prefix = gloss_key(request.prefix)
     for gloss in lut.glosses():
         if gloss.startswith(prefix):

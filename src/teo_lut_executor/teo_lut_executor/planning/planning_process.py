@@ -79,7 +79,11 @@ class PlanningProcess:
     def _start(self) -> None:
         ours, its = socket.socketpair()
         command = [sys.executable, "-c", _COMMAND, str(its.fileno())]
-        self._process = subprocess.Popen(command, pass_fds=[its.fileno()], stdin=subprocess.DEVNULL)
+        # In a group of its own: Ctrl-C goes to the whole group of a terminal's processes, and this one ends
+        # with the one that asks.
+        self._process = subprocess.Popen(
+            command, pass_fds=[its.fileno()], stdin=subprocess.DEVNULL, process_group=0
+        )
         its.close()
         self._connection = Connection(ours.detach())
         self._send(self._settings)

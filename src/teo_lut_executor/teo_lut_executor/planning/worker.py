@@ -9,7 +9,6 @@ order, and ends when the socket is closed: also when the process at its other en
 from __future__ import annotations
 
 import gc
-import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -21,8 +20,8 @@ import numpy as np
 from teo_description.robot import Robot
 from teo_lut_executor.execution.events import PlanWanted, ReturnWanted, Sentence
 from teo_lut_executor.planning.settings import PlannerSettings
+from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.ruckig_segment import State
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
@@ -77,30 +76,37 @@ Answer = Ready | Opened | Planned | NotPlanned
 
 
 class _Worker:
-    """Plans what is asked for."""
+    """Plans what is asked for, each sentence by the table of its own language."""
 
     def __init__(self, settings: PlannerSettings) -> None:
-        self._robot = Robot.load()
-        self._lut = Lut.open(settings.lut_directory)
-        self.settings = settings
+        self._robot = Robot.load(settings.robot)
+        self._tables: dict[str, Lut] = {}
+        self.configure(settings)
 
-    @property
-    def settings(self) -> PlannerSettings:
-        """What the planner is made of."""
-        return self._settings
-
-    @settings.setter
-    def settings(self, settings: PlannerSettings) -> None:
+    def configure(self, settings: PlannerSettings) -> None:
+        """Plan with other settings from now on."""
         self._settings = settings
-        self._planner = settings.planner(self._lut, self._robot)
+        self._planners: dict[str, Planner] = {}
+        self._planner(settings.language)
+
+    def _planner(self, language: str) -> Planner:
+        """The planner of a language; its table is opened when it is first needed."""
+        if language not in self._planners:
+            if language not in self._tables:
+                self._tables[language] = self._settings.table(language)
+            table = self._tables[language]
+            self._planners[language] = self._settings.planner(table, self._robot, table.language)
+        self._tables[language].refresh()  # the node says what is wrong with a table that cannot be read
+        return self._planners[language]
 
     def warm_up(self) -> None:
         """Plan something: the first plan of a process takes several times as long as the next."""
-        gloss = next(iter(self._lut.glosses()), None)
+        gloss = next(iter(self._tables[self._settings.language].glosses()), None)
         if gloss is None:
             return
-        still = np.zeros_like(REST)
-        rest = State(position=REST, velocity=still, acceleration=still)
+        ready = self._robot.humanoid.ready
+        still = np.zeros_like(ready)
+        rest = State(position=ready, velocity=still, acceleration=still)
         sentence = Sentence(tokens=(Token(gloss=gloss),))
         wanted = PlanWanted(number=0, sentence=sentence, start=rest, opening=True)
         for _ in self.answers(wanted):
@@ -111,32 +117,33 @@ class _Worker:
 
     def answers(self, wanted: PlanWanted | ReturnWanted) -> Iterator[Answer]:
         """Answer a request, as soon as each part of the answer is known."""
-        self._lut.refresh()  # the node says what is wrong with a table that cannot be read
         began = time.perf_counter()
         after, start = 0.0, wanted.start
         try:
             if isinstance(wanted, ReturnWanted):
-                plan = self._planner.plan_to_rest(start)
+                plan = self._planner(self._settings.language).plan_to_rest(start)
             else:
-                opened = self._opening(wanted)
+                planner = self._planner(wanted.sentence.language or self._settings.language)
+                opened = _opening(planner, wanted)
                 if opened is not None:
                     opening, after = opened
                     yield Opened(number=wanted.number, plan=opening)
                     position, velocity, acceleration = opening.at(after)
                     start = State(position=position, velocity=velocity, acceleration=acceleration)
                 sentence = wanted.sentence
-                plan = self._planner.plan(sentence.tokens, start, form=sentence.form, hold=wanted.hold)
-        except PlanError as error:
+                plan = planner.plan(sentence.tokens, start, form=sentence.form, hold=wanted.hold)
+        except (PlanError, LutError) as error:
             yield NotPlanned(number=wanted.number, code=error.code, message=str(error))
             return
         yield Planned(number=wanted.number, plan=plan, after=after, took=time.perf_counter() - began)
 
-    def _opening(self, wanted: PlanWanted) -> tuple[Plan, float] | None:
-        if not wanted.opening:
-            return None
-        tokens = wanted.sentence.tokens
-        lasting = _PLANNING_TIME + _PLANNING_TIME_OF_TOKEN * len(tokens)
-        return self._planner.plan_opening(tokens, wanted.start, lasting=lasting)
+
+def _opening(planner: Planner, wanted: PlanWanted) -> tuple[Plan, float] | None:
+    if not wanted.opening:
+        return None
+    tokens = wanted.sentence.tokens
+    lasting = _PLANNING_TIME + _PLANNING_TIME_OF_TOKEN * len(tokens)
+    return planner.plan_opening(tokens, wanted.start, lasting=lasting)
 
 
 def serve(connection: Connection) -> None:
@@ -155,7 +162,7 @@ def serve(connection: Connection) -> None:
                 worker.warm_up()
                 connection.send(Ready())
             elif isinstance(request, PlannerSettings):
-                worker.settings = request
+                worker.configure(request)
             else:
                 for answer in worker.answers(request):
                     connection.send(answer)
@@ -165,8 +172,6 @@ def serve(connection: Connection) -> None:
 
 def main() -> None:
     """Serve the socket whose descriptor is the argument."""
-    # Ctrl-C goes to the whole group of processes; ours ends with the one that asks.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         serve(Connection(int(sys.argv[1])))
     except LutError as error:

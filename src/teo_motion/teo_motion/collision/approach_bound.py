@@ -11,97 +11,101 @@ watched pair in one row bounds it in another.
 
 from __future__ import annotations
 
-from itertools import product
+from itertools import pairwise
 
 import numpy as np
+import pinocchio as pin
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS, HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
-
-# Shoulder to elbow and elbow to wrist [m]: lengths l6 and l7 of the robot description.
-UPPER_ARM, FOREARM = 0.32901, 0.215
-
-# Boxes [m] that hold the upper arm, in its frame at the shoulder; the forearm, at the elbow; the hand of
-# either side with all that its fingers and thumb reach, at the wrist.
-UPPER_ARM_BOX = ((-0.06, 0.06), (-0.06, 0.06), (-0.34, 0.07))
-FOREARM_BOX = ((-0.06, 0.06), (-0.06, 0.06), (-0.30, 0.06))
-HAND_BOX = ((-0.06, 0.16), (-0.13, 0.13), (-0.33, 0.06))
-
-# From the shoulder to the farthest corner of the hand [m].
-ARM_REACH = 0.95
-
-# How far a point of abductor and thumb, of the thumb, of a finger goes for each radian of its axis [m]: what
-# lies beyond each joint that the axis turns, added up.
-ABDUCTOR, THUMB, FINGER = 0.14, 0.11, 0.21
-
-# From the neck's axes to the farthest point of the head; from the trunk's to that of a stretched arm [m].
-NECK, TRUNK_REACH = 0.25, 1.5
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import SIDES, Side
+from teo_description.robot import Robot
+from teo_motion.collision.reach import ArmReach, reach_of
 
 
-def approaches(positions: Array) -> Array:
-    """Bounds of how much any watched pair of parts approaches between one row and the next [m].
+class ApproachBound:
+    """Bounds of how much any watched pair of parts of a robot approaches."""
 
-    Args:
-        positions: Of the 28 commanded joints, on straight lines between rows [rad]. Shape (n, 28).
+    def __init__(self, robot: Robot) -> None:
+        """Take the reach of the robot's parts.
 
-    Returns:
-        Shape (n - 1,).
-    """
-    turned = np.abs(np.diff(positions, axis=0))
-    right, left = (
-        _arm(positions[:, _columns(arm)]) + _digits(turned[:, _columns(hand)])
-        for arm, hand in ((RIGHT_ARM, RIGHT_HAND), (LEFT_ARM, LEFT_HAND))
-    )
-    head = NECK * turned[:, _columns(HEAD)].sum(axis=1)
-    # The trunk carries head and arms alike: they approach pelvis and legs.
-    trunk = TRUNK_REACH * turned[:, _columns(TRUNK)].sum(axis=1)
-    bounds: Array = np.maximum(right + left, np.maximum(right, left) + np.maximum(head, trunk))
-    return bounds
+        Raises:
+            DescriptionError: The joints of an arm do not follow one another ("bad_robot").
+        """
+        self._reach = reach_of(robot)
+        self._arms = tuple(_Arm(robot, side, self._reach.arms[side]) for side in SIDES)
 
+    def approaches(self, positions: Array) -> Array:
+        """Bounds of how much any watched pair approaches between one row and the next [m].
 
-def _arm(positions: Array) -> Array:
-    """How far a point of an arm or its hand goes from row to row, fingers still [m]."""
-    first, second, third, elbow_turn, roll, wrist_turn = positions.T
-    upper = _turn(1, first) @ _turn(0, second) @ _turn(2, third)
-    fore = upper @ _turn(1, elbow_turn)
-    hand = fore @ _turn(2, roll) @ _turn(1, wrist_turn)
-    elbow = -UPPER_ARM * upper[:, :, 2]
-    wrist = elbow - FOREARM * fore[:, :, 2]
-    corners = np.concatenate(
-        [
-            place[:, None] + np.array(list(product(*box))) @ turn.transpose(0, 2, 1)
-            for turn, place, box in (
-                (upper, np.zeros_like(elbow), UPPER_ARM_BOX),
-                (fore, elbow, FOREARM_BOX),
-                (hand, wrist, HAND_BOX),
-            )
-        ],
-        axis=1,
-    )
-    way = np.diff(corners, axis=0)
-    straight = np.sqrt(np.einsum("ijk,ijk->ij", way, way).max(axis=1))
-    beside = np.abs(np.diff(positions, axis=0)).sum(axis=1) ** 2 * ARM_REACH / 8.0
-    displaced: Array = straight + beside
-    return displaced
+        Args:
+            positions: Of the commanded joints, on straight lines between rows [rad]. Shape (n, joints).
+
+        Returns:
+            Shape (n - 1,).
+        """
+        turned = np.abs(np.diff(positions, axis=0))
+        left, right = (arm.way(positions, turned) for arm in self._arms)
+        head, trunk = (_farthest(turned, swings) for swings in (self._reach.head, self._reach.trunk))
+        # The trunk carries head and arms alike: they approach pelvis and legs.
+        bounds: Array = np.maximum(right + left, np.maximum(right, left) + np.maximum(head, trunk))
+        return bounds
 
 
-def _turn(axis: int, angles: Array) -> Array:
-    """Rotations about x, y or z (0, 1, 2) by angles [rad]. Shape (n, 3, 3)."""
-    turns = np.zeros((len(angles), 3, 3))
-    one, other = (axis + 1) % 3, (axis + 2) % 3
-    turns[:, axis, axis] = 1.0
-    turns[:, one, one] = turns[:, other, other] = np.cos(angles)
-    turns[:, other, one] = np.sin(angles)
-    turns[:, one, other] = -turns[:, other, one]
-    return turns
+class _Arm:
+    """Kinematics of an arm from its shoulder on, for many postures at once."""
+
+    def __init__(self, robot: Robot, side: Side, reach: ArmReach) -> None:
+        names, model = robot.humanoid.arm(side), robot.model
+        chain = [model.getJointId(name) for name in names]
+        for before, joint in pairwise(chain):
+            if model.parents[joint] != before:
+                message = (
+                    f"{robot.humanoid.name}: groups.{side}_arm: expected joints that follow one another, "
+                    f"got {model.names[joint]} after {model.names[before]}"
+                )
+                raise DescriptionError("bad_robot", message)
+        self._columns = robot.humanoid.columns(names)
+        self._placements = [model.jointPlacements[joint] for joint in chain]
+        self._crosses = [np.array(pin.skew(_axis(model, joint))) for joint in chain]
+        self._reach = reach
+
+    def way(self, positions: Array, turned: Array) -> Array:
+        """How far a point of the arm or hand goes from row to row [m]. Shape (n - 1,)."""
+        angles = positions[:, self._columns]
+        turn, place = np.eye(3)[None], np.zeros((1, 3))
+        found = []
+        for number, (placement, corners) in enumerate(
+            zip(self._placements, self._reach.corners, strict=True)
+        ):
+            if number:  # where the shoulder is does not matter
+                place = place + turn @ placement.translation
+            turn = turn @ placement.rotation @ _rotations(self._crosses[number], angles[:, number])
+            if len(corners):
+                found.append(place[:, None] + corners @ turn.transpose(0, 2, 1))
+        steps = np.diff(np.concatenate(found, axis=1), axis=0)
+        straight = np.sqrt(np.einsum("ijk,ijk->ij", steps, steps).max(axis=1))
+        beside = turned[:, self._columns].sum(axis=1) ** 2 * self._reach.length / 8.0
+        way: Array = straight + beside + _farthest(turned, self._reach.digits)
+        return way
 
 
-def _digits(turned: Array) -> Array:
-    """How far a point of a finger or thumb goes in the hand [m]."""
-    thumb = ABDUCTOR * turned[:, 0] + THUMB * turned[:, 1]
-    farthest: Array = np.maximum(thumb, FINGER * turned[:, 2:].max(axis=1))
+def _farthest(turned: Array, swings: Array) -> Array:
+    """How far the farthest point goes by what joints turn. Shapes (n, joints), (points, joints) and (n,)."""
+    farthest: Array = (turned @ swings.T).max(axis=1)
     return farthest
 
 
-def _columns(names: tuple[str, ...]) -> list[int]:
-    return [COMMANDED_JOINTS.index(name) for name in names]
+def _axis(model: pin.Model, joint: int) -> Array:
+    """The axis about which a joint turns, in its frame, unit vector."""
+    motion = model.joints[joint].createData()
+    model.joints[joint].calc(motion, np.zeros(model.joints[joint].nq))
+    axis: Array = np.asarray(motion.S).reshape(6, -1)[3:, 0]
+    return axis
+
+
+def _rotations(cross: Array, angles: Array) -> Array:
+    """Rotations about the axis of a cross-product matrix by angles [rad] (Rodrigues). Shape (n, 3, 3)."""
+    sines, cosines = np.sin(angles)[:, None, None], np.cos(angles)[:, None, None]
+    turns: Array = np.eye(3) + sines * cross + (1.0 - cosines) * (cross @ cross)
+    return turns

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import DextraTable
+from teo_description.hand_geometry import HandTable
 from teo_motion.collision.detour import detours, with_detour
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.collision.thumb_way import with_clear_thumbs
@@ -51,7 +51,7 @@ class CollisionAvoidance:
         self,
         timing: SentenceTiming,
         motion_clearance: MotionClearance | None,
-        thumbs: DextraTable | None,
+        thumbs: HandTable | None,
         *,
         limits: MotionLimits,
         least_clearance: float,
@@ -73,6 +73,7 @@ class CollisionAvoidance:
         self._limits = limits
         self._least_clearance = least_clearance
         self._arm_rest = arm_rest
+        self._arms = [column for arm in ARMS for column in limits.humanoid.limb_columns[arm]]
 
     def plan(self, composition: Composition) -> Plan:
         """The motion of a composition, led around the robot's body where it would touch it.
@@ -81,7 +82,7 @@ class CollisionAvoidance:
             PlanError: "self_collision" if no such motion is found; see also `SentenceTiming.timed`.
         """
         times = self._timing.estimate(composition)
-        cleared: set[tuple[int, int]] = set()
+        cleared: set[tuple[str, int]] = set()
         while True:
             route = settle_idle_limbs(
                 composition, times=times, limits=self._limits, arm_rest=self._arm_rest, cleared=cleared
@@ -133,7 +134,7 @@ class CollisionAvoidance:
             for postures in self._free_first(ways, first, second):
                 other = route
                 for posture in reversed(postures):
-                    other = with_detour(other, step, posture)
+                    other = with_detour(other, step, posture, self._arms)
                 found = self._timed(other)
                 round_here = range(step, step + len(postures) + 1)
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
@@ -201,7 +202,7 @@ def _nearest_step(timed: TimedRoute) -> int:
     return min(after - 1, len(timed.times) - 2)
 
 
-def _idle_arms(composition: Composition, collision: _CollisionError) -> set[tuple[int, int]]:
+def _idle_arms(composition: Composition, collision: _CollisionError) -> set[tuple[str, int]]:
     """Arms that a token does not use, each with the waypoint at which it begins."""
     if collision.token >= len(composition.spans):
         return set()

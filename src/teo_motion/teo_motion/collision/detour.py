@@ -9,38 +9,23 @@ from collections.abc import Iterator
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS
-from teo_motion.sentence.composition import ARMS, LIMBS
-from teo_motion.sentence.rest_posture import HANGING
+from teo_motion.sentence.composition import ARMS
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 
-# What lifts the upper arms sideways, brings them forward, opens the elbows; half way, to pass the body.
-_SIDEWAYS = {"SagittalLeftShoulder": 1.0, "SagittalRightShoulder": -1.0}
-_FORWARD = {"FrontalLeftShoulder": -1.0, "FrontalRightShoulder": -1.0}
-_OPEN = {"FrontalLeftElbow": 1.0, "FrontalRightElbow": 1.0}
-# Changes of posture to try, the smallest first [rad].
-_CHANGES = (
-    (0.25, (_SIDEWAYS,)),
-    (0.3, (_FORWARD,)),
-    (0.3, (_OPEN,)),
-    (0.5, (_SIDEWAYS,)),
-    (0.6, (_OPEN,)),
-    (0.4, (_SIDEWAYS, _FORWARD)),
-    (0.5, (_FORWARD, _OPEN)),
-    (0.8, (_SIDEWAYS, _OPEN)),
-    (0.9, (_OPEN, _FORWARD, _SIDEWAYS)),
+# Changes of posture to try, the smallest first [rad]: upper arms that are lifted sideways or come forward,
+# elbows that open.
+_CHANGES: tuple[tuple[float, tuple[str, ...]], ...] = (
+    (0.25, ("sideways",)),
+    (0.3, ("forward",)),
+    (0.3, ("open",)),
+    (0.5, ("sideways",)),
+    (0.6, ("open",)),
+    (0.4, ("sideways", "forward")),
+    (0.5, ("forward", "open")),
+    (0.8, ("sideways", "open")),
+    (0.9, ("open", "forward", "sideways")),
 )
-
-# Both hands well in front of the shoulders, out of the way of everything [rad].
-_APART = {
-    "FrontalLeftShoulder": -0.7,
-    "FrontalRightShoulder": -0.7,
-    "SagittalLeftShoulder": 0.4,
-    "SagittalRightShoulder": -0.4,
-    "FrontalLeftElbow": -0.8,
-    "FrontalRightElbow": -0.8,
-}
 
 
 def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) -> Iterator[tuple[Array, ...]]:
@@ -51,59 +36,63 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
     with hanging arms, a posture from which every sign can be reached.
 
     Args:
-        first: Positions at the waypoint before [rad]. Shape (28,).
-        middle: Positions half way in time without a detour [rad]. Shape (28,).
-        second: Positions at the waypoint after [rad]. Shape (28,).
+        first: Positions at the waypoint before [rad]. Shape (joints,).
+        middle: Positions half way in time without a detour [rad]. Shape (joints,).
+        second: Positions at the waypoint after [rad]. Shape (joints,).
         limits: Limits of the joints, which the postures keep.
     """
+    humanoid = limits.humanoid
+    left, right = (humanoid.limb_columns[arm] for arm in ARMS)
     for angle, directions in _CHANGES:
         yield (_changed(middle, angle, directions, limits),)
-    for arm in ARMS:
-        yield (_with_arm(first, arm, second),)
-    apart, hanging = middle.copy(), middle.copy()
-    for arm in ARMS:
-        apart[list(LIMBS[arm])] = 0.0
-        hanging[list(LIMBS[arm])] = HANGING[list(LIMBS[arm])]
-    for name, angle in _APART.items():
-        apart[COMMANDED_JOINTS.index(name)] = angle
-    for away in (apart, hanging):
+    for arm in (left, right):
+        yield (_with_columns(first, arm, second),)
+    apart = middle.copy()
+    apart[left + right] = 0.0
+    apart = humanoid.with_both_arms(apart, humanoid.file.detour.apart_deg)
+    for away in (_kept(apart, limits), _with_columns(middle, left + right, humanoid.hanging)):
         yield (away,)
-        for arm in ARMS:
-            yield away, _with_arm(away, arm, second)
-        for arm in ARMS:
-            yield _with_arm(first, arm, away), away
-            for later in ARMS:
-                yield _with_arm(first, arm, away), away, _with_arm(away, later, second)
+        for arm in (left, right):
+            yield away, _with_columns(away, arm, second)
+        for arm in (left, right):
+            yield _with_columns(first, arm, away), away
+            for later in (left, right):
+                yield _with_columns(first, arm, away), away, _with_columns(away, later, second)
 
 
-def _with_arm(posture: Array, arm: int, other: Array) -> Array:
-    """A posture with one arm of another."""
-    columns = list(LIMBS[arm])
+def _with_columns(posture: Array, columns: list[int], other: Array) -> Array:
+    """A posture with some joints of another."""
     mixed = posture.copy()
     mixed[columns] = other[columns]
     return mixed
 
 
-def _changed(
-    posture: Array, angle: float, directions: tuple[dict[str, float], ...], limits: MotionLimits
-) -> Array:
-    changed = posture.copy()
+def _changed(posture: Array, angle: float, directions: tuple[str, ...], limits: MotionLimits) -> Array:
+    """A posture with both arms moved in directions of the robot's `Detour`."""
+    humanoid, changed = limits.humanoid, posture.copy()
     for direction in directions:
-        for name, sign in direction.items():
-            changed[COMMANDED_JOINTS.index(name)] += sign * angle
-    kept: Array = np.clip(changed, limits.lower, limits.upper)
+        shares: dict[str, float] = getattr(humanoid.file.detour, direction)
+        for name, share in shares.items():
+            sides = (name, 1.0), (humanoid.mirrored_name(name), humanoid.mirror_signs((name,))[0])
+            for joint, sign in sides:
+                changed[limits.names.index(joint)] += sign * share * angle
+    return _kept(changed, limits)
+
+
+def _kept(posture: Array, limits: MotionLimits) -> Array:
+    kept: Array = np.clip(posture, limits.lower, limits.upper)
     return kept
 
 
-def with_detour(route: Route, step: int, posture: Array) -> Route:
+def with_detour(route: Route, step: int, posture: Array, arms: list[int]) -> Route:
     """Pass through another posture of the arms half way between two waypoints.
 
     Args:
         route: The waypoints.
         step: The waypoint before the detour.
-        posture: Positions to pass through [rad]; those of the arms are used. Shape (28,).
+        posture: Positions to pass through [rad]. Shape (joints,).
+        arms: Columns of the arms, which alone pass through it.
     """
     row = np.full(len(posture), np.nan)
-    columns = [column for arm in ARMS for column in LIMBS[arm]]
-    row[columns] = posture[columns]
+    row[arms] = posture[arms]
     return route.with_waypoint(step, row)

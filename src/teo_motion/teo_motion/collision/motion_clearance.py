@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS
 from teo_description.clearance import Clearance
 from teo_description.robot import Robot
-from teo_motion.collision.approach_bound import approaches
+from teo_motion.collision.approach_bound import ApproachBound
 from teo_motion.sentence.plan import NearestApproach, Samples
 
 # Overlaps between two looks are found to within this [m]: parts that are at least so far apart at their
@@ -36,6 +35,7 @@ class MotionClearance:
     def __init__(self, robot: Robot) -> None:
         """Use a robot, which is not shared with another thread."""
         self._robot = robot
+        self._bound = ApproachBound(robot)
 
     def nearest(self, samples: Samples, *, head_alone: bool = False) -> NearestApproach:
         """The nearest approach of parts along a motion that was found, and no overlap unseen.
@@ -46,10 +46,10 @@ class MotionClearance:
         none can hold an overlap that is deeper by `RESOLUTION` than what was found.
 
         Args:
-            samples: The motion of the 28 commanded joints.
+            samples: The motion of the commanded joints.
             head_alone: Whether only pairs with a part of the head are measured.
         """
-        motion = _Motion(samples)
+        motion = _Motion(samples, self._bound.approaches(samples.positions))
         clearance = self._robot.head_clearance if head_alone else self._robot.clearance
         last = float(motion.path[-1])
         looks = [self._look(motion, 0.0, clearance)]
@@ -74,10 +74,15 @@ class MotionClearance:
         """Whether parts are nearer than a distance [m] in a posture; much faster than `nearest`.
 
         Args:
-            positions: Positions of the commanded joints [rad]. Shape (28,).
+            positions: Positions of the commanded joints [rad]. Shape (joints,).
             distance: Distance to compare with [m].
         """
         return bool(self._robot.contacts(self._configuration(positions), distance))
+
+    @property
+    def head_links(self) -> tuple[str, ...]:
+        """Links that the head's joints move."""
+        return self._robot.humanoid.file.collision.head
 
     def _look(self, motion: _Motion, path: float, clearance: Callable[[Array], Clearance]) -> _Look:
         time, positions = motion.at(path)
@@ -85,7 +90,8 @@ class MotionClearance:
         return path, NearestApproach(distance=float(distance), time=time, first=first, second=second)
 
     def _configuration(self, positions: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self._robot.configuration(dict(zip(COMMANDED_JOINTS, positions.tolist(), strict=True)))
+        joints = self._robot.humanoid.commanded_joints
+        return self._robot.configuration(dict(zip(joints, positions.tolist(), strict=True)))
 
 
 # How far along its path a motion was looked at [m], and what was found there.
@@ -95,9 +101,9 @@ _Look = tuple[float, NearestApproach]
 class _Motion:
     """A motion by how far two parts can have approached each other since its beginning."""
 
-    def __init__(self, samples: Samples) -> None:
+    def __init__(self, samples: Samples, approaches: Array) -> None:
         self._samples = samples
-        self.path: Array = np.concatenate(([0.0], np.cumsum(approaches(samples.positions))))
+        self.path: Array = np.concatenate(([0.0], np.cumsum(approaches)))
 
     def at(self, path: float) -> tuple[float, Array]:
         """Time [s] and positions [rad] on straight lines between samples, which are a period apart."""

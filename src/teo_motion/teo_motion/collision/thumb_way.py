@@ -16,11 +16,9 @@ from itertools import pairwise, product
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_HAND
 from teo_description.hand_contact import TOUCH, thumb_gaps
-from teo_description.hand_geometry import DextraTable
-from teo_motion.sentence.composition import HANDS, LIMBS
-from teo_motion.sentence.rest_posture import REST
+from teo_description.hand_geometry import HandTable
+from teo_motion.sentence.composition import HANDS
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 
@@ -36,7 +34,7 @@ _LOOKS = 13
 _AT_ONCE = 8
 
 
-def with_clear_thumbs(route: Route, table: DextraTable, limits: MotionLimits) -> Route:
+def with_clear_thumbs(route: Route, table: HandTable, limits: MotionLimits) -> Route:
     """A route whose hands keep their thumbs out of their fingers between two signs, where a way is known.
 
     Args:
@@ -45,15 +43,16 @@ def with_clear_thumbs(route: Route, table: DextraTable, limits: MotionLimits) ->
         limits: Limits of the joints.
     """
     rows: dict[int, list[Array]] = {}
+    rest = limits.humanoid.hanging
     for limb in HANDS:
-        columns = list(LIMBS[limb])
+        columns = limits.humanoid.limb_columns[limb]
         hands = route.targets[:, columns]
         fixed = np.flatnonzero(~np.isnan(hands).any(axis=1)).tolist()
         for first, last in pairwise(fixed):
             signed = any(route.token_at(step) is not None for step in range(first, last))
             if signed or (hands[first] == hands[last]).all():
                 continue
-            shapes = _passed(table, hands[first], hands[last], limits.velocity[columns], REST[columns])
+            shapes = _passed(table, hands[first], hands[last], limits.velocity[columns], rest[columns])
             here = rows.setdefault((first + last - 1) // 2, [])
             for index, shape in enumerate(shapes):
                 if index == len(here):
@@ -65,14 +64,19 @@ def with_clear_thumbs(route: Route, table: DextraTable, limits: MotionLimits) ->
     return route
 
 
-def _passed(table: DextraTable, first: Array, second: Array, speed: Array, rest: Array) -> Array:
-    """Handshapes to pass through; none where none are needed, or none keep the thumb clear. Shape (k, 6)."""
+def _passed(table: HandTable, first: Array, second: Array, speed: Array, rest: Array) -> Array:
+    """Handshapes to pass through; none if none are needed, or none keep the thumb clear. Shape (k, axes)."""
     # What an entry has is its own matter: on the way the thumb is no deeper than at either end.
     allowed = min(-TOUCH, float(thumb_gaps(table, np.stack([first, second])).min()))
     for shapes in _ways(first, second, rest):
         count = len(shapes)
         ways = np.concatenate(
-            [np.broadcast_to(first, (count, 1, 6)), shapes, np.broadcast_to(second, (count, 1, 6))], axis=1
+            [
+                np.broadcast_to(first, (count, 1, len(first))),
+                shapes,
+                np.broadcast_to(second, (count, 1, len(second))),
+            ],
+            axis=1,
         )
         times = (np.abs(np.diff(ways, axis=1)) / speed).max(axis=2).sum(axis=1)
         quickest = np.argsort(times, kind="stable")
@@ -81,11 +85,11 @@ def _passed(table: DextraTable, first: Array, second: Array, speed: Array, rest:
             if clear.any():
                 found: Array = shapes[some[clear.argmax()]]
                 return found
-    return np.empty((0, len(RIGHT_HAND)))
+    return np.empty((0, len(first)))
 
 
 def _ways(first: Array, second: Array, rest: Array) -> Iterator[Array]:
-    """What may be passed through, by the number of handshapes: none, one, two. Shapes (n, k, 6)."""
+    """What may be passed through, by the number of handshapes: none, one, two. Shapes (n, k, axes)."""
     yield np.empty((1, 0, len(first)))
     thumbs = [
         *(first[:_THUMB] + share * (second - first)[:_THUMB] for share in _SHARES),
@@ -110,8 +114,8 @@ def _ways(first: Array, second: Array, rest: Array) -> Iterator[Array]:
     yield np.array([[np.concatenate(one), np.concatenate(other)] for one, other in pairs])
 
 
-def _least_gaps(table: DextraTable, ways: Array) -> Array:
-    """The least gap of thumb and fingers on straight ways from shape to shape [m]. Shapes (n, k, 6), (n,)."""
+def _least_gaps(table: HandTable, ways: Array) -> Array:
+    """Least gap of thumb and fingers on straight ways from shape to shape [m]. Shape (n, k, axes), (n,)."""
     shares = np.linspace(0.0, 1.0, _LOOKS)[:, None, None, None]
     shapes = ways[:, :-1] + shares * np.diff(ways, axis=1)
     gaps: Array = thumb_gaps(table, shapes.reshape(-1, ways.shape[2])).reshape(_LOOKS, len(ways), -1)

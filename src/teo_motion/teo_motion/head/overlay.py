@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Lays the head's gestures over a plan: only the two neck joints change, and no time does.
+"""Lays the head's gestures over a plan: only the neck joints that turn and pitch it change, and no time does.
 
 A sign that turns a neck joint itself keeps that joint: its turn belongs to the sign, as the palm's direction
-does, and the neck's 10 deg forward and back leave no room for a sum. The other joint makes the gesture
-meanwhile: TEO shakes its head at a BEBER that bows.
+does, and a neck of 10 deg forward and back, as TEO's, leaves no room for a sum. The other joint makes the
+gesture meanwhile: a head is shaken at a sign that bows.
 
-A head that would touch a hand gives way: it stays as the sign has it during that sign.
+A head that would touch a hand gives way: it stays as the sign has it during that sign. A robot that lacks a
+joint makes no gesture with it.
 """
 
 from __future__ import annotations
@@ -15,15 +16,15 @@ import dataclasses
 import functools
 import math
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-from teo_description import HEAD, HOME
-from teo_description.clearance import HEAD_LINKS
+from teo_description.humanoid import Humanoid
 from teo_motion.collision.motion_clearance import MotionClearance
 from teo_motion.head.lean import Leaning, Times
-from teo_motion.head.neck_paths import GestureWindow, nod_paths, shake_paths
+from teo_motion.head.neck_paths import GestureWindow, NeckPath, nod_paths, shake_paths
 from teo_motion.sentence.head_gestures import Gesture, GestureKind
 from teo_motion.sentence.plan import HeadGesture, NearestApproach, Plan, Samples
 from teo_motion.trajectory.driver_points import driver_points
@@ -33,16 +34,19 @@ from teo_motion.trajectory.splice import Splicer
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
 
-_YAW, _PITCH = (HEAD.index(name) for name in ("AxialNeck", "FrontalNeck"))
+_Axis = Literal["yaw", "pitch"]
 
 # A neck joint that a sign turns by less than this is not turned by it [rad]: entries keep six decimals.
 _TURNED = 1e-3
 
-# Where the head leans in a question [rad]: forward all of the neck's 10 deg but one, which is left to the
-# control error, for they are few; back only slightly, but to be seen (the table's QUIÉN has 6 deg).
+# Where the head leans in a question [rad]: forward all of the 10 deg of TEO's neck but one, which is left to
+# the control error, for they are few; back only slightly, but to be seen (the table's QUIÉN has 6 deg).
 _LEANS = {GestureKind.FORWARD: math.radians(9.0), GestureKind.BACK: math.radians(-8.0)}
 
-_MOVES = {GestureKind.SHAKE: (_YAW, shake_paths), GestureKind.NOD: (_PITCH, nod_paths)}
+_MOVES: Mapping[GestureKind, tuple[_Axis, Callable[[float, GestureWindow], Iterator[NeckPath]]]] = {
+    GestureKind.SHAKE: ("yaw", shake_paths),
+    GestureKind.NOD: ("pitch", nod_paths),
+}
 
 
 class HeadOverlay:
@@ -68,8 +72,7 @@ class HeadOverlay:
         self._limits = limits
         self._least_clearance = least_clearance
         self._strength = strength
-        self._columns = [limits.names.index(name) for name in HEAD]
-        self._splicers = [Splicer(limits.bounds.of([column])) for column in self._columns]
+        self._necks = _neck_joints(limits)
 
     def overlaid(self, plan: Plan, signed: Sequence[SignedToken], gestures: Sequence[Gesture]) -> Plan:
         """A plan with head gestures.
@@ -81,7 +84,7 @@ class HeadOverlay:
         """
         if not self._strength or not gestures:
             return plan
-        kept = _KeptTimes(plan, signed)
+        kept = _KeptTimes(plan, signed, self._limits.humanoid, self._necks)
         while True:
             found = self._laid_over(plan, gestures, kept)
             if found is plan or found.nearest is None or found.nearest.distance >= self._least_clearance:
@@ -115,8 +118,11 @@ class HeadOverlay:
         self, kind: GestureKind, plan: Plan, motions: list[JointMotion], during: Times, kept: _KeptTimes
     ) -> list[HeadGesture]:
         """Lean the head in the motions."""
-        column, angle = self._columns[_PITCH], self._strength * _LEANS[kind]
-        times = kept.times[_PITCH]
+        neck = self._necks.get("pitch")
+        if neck is None:
+            return []
+        column, angle = neck.column, neck.sign * self._strength * _LEANS[kind]
+        times = kept.times["pitch"]
         shifts = [0.0] * len(times)
         for index, (begin, end) in enumerate(times):
             if during[0] <= begin and end <= during[1] and (begin, end) not in kept.fixed:
@@ -124,7 +130,7 @@ class HeadOverlay:
                 own = plan.positions[within, column] * math.copysign(1.0, angle)
                 # No further than the lean itself, which is as far as the neck should go.
                 shifts[index] = math.copysign(max(abs(angle) - max(float(own.max()), 0.0), 0.0), angle)
-        leaning = Leaning(self._splicers[_PITCH], functools.partial(self._least_time, _PITCH))
+        leaning = Leaning(neck.splicer, functools.partial(self._least_time, column))
         lean = leaning.leaned(motions[column], angle, during, times, shifts)
         if lean is None:
             return []
@@ -136,8 +142,10 @@ class HeadOverlay:
     ) -> list[HeadGesture]:
         """Shake or nod the head in the motions, wherever no sign turns the joint."""
         axis, paths = _MOVES[kind]
-        column = self._columns[axis]
-        shown = []
+        neck = self._necks.get(axis)
+        if neck is None:
+            return []
+        column, shown = neck.column, []
         for begin, end in kept.gaps(axis):
             first, last = max(during[0], begin), min(during[1], end)
             if first >= last:
@@ -150,10 +158,10 @@ class HeadOverlay:
                 comes_from_sign=begin > during[0],
                 goes_on_into_sign=end < during[1],
                 motion=motions[column],
-                least_time=functools.partial(self._least_time, axis),
+                least_time=functools.partial(self._least_time, column),
             )
-            for path in paths(self._strength, window):
-                spliced = self._splicers[axis].spliced(motions[column], path.begin, path.points, path.end)
+            for path in paths(neck.sign * self._strength, window):
+                spliced = neck.splicer.spliced(motions[column], path.begin, path.points, path.end)
                 if spliced is not None:
                     motions[column] = spliced
                     start, stop = path.points[0].time, path.points[-1].time
@@ -167,15 +175,16 @@ class HeadOverlay:
             return None
         head = self._motion_clearance.nearest(samples, head_alone=True)
         others = plan.nearest  # all but the head is where it was
-        if not {others.first, others.second}.isdisjoint(HEAD_LINKS):
+        if not {others.first, others.second}.isdisjoint(self._motion_clearance.head_links):
             others = self._motion_clearance.nearest(samples)
         return min(head, others, key=lambda near: near.distance)
 
-    def _least_time(self, axis: int, distance: float) -> float:
-        return float(self._limits.least_times(np.array([distance]), [self._columns[axis]])[0])
+    def _least_time(self, column: int, distance: float) -> float:
+        return float(self._limits.least_times(np.array([distance]), [column])[0])
 
     def _sampled(self, plan: Plan, motions: tuple[JointMotion, ...]) -> Samples:
-        found = driver_points([motions[column] for column in self._columns], plan.times)
+        columns = [neck.column for neck in self._necks.values()]
+        found = driver_points([motions[column] for column in columns], plan.times)
         arrays = []
         for before, changed in (
             (plan.positions, found.positions),
@@ -183,7 +192,7 @@ class HeadOverlay:
             (plan.accelerations, found.accelerations),
         ):
             array = before.copy()
-            array[:-1, self._columns] = changed[:-1]  # at the end the plan is at rest to the digit
+            array[:-1, columns] = changed[:-1]  # at the end the plan is at rest to the digit
             arrays.append(array)
         # No further than the rounding that a splice allows.
         np.clip(arrays[0], self._limits.lower, self._limits.upper, out=arrays[0])
@@ -192,24 +201,53 @@ class HeadOverlay:
         return Samples(times=plan.times, positions=arrays[0], velocities=arrays[1], accelerations=arrays[2])
 
 
+class _NeckJoint(NamedTuple):
+    """A joint that gestures move.
+
+    Attributes:
+        name: Its name.
+        column: Its row among the commanded joints.
+        sign: 1.0 where it counts to the left and forward, else -1.0.
+        splicer: Lays motions over its own.
+    """
+
+    name: str
+    column: int
+    sign: float
+    splicer: Splicer
+
+
+def _neck_joints(limits: MotionLimits) -> Mapping[_Axis, _NeckJoint]:
+    found: dict[_Axis, _NeckJoint] = {}
+    axes: tuple[_Axis, _Axis] = ("yaw", "pitch")
+    for axis in axes:
+        turning = limits.humanoid.head_axis(axis)
+        if turning is not None:
+            column = limits.names.index(turning[0])
+            found[axis] = _NeckJoint(turning[0], column, turning[1], Splicer(limits.bounds.of([column])))
+    return found
+
+
 class _KeptTimes:
     """Times in which each neck joint keeps the motion of the plan."""
 
-    def __init__(self, plan: Plan, signed: Sequence[SignedToken]) -> None:
+    def __init__(
+        self, plan: Plan, signed: Sequence[SignedToken], humanoid: Humanoid, necks: Mapping[_Axis, _NeckJoint]
+    ) -> None:
         """Keep each joint during the signs that turn it themselves.
 
         Attributes:
-            times: For each joint, from and to [s], in order.
-            fixed: Times in which neither joint is changed at all, not even by a lean.
+            times: For each axis, from and to [s], in order.
+            fixed: Times in which no joint is changed at all, not even by a lean.
         """
         # The plan's points end at rest only where its motion stands still for the last period.
         self._duration = plan.duration - float(plan.times[-1] - plan.times[-2])
         self._tokens = [(timing.start, timing.start + timing.duration) for timing in plan.timings]
-        self.times: tuple[list[Times], ...] = tuple([] for _ in HEAD)
+        self.times: dict[_Axis, list[Times]] = {axis: [] for axis in necks}
         self.fixed: set[Times] = set()
         for item, times in zip(signed, self._tokens, strict=True):
-            for axis, name in enumerate(HEAD):
-                if item.sign is not None and _turns(item.sign, name):
+            for axis, neck in necks.items():
+                if item.sign is not None and _turns(item.sign, neck.name, humanoid.home[neck.name]):
                     self.times[axis].append(times)
 
     def fix(self, time: float) -> bool:
@@ -220,19 +258,19 @@ class _KeptTimes:
         if times in self.fixed:
             return False
         self.fixed.add(times)
-        for kept in self.times:
+        for kept in self.times.values():
             if times not in kept:
                 kept.append(times)
                 kept.sort()
         return True
 
-    def gaps(self, axis: int) -> list[Times]:
+    def gaps(self, axis: _Axis) -> list[Times]:
         """Times in which a joint is free for gestures, in order."""
         edges = [0.0, *(edge for times in self.times[axis] for edge in times), self._duration]
         return [(begin, end) for begin, end in zip(edges[::2], edges[1::2], strict=True) if begin < end]
 
 
-def _turns(sign: Sign, joint: str) -> bool:
+def _turns(sign: Sign, joint: str, home: float) -> bool:
     if joint not in sign.joints:
         return False
-    return bool(np.abs(sign.knots[:, sign.joints.index(joint)] - HOME[joint]).max() > _TURNED)
+    return bool(np.abs(sign.knots[:, sign.joints.index(joint)] - home).max() > _TURNED)

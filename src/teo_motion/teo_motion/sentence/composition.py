@@ -21,16 +21,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import (
-    COMMANDED_JOINTS,
-    HEAD,
-    LEFT_ARM,
-    LEFT_HAND,
-    RIGHT_ARM,
-    RIGHT_HAND,
-    TRUNK,
-)
-from teo_motion.sentence.rest_posture import HANGING, REST
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
@@ -40,16 +30,9 @@ from teo_signs.sign import Sign
 from teo_signs.sign_file import LIMIT_TOLERANCE
 from teo_signs.tokens import Token
 
-_INDEX = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
-
-# Columns of head, trunk, left arm, right arm, left hand and right hand.
-LIMBS = tuple(
-    tuple(_INDEX[name] for name in limb) for limb in (HEAD, TRUNK, LEFT_ARM, RIGHT_ARM, LEFT_HAND, RIGHT_HAND)
-)
-
-ARMS, HANDS = (2, 3), (4, 5)
-_ARM_OF_HAND = {4: 2, 5: 3}
-_ELBOW = {2: _INDEX["FrontalLeftElbow"], 3: _INDEX["FrontalRightElbow"]}
+# Names of `Humanoid.limbs`.
+ARMS, HANDS = ("left_arm", "right_arm"), ("left_hand", "right_hand")
+_ARM_OF_HAND = dict(zip(HANDS, ARMS, strict=True))
 
 # Postures closer than this look the same [rad]: 3 deg, 2 cm at the hand.
 _SAME_POSTURE = 0.05
@@ -79,7 +62,7 @@ class TokenSpan:
 class IdleSpan:
     """Waypoints between which a limb is not used: fixed at both, free in between."""
 
-    limb: int
+    limb: str
     first: int
     last: int
 
@@ -89,14 +72,14 @@ class Composition:
     """A sentence as waypoints.
 
     Attributes:
-        targets: Positions [rad], NaN where a joint is free. Shape (n, 28); the first row is the start.
+        targets: Positions [rad], NaN where a joint is free. Shape (n, joints); the first row is the start.
         nominal: Time from each waypoint to the next, as recorded or by the style [s]. Shape (n - 1,).
         strokes: Number of the stroke to which each step from a waypoint to the next belongs: steps near each
             other in one stroke are stretched together. Shape (n - 1,).
         spans: Where each token is signed, in order.
         idle: Where limbs are not used.
         start: State of the joints at the first waypoint.
-        rest: Where idle limbs go, and all limbs at the end [rad]. Shape (28,).
+        rest: Where idle limbs go, and all limbs at the end [rad]. Shape (joints,).
     """
 
     targets: NDArray[np.float64]
@@ -114,17 +97,17 @@ def compose(
     start: State,
     limits: MotionLimits,
     style: SigningStyle,
-    rest: NDArray[np.float64] = REST,
+    rest: NDArray[np.float64],
     hold: float = 0.0,
 ) -> Composition:
     """Lay a sentence out, from a start to rest.
 
     Args:
         signed: Signs and pauses, in order; none for the way to rest alone.
-        start: State of the 28 joints at the beginning.
+        start: State of the commanded joints at the beginning.
         limits: Limits of the joints, which every waypoint keeps.
         style: Times of holds and pauses.
-        rest: Where it ends [rad]. Shape (28,).
+        rest: Where it ends [rad]. Shape (joints,).
         hold: Time for which limbs that stand still at the start stay there first [s].
 
     Raises:
@@ -167,6 +150,8 @@ class _Composer:
     ) -> None:
         self._start = start
         self._limits = limits
+        self._robot = limits.humanoid
+        self._limbs = limits.humanoid.limb_columns
         self._style = style
         self._rest = rest
         self._posture = start.position.copy()
@@ -175,8 +160,8 @@ class _Composer:
         self._strokes: list[int] = []
         self._spans: list[TokenSpan] = []
         self._idle: list[IdleSpan] = []
-        self._fixed_at = [0] * len(LIMBS)  # waypoint at which each limb was fixed last
-        self._used: tuple[int, ...] = ()  # limbs of the latest sign
+        self._fixed_at = dict.fromkeys(self._limbs, 0)  # waypoint at which each limb was fixed last
+        self._used: tuple[str, ...] = ()  # limbs of the latest sign
         self._signs = 0
 
     def add_sign(self, token: Token, sign: Sign, *, ends_word: bool, ends_sentence: bool) -> None:
@@ -218,14 +203,14 @@ class _Composer:
         start = self._start
         still = tuple(
             limb
-            for limb, columns in enumerate(LIMBS)
-            if not (start.velocity[list(columns)].any() or start.acceleration[list(columns)].any())
+            for limb, columns in self._limbs.items()
+            if not (start.velocity[columns].any() or start.acceleration[columns].any())
         )
         if duration > 0.0 and still:
             self._fix(duration, self._posture, still)
 
     def finish(self) -> Composition:
-        self._fix(self._style.transition, self._rest, tuple(range(len(LIMBS))))
+        self._fix(self._style.transition, self._rest, tuple(self._limbs))
         return Composition(
             targets=np.array(self._rows),
             nominal=np.array(self._nominal),
@@ -240,15 +225,15 @@ class _Composer:
         self,
         nominal: float,
         posture: NDArray[np.float64],
-        limbs: tuple[int, ...],
+        limbs: tuple[str, ...],
         *,
         same_stroke: bool = False,
     ) -> None:
         """Add a waypoint at which these limbs are at the posture."""
-        row = np.full(HANGING.size, np.nan)
+        row = np.full(self._rest.size, np.nan)
         waypoint = len(self._rows)
         for limb in limbs:
-            columns = list(LIMBS[limb])
+            columns = self._limbs[limb]
             row[columns] = posture[columns]
             self._posture[columns] = posture[columns]
             if waypoint - self._fixed_at[limb] > 1:
@@ -258,14 +243,14 @@ class _Composer:
         self._nominal.append(nominal)
         self._strokes.append(self._strokes[-1] + (not same_stroke) if self._strokes else 0)
 
-    def _rows_of(self, sign: Sign) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    def _rows_of(self, sign: Sign) -> tuple[NDArray[np.float64], tuple[str, ...]]:
         """Knots of a sign as whole postures, and the limbs they fix."""
-        columns = [_INDEX[name] for name in sign.joints]
-        moved = {limb for limb, members in enumerate(LIMBS) if not set(members).isdisjoint(columns)}
+        columns = self._robot.columns(sign.joints)
+        moved = {limb for limb, members in self._limbs.items() if not set(members).isdisjoint(columns)}
         held = {_ARM_OF_HAND[limb] for limb in moved & _ARM_OF_HAND.keys()} - moved
-        posture = HANGING.copy()
+        posture = self._robot.hanging.copy()
         for limb in held:
-            posture[list(LIMBS[limb])] = self._posture[list(LIMBS[limb])]
+            posture[self._limbs[limb]] = self._posture[self._limbs[limb]]
         rows = np.tile(posture, (len(sign.times), 1))
         lower, upper = self._limits.lower[columns], self._limits.upper[columns]
         # An entry keeps six decimals: half of the last one beyond the limit is the limit.
@@ -278,7 +263,7 @@ class _Composer:
                 f"{sign.gloss}: knots[{knot}]: expected {sign.joints[joint]} within {lower[joint]:.4f} .. "
                 f"{upper[joint]:.4f} rad, got {sign.knots[knot, joint]:.4f} rad",
             )
-        return rows, tuple(sorted(moved | held))
+        return rows, tuple(limb for limb in self._limbs if limb in moved | held)
 
     def _hold(self, token: Token, sign: Sign, *, ends_word: bool, ends_sentence: bool) -> float:
         """How long the last posture is held in all [s], at a scale of 1."""
@@ -290,16 +275,16 @@ class _Composer:
             hold = max(still, self._style.posture_hold)
         return max(hold, self._style.final_hold) if ends_sentence else hold
 
-    def _looks_the_same(self, posture: NDArray[np.float64], limbs: tuple[int, ...]) -> bool:
-        columns = [column for limb in limbs for column in LIMBS[limb]]
+    def _looks_the_same(self, posture: NDArray[np.float64], limbs: tuple[str, ...]) -> bool:
+        columns = [column for limb in limbs for column in self._limbs[limb]]
         difference = np.abs(posture[columns] - self._posture[columns]).max()
         return set(limbs) == set(self._used) and bool(difference < _SAME_POSTURE)
 
-    def _release(self, limbs: tuple[int, ...]) -> None:
+    def _release(self, limbs: tuple[str, ...]) -> None:
         """Part two equal postures: the elbows in use open a little, where they can, or else close."""
         posture = self._posture.copy()
-        for limb in set(limbs) & _ELBOW.keys():
-            elbow = _ELBOW[limb]
+        used = {column for limb in limbs for column in self._limbs[limb]}
+        for elbow in used.intersection(self._robot.columns(self._robot.elbows)):
             angle = self._style.repeat_angle
             # Towards the middle of the elbow's range, which for a raised forearm is opening it.
             middle = (self._limits.lower[elbow] + self._limits.upper[elbow]) / 2.0

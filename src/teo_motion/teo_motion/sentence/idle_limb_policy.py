@@ -23,8 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_motion.sentence.composition import ARMS, LIMBS, Composition, IdleSpan
-from teo_motion.sentence.rest_posture import HANGING
+from teo_motion.sentence.composition import ARMS, Composition, IdleSpan
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 
@@ -35,7 +34,7 @@ def settle_idle_limbs(
     times: NDArray[np.float64],
     limits: MotionLimits,
     arm_rest: float,
-    cleared: Collection[tuple[int, int]] = (),
+    cleared: Collection[tuple[str, int]] = (),
 ) -> Route:
     """Fix the free joints of a composition.
 
@@ -50,14 +49,15 @@ def settle_idle_limbs(
         The composition with idle limbs in place; positions are still NaN where a limb is on its way.
     """
     targets = composition.targets.copy()
+    hanging, limbs = limits.humanoid.hanging, limits.humanoid.limb_columns
     for span in composition.idle:
-        columns = list(LIMBS[span.limb])
+        columns = limbs[span.limb]
         wanted = [
             waypoint for limb, waypoint in cleared if limb == span.limb and span.first < waypoint < span.last
         ]
         if wanted:
             targets[span.first + 1 : min(wanted), columns] = targets[span.first, columns]
-            targets[min(wanted) : span.last, columns] = HANGING[columns]
+            targets[min(wanted) : span.last, columns] = hanging[columns]
         else:
             place, still = _waits(
                 span, targets[:, columns], composition.rest[columns], times, limits, arm_rest
@@ -85,7 +85,7 @@ def _waits(
         limits: See there.
         arm_rest: See there.
     """
-    columns = list(LIMBS[span.limb])
+    columns = limits.humanoid.limb_columns[span.limb]
     before, after = targets[span.first], targets[span.last]
     between = times[span.first + 1 : span.last]
 

@@ -16,12 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
-
-_COLUMN = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
 
 
 def choose_postures(
@@ -31,7 +28,7 @@ def choose_postures(
 
     Args:
         signed: Signs and pauses, in order.
-        start: Positions of the 28 commanded joints at the beginning [rad]. Shape (28,).
+        start: Positions of the commanded joints at the beginning [rad]. Shape (joints,).
         end: The same at the end [rad].
         limits: Limits of the joints, of which velocity, acceleration and jerk count here.
 
@@ -55,14 +52,14 @@ def shortest_postures(signs: Sequence[Sign], start: Array, end: Array, limits: M
 
     Args:
         signs: In order.
-        start: Positions of the 28 commanded joints at the beginning [rad]. Shape (28,).
+        start: Positions of the commanded joints at the beginning [rad]. Shape (joints,).
         end: The same at the end [rad].
         limits: Limits of the joints.
     """
     if not signs:
         return []
     total = np.zeros(1)
-    ends, joints = start[None], COMMANDED_JOINTS
+    ends, joints = start[None], limits.names
     origins: list[NDArray[np.intp]] = []
     before: Sign | None = None
     for sign in signs:
@@ -74,7 +71,7 @@ def shortest_postures(signs: Sequence[Sign], start: Array, end: Array, limits: M
         origins.append(cost.argmin(axis=0))
         total = cost.min(axis=0) + _strokes(paths, sign, limits)
         ends, joints, before = paths[:, -1], sign.joints, sign
-    total = total + _least_times(ends, joints, end[None], COMMANDED_JOINTS, limits)[:, 0]
+    total = total + _least_times(ends, joints, end[None], limits.names, limits)[:, 0]
     chosen = [int(total.argmin())]
     for origin in reversed(origins[1:]):
         chosen.append(int(origin[chosen[-1]]))
@@ -94,10 +91,11 @@ def _least_times(
     A joint that one of two signs leaves free waits where nobody knows yet, and counts for nothing.
     """
     where = {name: index for index, name in enumerate(from_joints)}
-    both = [(where[name], index, _COLUMN[name]) for index, name in enumerate(to_joints) if name in where]
+    both = [(where[name], index) for index, name in enumerate(to_joints) if name in where]
     if not both:
         return np.zeros((len(ends), len(begins)))
-    first, second, columns = (list(part) for part in zip(*both, strict=True))
+    first, second = (list(part) for part in zip(*both, strict=True))
+    columns = limits.humanoid.columns(to_joints[index] for index in second)
     between = begins[None][:, :, second] - ends[:, None][:, :, first]
     times: Array = limits.least_times(between, columns).max(axis=2)
     return times
@@ -105,7 +103,7 @@ def _least_times(
 
 def _strokes(paths: Array, sign: Sign, limits: MotionLimits) -> Array:
     """Least time of the sign itself in each posture, at its joints' greatest speed [s]. Shape (a,)."""
-    columns = [_COLUMN[name] for name in sign.joints]
+    columns = limits.humanoid.columns(sign.joints)
     needed = (np.abs(np.diff(paths, axis=1)) / limits.velocity[columns]).max(axis=2)
     times: Array = np.maximum(needed, np.diff(sign.times)).sum(axis=1)
     return times

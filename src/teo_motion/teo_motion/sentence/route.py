@@ -20,7 +20,7 @@ class Route:
     """Waypoints with every limb in place.
 
     Attributes:
-        targets: Positions [rad], NaN where a joint is on its way. Shape (n, 28).
+        targets: Positions [rad], NaN where a joint is on its way. Shape (n, joints).
         nominal: Least time from each waypoint to the next [s]. Shape (n - 1,).
         strokes: Number of the stroke of each step. Shape (n - 1,).
         spans: Where each token is signed.
@@ -45,7 +45,7 @@ class Route:
 
         Args:
             step: The waypoint before it.
-            row: Positions to pass through [rad], NaN where a joint goes on freely. Shape (28,).
+            row: Positions to pass through [rad], NaN where a joint goes on freely. Shape (joints,).
         """
         half = self.nominal[step] / 2.0
         return dataclasses.replace(

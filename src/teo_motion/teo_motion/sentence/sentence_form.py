@@ -5,11 +5,12 @@
 from __future__ import annotations
 
 import enum
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from teo_common.text_folding import without_accents
+from teo_sign_languages import DEFAULT_LANGUAGE, HeadGrammar, load_language
 from teo_signs.errors import PlanError
 from teo_signs.tokens import PRINTED_PAUSE, Kind, Token
 
@@ -35,19 +36,6 @@ STATEMENT = SentenceForm()
 
 _MARKS = "¿?¡!"
 
-# The accent tells CUÁNDO, which asks, from CUANDO; letters have none.
-_ASKING = frozenset(
-    {"QUÉ", "QUIÉN", "QUIÉNES", "CUÁL", "CUÁLES", "CÓMO", "CUÁNDO", "DÓNDE", "ADÓNDE"}
-    | {"CUÁNTO", "CUÁNTA", "CUÁNTOS", "CUÁNTAS"}
-)
-_ASKING_SPELLED = frozenset(without_accents(gloss) for gloss in _ASKING)
-
-# Without accents, whether spelled or not.
-_NEGATIVE = frozenset(
-    {"NO", "NI", "NUNCA", "JAMAS", "NADA", "NADIE", "NINGUN", "NINGUNO", "NINGUNA", "TAMPOCO"}
-)
-_NOT_NEGATIVE = frozenset({"DE_NADA"})  # "you are welcome"
-
 
 class Word(NamedTuple):
     """A sign, or the letters and numbers that spell one word."""
@@ -60,39 +48,47 @@ class Word(NamedTuple):
     """Its gloss, or what is spelled; empty for a pause between words."""
     spelled: bool
     """Whether it is made of letters and numbers."""
-
-    @property
-    def asks(self) -> bool:
-        """Whether it is a question word: POR_QUÉ and PARA_QUÉ ask as QUÉ does."""
-        asking = _ASKING_SPELLED if self.spelled else _ASKING
-        return not asking.isdisjoint(self.text.split(PRINTED_PAUSE))
-
-    @property
-    def negates(self) -> bool:
-        """Whether it is a negative sign: NO_HAY, HABER_NO and TODAVÍA_NO negate as NO does."""
-        plain = without_accents(self.text)
-        return plain not in _NOT_NEGATIVE and not _NEGATIVE.isdisjoint(plain.split(PRINTED_PAUSE))
+    asks: bool
+    """Whether it is a question word."""
+    negates: bool
+    """Whether it is a negative sign."""
 
 
-def words_of(tokens: Sequence[Token]) -> tuple[Word, ...]:
+@functools.cache
+def default_grammar() -> HeadGrammar:
+    """What the head says in the default language."""
+    return load_language(DEFAULT_LANGUAGE).head
+
+
+def words_of(tokens: Sequence[Token], grammar: HeadGrammar) -> tuple[Word, ...]:
     """Group tokens by words: letters, numbers and the pauses among them by their word index."""
-    words: list[Word] = []
+    words: list[tuple[int, int, str, bool]] = []
     for index, token in enumerate(tokens):
         joins = token.spelled or (
             token.kind == Kind.PAUSE and 0 < index < len(tokens) - 1 and tokens[index + 1].spelled
         )
         text = PRINTED_PAUSE if joins and not token.spelled else token.gloss
-        if joins and words and words[-1].spelled and tokens[index - 1].word_index == token.word_index:
-            words[-1] = words[-1]._replace(last=index, text=words[-1].text + text)
+        first, _, before, spelled = words[-1] if words else (0, 0, "", False)
+        if joins and spelled and tokens[index - 1].word_index == token.word_index:
+            words[-1] = (first, index, before + text, True)
         else:
             gloss = "" if token.kind == Kind.PAUSE else token.gloss
-            words.append(Word(index, index, gloss, token.spelled))
-    return tuple(words)
+            words.append((index, index, gloss, token.spelled))
+    return tuple(
+        Word(first, last, text, spelled, grammar.asks(text, spelled=spelled), grammar.negates(text))
+        for first, last, text, spelled in words
+    )
 
 
-def printed_form(text: str, tokens: Sequence[Token]) -> SentenceForm:
-    """The form of a sentence in the printed form: its marks and signs tell, as far as they can."""
-    words = words_of(tokens)
+def printed_form(text: str, tokens: Sequence[Token], grammar: HeadGrammar | None = None) -> SentenceForm:
+    """The form of a sentence in the printed form: its marks and signs tell, as far as they can.
+
+    Args:
+        text: The printed form.
+        tokens: Its tokens.
+        grammar: Of the sentence's language; None for the default one.
+    """
+    words = words_of(tokens, grammar or default_grammar())
     sentence_type = SentenceType.STATEMENT
     if "?" in text:
         asking = any(word.asks for word in words)

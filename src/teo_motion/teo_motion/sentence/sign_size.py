@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Makes signs smaller for which TEO is too slow, and repeats them less often.
+"""Makes signs smaller for which a robot is too slow, and repeats them less often.
 
 A sign keeps its shape when it is made smaller, as people do who sign fast or to someone near; made slowly it
 falls apart into postures. A sign that would take longer than asked for is therefore drawn together around
@@ -23,16 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
 from teo_description.robot import Robot
 from teo_motion.trajectory.limits import MotionLimits
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind
-
-_COLUMN = {name: index for index, name in enumerate(COMMANDED_JOINTS)}
-_ARMS_AND_TRUNK = frozenset((*TRUNK, *LEFT_ARM, *RIGHT_ARM))
-_HANDS = frozenset((*LEFT_HAND, *RIGHT_HAND))
 
 # A hand and what is nearer to it than this touch, or are meant to [m]: those that touch stand off by up to 22
 # mm, as the shapes that must not overlap are larger than the parts.
@@ -78,13 +73,18 @@ class SignSize:
         """
         self._robot = robot
         self._limits = limits
+        humanoid = robot.humanoid
+        self._arms_and_trunk = {*humanoid.trunk, *humanoid.arm("left"), *humanoid.arm("right")}
+        self._hands = {*humanoid.hand("left"), *humanoid.hand("right")}
+        palm = humanoid.file.hand.palm
+        self._palm_frames = humanoid.mirrored_name(palm), palm
         self._sizes = tuple(np.arange(1.0 - _STEP, least - 1e-9, -_STEP).tolist())
         self._touching: WeakKeyDictionary[Sign, NDArray[np.bool_]] = WeakKeyDictionary()
 
     def fitted(
         self, signed: Sequence[SignedToken], captured: Sequence[SignedToken]
     ) -> tuple[SignedToken, ...]:
-        """Words in the largest size that TEO makes in their time, or in the smallest allowed.
+        """Words in the largest size that the robot makes in their time, or in the smallest allowed.
 
         Args:
             signed: Signs and pauses, each sign in the posture that was chosen for it.
@@ -106,7 +106,7 @@ class SignSize:
             palms = self._palms(_with_knots(captured, captured.knots[kept], times))
             sign = self._smaller(sign, palms, centre, scale)
         if not self._fits(sign, scale):
-            flowing = _flowing(sign, 1.0 - self._sizes[-1])
+            flowing = self._flowing(sign, 1.0 - self._sizes[-1])
             if not self._touches(_with_between(flowing), _CLEAR).any():
                 sign = flowing
         return dataclasses.replace(item, sign=sign)
@@ -118,11 +118,11 @@ class SignSize:
         """
         found, arms = sign, 1.0
         for size in self._sizes:
-            smaller = _drawn_together(sign, centre, arms=size, hands=size)
+            smaller = self._drawn_together(sign, centre, arms=size, hands=size)
             if _look_the_same(palms, self._palms(smaller)):
                 arms = size
             else:
-                smaller = _drawn_together(sign, centre, arms=arms, hands=size)
+                smaller = self._drawn_together(sign, centre, arms=arms, hands=size)
             if self._touches(smaller, 0.0).any():
                 break
             found = smaller
@@ -134,16 +134,14 @@ class SignSize:
         """Poses of both palms at every knot. Shape (n, 2, 4, 4)."""
         return np.stack(
             [
-                self._robot.placements(
-                    self._robot.configuration(sign.pose(knot)), ("left_palm", "right_palm")
-                )
+                self._robot.placements(self._robot.configuration(sign.pose(knot)), self._palm_frames)
                 for knot in range(len(sign.knots))
             ]
         )
 
     def _fits(self, sign: Sign, scale: float) -> bool:
         """Whether the joints are fast enough for a sign, about."""
-        speed = _MEAN_SPEED * self._limits.velocity[[_COLUMN[name] for name in sign.joints]]
+        speed = _MEAN_SPEED * self._limits.velocity[self._limits.humanoid.columns(sign.joints)]
         needed = (np.abs(np.diff(sign.knots, axis=0)) / speed).max(axis=1)
         asked = np.diff(sign.times) * scale
         return bool(np.maximum(needed, asked).sum() <= asked.sum())
@@ -174,6 +172,29 @@ class SignSize:
                 touching[index] = any(not meant or item.may_be_meant for item in near)
         return touching
 
+    def _drawn_together(self, sign: Sign, centre: Array, *, arms: float, hands: float) -> Sign:
+        """A sign whose arms, with the trunk, and fingers that come back are of some size [1]."""
+        knots, sizes = sign.knots, np.ones(len(sign.joints))
+        for index, name in enumerate(sign.joints):
+            if name in self._arms_and_trunk:
+                sizes[index] = arms
+            elif name in self._hands and len(_returns(knots[:, [index]], 0)) > 1:
+                sizes[index] = hands
+        knots = knots + (1.0 - sizes) * (centre - knots)
+        return _with_knots(sign, knots, sign.times)
+
+    def _flowing(self, sign: Sign, share: float) -> Sign:
+        """A sign whose fingers begin their way before a knot and end it after, by a share of it [1].
+
+        Fingers that fold one after the other then move together for a while, as people's do, and those that
+        come back go less far; how the hand begins and ends stays.
+        """
+        knots = sign.knots.copy()
+        columns = [index for index, name in enumerate(sign.joints) if name in self._hands]
+        inner = knots[1:-1, columns]
+        knots[1:-1, columns] = inner + share * ((knots[:-2, columns] + knots[2:, columns]) / 2.0 - inner)
+        return _with_knots(sign, knots, sign.times)
+
 
 def _look_the_same(first: Array, second: Array) -> bool:
     """Whether palms are where and as others are. Shape (n, 2, 4, 4) each."""
@@ -181,31 +202,6 @@ def _look_the_same(first: Array, second: Array) -> bool:
     # Trace of the rotation from one to the other: 1 + 2 cos of its angle.
     traces = (first[..., :3, :3] * second[..., :3, :3]).sum(axis=(-2, -1))
     return bool((shifts <= _SHIFT).all() and (traces >= 1.0 + 2.0 * np.cos(_TURN)).all())
-
-
-def _drawn_together(sign: Sign, centre: Array, *, arms: float, hands: float) -> Sign:
-    """A sign whose arms, with the trunk, and fingers that come back are of some size [1]."""
-    knots, sizes = sign.knots, np.ones(len(sign.joints))
-    for index, name in enumerate(sign.joints):
-        if name in _ARMS_AND_TRUNK:
-            sizes[index] = arms
-        elif name in _HANDS and len(_returns(knots[:, [index]], 0)) > 1:
-            sizes[index] = hands
-    knots = knots + (1.0 - sizes) * (centre - knots)
-    return _with_knots(sign, knots, sign.times)
-
-
-def _flowing(sign: Sign, share: float) -> Sign:
-    """A sign whose fingers begin their way before a knot and end it after, by a share of it [1].
-
-    Fingers that fold one after the other then move together for a while, as people's do, and those that come
-    back go less far; how the hand begins and ends stays.
-    """
-    knots = sign.knots.copy()
-    columns = [index for index, name in enumerate(sign.joints) if name in _HANDS]
-    inner = knots[1:-1, columns]
-    knots[1:-1, columns] = inner + share * ((knots[:-2, columns] + knots[2:, columns]) / 2.0 - inner)
-    return _with_knots(sign, knots, sign.times)
 
 
 def _with_between(sign: Sign) -> Sign:

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import COMMANDED_JOINTS, DEFAULT_HAND_DRIVE, DescriptionError, joint_limits
+from teo_description import DescriptionError
+from teo_description.humanoid import Humanoid, load_humanoid
 from teo_motion.trajectory.ruckig_segment import Bounds
 from teo_signs.errors import PlanError
 
@@ -36,7 +37,7 @@ class MotionLimits:
     """Limits of every commanded joint.
 
     Attributes:
-        names: Joints, in the order of the arrays.
+        humanoid: Whose they are.
         lower: Least position [rad]. Shape (n,), as all below.
         upper: Greatest position [rad].
         velocity: Greatest speed [rad/s].
@@ -44,7 +45,7 @@ class MotionLimits:
         jerk: Greatest jerk, either way [rad/s^3].
     """
 
-    names: tuple[str, ...]
+    humanoid: Humanoid
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]
     velocity: NDArray[np.float64]
@@ -54,17 +55,19 @@ class MotionLimits:
     @classmethod
     def of_robot(
         cls,
+        humanoid: Humanoid | None = None,
         *,
         acceleration: float = DEFAULT_ACCELERATION,
         jerk: float = DEFAULT_JERK,
-        hand_drive: str = DEFAULT_HAND_DRIVE,
+        hand_drive: str = "",
     ) -> MotionLimits:
         """Positions and velocities of the robot description, with one acceleration and jerk for all joints.
 
         Args:
+            humanoid: The robot; None: the default one.
             acceleration: [rad/s^2], above 0.
             jerk: [rad/s^3], above 0.
-            hand_drive: Gearmotors of the hands, one of `HAND_DRIVES`.
+            hand_drive: Gearmotors of the hands, one of the robot's `hand_drives`; empty: its default.
 
         Raises:
             PlanError: Not finite or not above 0, or no such drive ("bad_limits").
@@ -74,17 +77,23 @@ class MotionLimits:
                 message = f"{name}: expected a finite number above 0, got {value}"
                 raise PlanError("bad_limits", message)
         try:
-            limits = joint_limits(COMMANDED_JOINTS, hand_drive=hand_drive)
+            humanoid = load_humanoid() if humanoid is None else humanoid
+            limits = humanoid.limits(hand_drive=hand_drive)
         except DescriptionError as error:
             raise PlanError("bad_limits", str(error)) from error
         return cls(
-            names=tuple(limits.names),
+            humanoid=humanoid,
             lower=limits.lower,
             upper=limits.upper,
             velocity=limits.velocity,
             acceleration=np.full(len(limits.names), acceleration),
             jerk=np.full(len(limits.names), jerk),
         )
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Joints, in the order of the arrays: all that are commanded."""
+        return self.humanoid.commanded_joints
 
     @property
     def bounds(self) -> Bounds:

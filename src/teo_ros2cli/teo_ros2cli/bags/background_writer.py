@@ -59,7 +59,9 @@ class BackgroundWriter:
         """
         if self._failure is not None:
             raise Ros2CliError(
-                "bag_unwritable", f"The bag cannot be written: {self._failure}"
+                "bag_unwritable",
+                f"The bag cannot be written: {self._failure}. What came before can be read; "
+                f"`ros2 bag reindex {self._writer.directory}` finishes it, where there is room.",
             ) from self._failure
 
     def add_topic(self, topic: TopicRecord, schema: Schema) -> None:

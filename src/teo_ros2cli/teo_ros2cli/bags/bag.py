@@ -75,18 +75,24 @@ class Bag:
 
 # Messages are stored in the order in which their topics' queues were emptied, nearly that of their times.
 _LOOK_AHEAD = 512
+# Bytes of messages at which fewer are held back: about 4 s of colour and depth images of 640x480.
+_LOOK_AHEAD_BYTES = 200_000_000
 
 
 def _in_order(messages: Iterator[StoredMessage], start: int) -> Iterator[StoredMessage]:
-    """Sort messages that are nearly in order, holding back `_LOOK_AHEAD` of them."""
+    """Sort messages that are nearly in order, holding back `_LOOK_AHEAD` of them, fewer if they are large."""
     heap: list[tuple[int, int, StoredMessage]] = []
     counter = itertools.count()
+    held = 0
     for message in messages:
         if message.log_time < start:
             continue
         heapq.heappush(heap, (message.log_time, next(counter), message))
-        if len(heap) > _LOOK_AHEAD:
-            yield heapq.heappop(heap)[2]
+        held += len(message.data)
+        while len(heap) > _LOOK_AHEAD or held > _LOOK_AHEAD_BYTES:
+            first = heapq.heappop(heap)[2]
+            held -= len(first.data)
+            yield first
     while heap:
         yield heapq.heappop(heap)[2]
 

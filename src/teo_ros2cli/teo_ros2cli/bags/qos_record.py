@@ -162,15 +162,23 @@ def serves(offer: QosRecord, request: QosRecord) -> bool:
     return reliable and durable
 
 
+# Messages that wait for a subscription that missed them and asks again, which it can do with every heartbeat
+# (a tenth of a second): half a second of 200 Hz. A latched topic keeps its own number: late ones get so many.
+_KEPT = 100
+
+
 def offer_for(topic: str, recorded: Sequence[QosRecord]) -> Adapted:
-    """Choose the profile to publish a recorded topic with: the recorded one if all its publishers agreed."""
+    """Choose the profile to publish a recorded topic with: the recorded one if all its publishers agreed.
+
+    Unless it is latched its queue is deeper, so that what is missed can be sent again.
+    """
     if not recorded:
-        return Adapted(QosRecord(), ())
+        return Adapted(QosRecord(depth=_KEPT), ())
     # History and lifespan do not decide who connects to whom.
     effective = {replace(profile, history="keep_last", depth=0, lifespan=INFINITE) for profile in recorded}
     if len(effective) > 1:
         return Adapted(
-            QosRecord(),
+            QosRecord(depth=_KEPT),
             (
                 f"Not all original publishers on topic {topic} offered the same QoS profiles; "
                 "publishing with the default profile.",
@@ -181,6 +189,8 @@ def offer_for(topic: str, recorded: Sequence[QosRecord]) -> Adapted:
         profile.history == "keep_last" and not profile.depth
     ):
         profile = replace(profile, history="keep_last", depth=QosRecord.depth)
+    if profile.durability != "transient_local" and profile.history == "keep_last":
+        profile = replace(profile, depth=max(profile.depth, _KEPT))
     return Adapted(_settled(profile), ())
 
 

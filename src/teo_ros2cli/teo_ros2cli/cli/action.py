@@ -46,7 +46,8 @@ def add_list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_list(options: argparse.Namespace) -> int:
     """Print the actions of the graph."""
-    return print_names(options, _actions(options))
+    with known_graph(options) as node:
+        return print_names(options, _actions(node))
 
 
 def add_type_arguments(parser: argparse.ArgumentParser) -> None:
@@ -57,14 +58,14 @@ def add_type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_type(options: argparse.Namespace) -> int:
     """Print the types of an action; exit status 1 if there is no such action."""
-    return print_types(_actions(options), options.action_name)
+    with known_graph(options) as node:
+        return print_types(lambda: _actions(node), options.action_name)
 
 
-def _actions(options: argparse.Namespace) -> NamesAndTypes:
+def _actions(node: Any) -> NamesAndTypes:
     from rclpy.action import get_action_names_and_types
 
-    with known_graph(options) as node:
-        return list(get_action_names_and_types(node))
+    return list(get_action_names_and_types(node))
 
 
 def add_info_arguments(parser: argparse.ArgumentParser) -> None:

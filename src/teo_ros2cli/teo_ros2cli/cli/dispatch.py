@@ -77,16 +77,27 @@ class _ListingFormatter(argparse.HelpFormatter):
         return super()._fill_text(text, width, indent)
 
 
+def add_arguments(parser: argparse.ArgumentParser, entry: Entry) -> None:
+    """Add an entry's own arguments to a parser, if it has any."""
+    add = f"add_{entry.verb}_arguments" if entry.verb else "add_arguments"
+    getattr(importlib.import_module(entry.module), add, lambda _parser: None)(parser)
+
+
+def verbs_of(entry: Entry) -> Mapping[str, Entry] | None:
+    """Return what there is to choose from after an entry; None if it is chosen to its end."""
+    verbs: Mapping[str, Entry] | None = getattr(importlib.import_module(entry.module), "VERBS", None)
+    return None if entry.verb else verbs
+
+
 def _call(program: str, entry: Entry, words: list[str]) -> int:
-    module = importlib.import_module(entry.module)
+    verbs = verbs_of(entry)
+    if verbs is not None:
+        return choose(program, entry.summary, "verb", verbs, words)
+    parser = argparse.ArgumentParser(prog=program, description=entry.summary)
+    add_arguments(parser, entry)
+    run = getattr(importlib.import_module(entry.module), f"run_{entry.verb}" if entry.verb else "run")
     try:
-        if not entry.verb and hasattr(module, "VERBS"):
-            return choose(program, entry.summary, "verb", module.VERBS, words)
-        parser = argparse.ArgumentParser(prog=program, description=entry.summary)
-        add_arguments = f"add_{entry.verb}_arguments" if entry.verb else "add_arguments"
-        if hasattr(module, add_arguments):
-            getattr(module, add_arguments)(parser)
-        return int(getattr(module, f"run_{entry.verb}" if entry.verb else "run")(parser.parse_args(words)))
+        return int(run(parser.parse_args(words)))
     except Ros2CliError as error:
         print(error, file=sys.stderr)
         return 1

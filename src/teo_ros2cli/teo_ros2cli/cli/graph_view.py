@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -102,9 +102,11 @@ def print_names(options: argparse.Namespace, found: NamesAndTypes) -> int:
     return 0
 
 
-def print_types(found: NamesAndTypes, name: str) -> int:
+def print_types(look: Callable[[], NamesAndTypes], name: str) -> int:
     """Print the types of a name, a line each; return the exit status: 1 if there is no such name."""
-    types = dict(found).get(full_name(name), ())
+    from teo_ros2cli.graph.cli_node import look_again
+
+    types = look_again(lambda: dict(look()).get(full_name(name), ()))
     for kind in types:
         print(kind)
     return 0 if types else 1

@@ -61,8 +61,10 @@ def run_info(options: argparse.Namespace) -> int:
 
     full = full_name(options.node_name)
     namespace, _, name = full.rpartition("/")
+    from teo_ros2cli.graph.cli_node import look_again
+
     with known_graph(options, names=True) as node:
-        count = node_names(node).count(full)
+        count = look_again(lambda: node_names(node).count(full))
         if not count:
             raise Ros2CliError("node_unknown", f"Unable to find node '{options.node_name}'")
         if count > 1:

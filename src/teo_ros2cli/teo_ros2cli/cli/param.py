@@ -294,8 +294,9 @@ class _Parameters:
         from rcl_interfaces import srv
 
         from teo_ros2cli.graph.calls import call
+        from teo_ros2cli.graph.cli_node import look_again
 
-        if node not in node_names(self._node):
+        if not look_again(lambda: node in node_names(self._node)):
             raise Ros2CliError("node_unknown", "Node not found")
         cls = getattr(srv, service.title().replace("_", ""))
         return call(self._node, cls, f"{node}/{service}", cls.Request(**request), timeout=self._timeout)

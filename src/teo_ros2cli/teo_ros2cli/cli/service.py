@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import time
+from typing import Any
 
 from teo_ros2cli.bags.selection import is_hidden
 from teo_ros2cli.cli.dispatch import Entry
@@ -18,16 +20,19 @@ from teo_ros2cli.cli.graph_view import (
 )
 from teo_ros2cli.cli.options import (
     add_graph_arguments,
+    add_qos_arguments,
     add_values_argument,
     full_name,
     given_values,
     positive_float,
 )
+from teo_ros2cli.cli.topic.echo import Printer, add_printing_arguments
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import InterfaceName
 
 VERBS = {
     "call": Entry(__name__, "Call a service", "call"),
+    "echo": Entry(__name__, "Echo a service", "echo"),
     "find": Entry(__name__, "Output a list of available services of a given type", "find"),
     "info": Entry(__name__, "Print information about a service", "info"),
     "list": Entry(__name__, "Output a list of available services", "list"),
@@ -55,7 +60,8 @@ def add_type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run_type(options: argparse.Namespace) -> int:
     """Print the types of a service; exit status 1 if there is no such service."""
-    return print_types(_services(options, True), options.service_name)
+    with known_graph(options) as node:
+        return print_types(lambda: _served(node), options.service_name)
 
 
 def add_find_arguments(parser: argparse.ArgumentParser) -> None:
@@ -85,9 +91,11 @@ def run_info(options: argparse.Namespace) -> int:
     Raises:
         Ros2CliError: `service_unknown`.
     """
+    from teo_ros2cli.graph.cli_node import look_again
+
     service = full_name(options.service_name)
     with known_graph(options) as node:
-        types = dict(node.get_service_names_and_types()).get(service)
+        types = look_again(lambda: _types(node, service))
         if not types:
             raise Ros2CliError("service_unknown", f"Unknown service '{options.service_name}'")
         print(f"Type: {', '.join(types)}")
@@ -142,11 +150,70 @@ def run_call(options: argparse.Namespace) -> int:
             time.sleep(1.0 / options.rate)
 
 
+def add_echo_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of `echo`."""
+    add_graph_arguments(parser)
+    parser.add_argument("service_name", help="Name of the ROS service to echo from (e.g. '/add_two_ints')")
+    parser.add_argument("service_type", nargs="?", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
+    add_qos_arguments(parser, "subscribe", "services_default")
+    add_printing_arguments(parser)
+    parser.set_defaults(field=None, raw=False, filter_expression=None, once=False, include_message_info=False)
+
+
+def run_echo(options: argparse.Namespace) -> int:
+    """Print the requests and responses of a service whose node has introspection switched on.
+
+    Raises:
+        Ros2CliError: `service_unknown`, `invalid_type`.
+    """
+    from teo_ros2cli.graph.adaptive import AdaptiveSubscription
+    from teo_ros2cli.graph.cli_node import cli_node, look_again, settle
+    from teo_ros2cli.graph.listening import listen
+    from teo_ros2cli.graph.qos import from_options, to_record
+    from teo_ros2cli.messages.classes import interface_class
+
+    service = full_name(options.service_name)
+    events = f"{service}/_service_event"
+    with cli_node(use_sim_time=options.use_sim_time) as node:
+        settle(node, options.spin_time)
+        types = [options.service_type] if options.service_type else look_again(lambda: _types(node, service))
+        if not types:
+            raise Ros2CliError("service_unknown", f"Unknown service '{options.service_name}'")
+        if not node.count_publishers(events):
+            print(f"'{service}' tells of no calls: its node has to switch introspection on", file=sys.stderr)
+        subscription = AdaptiveSubscription(
+            node,
+            events,
+            interface_class(types[0], "srv").Event,
+            _EventPrinter(options),
+            fixed=to_record(from_options(options)) if options.qos_given else None,
+            warn=lambda sentence: print(sentence, file=sys.stderr),
+        )
+        listen(node, [subscription], until=lambda: False, deadline=None)
+    return 0
+
+
+# By the numbers of service_msgs/msg/ServiceEventInfo.
+_EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
+
+
+class _EventPrinter(Printer):
+    def _tree(self, message: Any) -> Any:
+        tree = super()._tree(message)
+        tree["info"]["event_type"] = _EVENTS[message.info.event_type]
+        return tree
+
+
+def _types(node: Any, service: str) -> list[str]:
+    return list(dict(node.get_service_names_and_types()).get(service, ()))
+
+
 def _services(options: argparse.Namespace, hidden: bool) -> NamesAndTypes:
     with known_graph(options) as node:
-        own = dict(node.get_service_names_and_types_by_node(node.get_name(), node.get_namespace()))
-        return [
-            (name, types)
-            for name, types in node.get_service_names_and_types()
-            if name not in own and (hidden or not is_hidden(name))
-        ]
+        return [(name, types) for name, types in _served(node) if hidden or not is_hidden(name)]
+
+
+def _served(node: Any) -> NamesAndTypes:
+    """The services of the graph, the command's own left out."""
+    own = dict(node.get_service_names_and_types_by_node(node.get_name(), node.get_namespace()))
+    return [(name, types) for name, types in node.get_service_names_and_types() if name not in own]

@@ -6,15 +6,17 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
+from teo_common.dds_profiles import ProfileError, own_sockets, require_profile
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import interface_name_of
 from teo_ros2cli.packages import package_prefix
 
+_Found = TypeVar("_Found")
 NODE_NAME_PREFIX = "_ros2cli"
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 # Every participant of ROS 2 publishes on this topic which nodes it holds; its name goes to DDS unmangled.
@@ -34,6 +36,9 @@ _QUIET = 0.3
 # The same before a message that is sent once [s]: a subscription that two announcements in a row were lost of
 # is not there yet, on a loaded machine; one that is overlooked never gets the message.
 _QUIET_BEFORE_MESSAGE = 0.6
+# Time in which a thing that is asked for by name may still be announced [s]: four announcements of
+# config/fastdds.xml, of which a loaded machine loses some.
+_LATE = 1.0
 # Interval of looking at the graph [s].
 _POLL = 0.02
 
@@ -59,12 +64,12 @@ def cli_node(
         own_signals: Leave SIGINT and SIGTERM to the caller instead of ending the context with them.
 
     Raises:
-        Ros2CliError: `no_rclpy`, or `invalid_name` for the node.
+        Ros2CliError: `no_rclpy`, `invalid_name` for the node, or the reason for which the Fast DDS profiles
+            that the environment asks for are not in force (`teo_common.dds_profiles`).
     """
-    _prompt_discovery()
+    chosen = _prompt_discovery()
     try:
         import rclpy
-        from rclpy._rclpy_pybind11 import RCLError  # public by no other name
         from rclpy.context import Context
         from rclpy.exceptions import InvalidNodeNameException
         from rclpy.executors import ExternalShutdownException
@@ -75,48 +80,68 @@ def cli_node(
             "no_rclpy", f"ROS 2 cannot be loaded ({error}): source the workspace, or install it, first"
         ) from error
 
+    try:
+        profile = require_profile(rclpy.get_rmw_implementation_identifier()) if chosen else None
+    except ProfileError as error:
+        raise Ros2CliError(error.code, str(error)) from error
+    sockets = own_sockets()
     context = Context()
     # No arguments: the command line is the command's own, not a node's.
     handlers = SignalHandlerOptions.NO if own_signals else SignalHandlerOptions.ALL
     rclpy.init(args=[], context=context, signal_handler_options=handlers)
     try:
+        node = rclpy.create_node(
+            name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
+            context=context,
+            enable_rosout=rosout,
+            start_parameter_services=False,
+            parameter_overrides=[Parameter("use_sim_time", value=True)] if use_sim_time else None,
+        )
         try:
-            node = rclpy.create_node(
-                name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
-                context=context,
-                enable_rosout=rosout,
-                start_parameter_services=False,
-                parameter_overrides=[Parameter("use_sim_time", value=True)] if use_sim_time else None,
-            )
-        except InvalidNodeNameException as error:
-            raise Ros2CliError("invalid_name", str(error)) from error
-        try:
+            if profile is not None:
+                profile.check(sockets, own_sockets())
             yield node
-        except RCLError as error:
-            if context.ok():
-                raise
-            # SIGTERM came between two looks at the context.
-            raise ExternalShutdownException from error
         finally:
             node.destroy_node()
+    except ProfileError as error:
+        raise Ros2CliError(error.code, str(error)) from error
+    except InvalidNodeNameException as error:
+        raise Ros2CliError("invalid_name", str(error)) from error
+    except Exception as error:
+        if context.ok():
+            raise
+        # A signal came between two looks at the context: whatever fails now, fails for that.
+        raise ExternalShutdownException from error
     finally:
         rclpy.try_shutdown(context=context)
 
 
-def _prompt_discovery() -> None:
-    """Let this process announce itself and ask for acknowledgements often, unless the user set it up."""
+def _prompt_discovery() -> bool:
+    """Let this process announce itself and ask for acknowledgements often, unless the user set it up.
+
+    Returns:
+        Whether the user did.
+    """
     names = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
     if any(os.environ.get(name) for name in names):
-        return
+        return True
     try:
         profile = package_prefix("teo_ros2cli") / "share" / "teo_ros2cli" / "config" / "fastdds.xml"
     except Ros2CliError:
-        return  # not installed as a package: slower, that is all
+        return False  # not installed as a package: slower, that is all
     if profile.is_file():
         os.environ[names[0]] = str(profile)
+    return False
 
 
-def settle(node: Any, spin_time: float | None = None, *, names: bool = False, publisher: Any = None) -> None:
+def settle(
+    node: Any,
+    spin_time: float | None = None,
+    *,
+    names: bool = False,
+    publishers: Collection[Any] = (),
+    stopped: Callable[[], bool] = lambda: False,
+) -> None:
     """Wait until the node knows the graph.
 
     That is: an answering time has passed, every participant of this machine is known, and nothing has changed
@@ -126,17 +151,18 @@ def settle(node: Any, spin_time: float | None = None, *, names: bool = False, pu
         node: The node.
         spin_time: Answering time [s]; by default half a second, less if only this machine takes part.
         names: Wait for the names of the nodes as well, which come after topics and services.
-        publisher: Wait also until every subscription of its topic that can take from it has matched.
+        publishers: Wait also until every subscription of their topics that can take from them has matched.
+        stopped: Asked all the time; True ends the waiting.
     """
     started = time.monotonic()
     shortest = spin_time if spin_time is not None else _answering_time()
     longest = max(shortest, _LONGEST)
-    quiet = _QUIET if publisher is None else _QUIET_BEFORE_MESSAGE
+    quiet = _QUIET_BEFORE_MESSAGE if publishers else _QUIET
     if spin_time is not None:
         quiet = min(quiet, spin_time)
     changed, last = started, None
-    while (now := time.monotonic()) - started < longest:
-        picture = _picture(node, names, publisher)
+    while (now := time.monotonic()) - started < longest and not stopped():
+        picture = _picture(node, names, publishers)
         if picture != last:
             changed, last = now, picture
         ready = UNKNOWN_NODE not in picture.nodes
@@ -145,6 +171,17 @@ def settle(node: Any, spin_time: float | None = None, *, names: bool = False, pu
         if ready and now - started >= shortest and now - changed >= quiet:
             return
         time.sleep(_POLL)
+
+
+def look_again(look: Callable[[], _Found]) -> _Found:
+    """Return what a look at the graph finds; while that is nothing, look on for a moment.
+
+    What has only just appeared is announced a little after the rest.
+    """
+    deadline = time.monotonic() + _LATE
+    while not (found := look()) and time.monotonic() < deadline:
+        time.sleep(_POLL)
+    return found
 
 
 def _answering_time() -> float:
@@ -161,8 +198,8 @@ class _Picture(NamedTuple):
     matched: int
 
 
-def _picture(node: Any, names: bool, publisher: Any) -> _Picture:
-    """Return what the node knows of the graph; names of nodes and a publisher's matches only on request."""
+def _picture(node: Any, names: bool, publishers: Collection[Any]) -> _Picture:
+    """Return what the node knows of the graph; names of nodes and publishers' matches only on request."""
     announcers = node.get_publishers_info_by_topic(_DISCOVERY_TOPIC, no_mangle=True)
     participants = {bytes(info.endpoint_gid[:_PARTICIPANT_PREFIX]) for info in announcers}
     # Every node publishes parameter events: by these one sees whether a node's name has come.
@@ -172,8 +209,8 @@ def _picture(node: Any, names: bool, publisher: Any) -> _Picture:
         len(participants),
         tuple(sorted(info.node_name for info in owners)),
         topics,
-        () if publisher is None else _takers(node, publisher),
-        0 if publisher is None else publisher.get_subscription_count(),
+        tuple(taker for publisher in publishers for taker in _takers(node, publisher)),
+        sum(publisher.get_subscription_count() for publisher in publishers),
     )
 
 

@@ -4,18 +4,17 @@
 
 from __future__ import annotations
 
-import threading
 import time
-from collections.abc import Callable, Collection, Iterator, Mapping
-from queue import Full, Queue
+from collections.abc import Callable, Collection, Mapping
 from typing import Any, NamedTuple
 
-from teo_common.mcap_salvage import StoredMessage
 from teo_ros2cli.bags.bag import Bag
 from teo_ros2cli.bags.metadata import TopicRecord
 from teo_ros2cli.bags.qos_record import QosRecord, offer_for
+from teo_ros2cli.bags.read_ahead import ReadAhead
 from teo_ros2cli.bags.schedule import Schedule
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.graph.cli_node import settle
 from teo_ros2cli.graph.qos import from_record
 from teo_ros2cli.messages.classes import message_class
 
@@ -36,6 +35,7 @@ class PlayerSettings(NamedTuple):
         delay: Time to wait before playing, in each loop [s].
         loop: Begin again at the end.
         clock: Rate of publishing `/clock` [1/s], 0 for not at all.
+        clock_before: Tells by a topic's name in the bag whether `/clock` is published before its messages.
         start_paused: Begin with a pause.
         overrides: Profile to publish with, by topic name in the bag.
         read_ahead: Messages that are read before they are due.
@@ -51,6 +51,7 @@ class PlayerSettings(NamedTuple):
     delay: float = 0.0
     loop: bool = False
     clock: float = 0.0
+    clock_before: Callable[[str], bool] = lambda _topic: False
     start_paused: bool = False
     overrides: Mapping[str, QosRecord] = {}
     read_ahead: int = 1000
@@ -90,7 +91,8 @@ class Player:
         for topic, _ in bag.metadata.topics:
             if settings.selects(topic.name):
                 self._advertise(topic)
-        self._clock = _ClockPublisher(node) if settings.clock > 0 else None
+        clocked = settings.clock > 0 or any(map(settings.clock_before, self._publishers))
+        self._clock = _ClockPublisher(node) if clocked else None
         self.played = 0
 
     @property
@@ -123,7 +125,11 @@ class Player:
     # Playing
 
     def play(self) -> None:
-        """Play the bag, again and again if the settings say so, until its end or until stopped."""
+        """Play the bag, again and again if the settings say so, until its end or until stopped.
+
+        It begins when the subscriptions that are there have matched, so that they get the first messages.
+        """
+        settle(self._node, publishers=self._publishers.values(), stopped=self._stopped)
         while not self._stopped():
             self._play_once()
             if not self._settings.loop or not self._publishers or not self._bag.metadata.messages:
@@ -137,7 +143,7 @@ class Player:
             settings.until if settings.until is not None else 2**63,
             beginning + round(settings.duration * 1e9) if settings.duration is not None else 2**63,
         )
-        reader = _ReadAhead(
+        reader = ReadAhead(
             self._bag.messages(topics=self.topics, start=beginning, on_problem=self._log.warning),
             settings.read_ahead,
         )
@@ -153,6 +159,8 @@ class Player:
                     break
                 if not self._wait_until_due(message.log_time):
                     return
+                if self._clock is not None and self._settings.clock_before(message.topic):
+                    self._clock.publish(message.log_time)
                 self._publishers[message.topic].publish(message.data)
                 self.played += 1
             if settings.duration is not None and end < 2**63:
@@ -175,7 +183,7 @@ class Player:
             left = self._schedule.due(moment) - now
             if left <= 0:
                 return True
-            wake = _STEP if self._clock is None else min(_STEP, max(self._next_tick - now, 0.0))
+            wake = min(_STEP, max(self._next_tick - now, 0.0)) if self._settings.clock else _STEP
             time.sleep(min(left, wake))
         return False
 
@@ -185,7 +193,7 @@ class Player:
             time.sleep(min(left, _STEP))
 
     def _tick(self, now: float) -> None:
-        if self._clock is not None and now >= self._next_tick:
+        if self._clock is not None and self._settings.clock and now >= self._next_tick:
             self._next_tick = max(self._next_tick + 1 / self._settings.clock, now)
             self._clock.publish(self._schedule.time_at(now))
 
@@ -240,54 +248,3 @@ class _ClockPublisher:
         stamp = self._message.clock
         stamp.sec, stamp.nanosec = divmod(nanoseconds, 1_000_000_000)
         self._publisher.publish(self._message)
-
-
-class _ReadAhead:
-    """Reads messages in a thread of its own, so that unpacking a chunk does not hold publishing up."""
-
-    def __init__(self, messages: Iterator[StoredMessage], size: int) -> None:
-        self._messages = messages
-        self._queue: Queue[StoredMessage | BaseException | None] = Queue(maxsize=max(size, 1))
-        self._closed = False
-        self._ended = threading.Event()
-        self._thread = threading.Thread(target=self._read, name="bag reader", daemon=True)
-        self._thread.start()
-
-    def wait_filled(self, stopped: Callable[[], bool]) -> None:
-        """Wait until the first messages are there, all of them if they are few."""
-        while not self._ended.is_set() and not self._queue.full() and not stopped():
-            time.sleep(_STEP / 10)
-
-    def __iter__(self) -> Iterator[StoredMessage]:
-        while True:
-            item = self._queue.get()
-            if item is None:
-                return
-            if isinstance(item, BaseException):
-                raise item
-            yield item
-
-    def close(self) -> None:
-        """End the thread."""
-        self._closed = True
-        self._thread.join()
-
-    def _read(self) -> None:
-        last: BaseException | None = None
-        try:
-            for message in self._messages:
-                if not self._put(message):
-                    return
-        except BaseException as error:  # raised again where the messages are taken
-            last = error
-        self._ended.set()
-        self._put(last)
-
-    def _put(self, item: StoredMessage | BaseException | None) -> bool:
-        while not self._closed:
-            try:
-                self._queue.put(item, timeout=_STEP)
-            except Full:
-                continue
-            return True
-        return False

@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Letters and numbers of the LSE manual alphabet, from measured postures of one hand."""
+"""Letters of manual alphabets, from measured postures of one hand."""

@@ -14,15 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, description_hash, joint_limits
+from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
-from teo_description.tendons import RIGHT_AXES
+from teo_description.teo.tendons import RIGHT_AXES
 from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness, Provenance
 
-# Right arm [deg], in the order of RIGHT_ARM, while TEO spells.
+# Right arm [deg], from the shoulder on, while TEO spells.
 SPELLING_POSES = {
     "T": (-73.2, 10.7, 10.6, -74.6, 34.7, 1.9),
     "E": (-75.4, 12.4, 9.6, -83.5, 86.2, 2.3),
@@ -104,18 +105,20 @@ def demonstrated_signs(robot: Robot) -> list[Sign]:
 
 
 def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
-    joints = RIGHT_ARM + RIGHT_HAND
+    humanoid = robot.humanoid
+    joints = humanoid.arm("right") + humanoid.hand("right")
     right_hand = _hand(demonstrated.hands)
     rows = [np.concatenate([np.radians(pose), right_hand]) for pose in demonstrated.right_arm]
     if demonstrated.left_arm is not None:
-        joints += LEFT_ARM + LEFT_HAND
+        joints += humanoid.arm("left") + humanoid.hand("left")
         left = np.concatenate([np.radians(demonstrated.left_arm), _hand(demonstrated.hands)])
         rows = [np.concatenate([row, left]) for row in rows]
     times = np.cumsum([0.0, *demonstrated.move_times, _PAUSE])
-    knots = _on_limits(joints, np.stack([*rows, rows[-1]]), demonstrated.gloss)
+    knots = _on_limits(humanoid, joints, np.stack([*rows, rows[-1]]), demonstrated.gloss)
     return Sign(
         gloss=demonstrated.gloss,
-        language="lse",
+        language=DEFAULT_LANGUAGE,
+        robot=humanoid.name,
         kind="lexical",
         handedness=demonstrated.handedness,
         joints=joints,
@@ -132,12 +135,12 @@ def _sign(robot: Robot, demonstrated: _Demonstrated) -> Sign:
             recorded="2019-10-23",
             created=datetime.date.today().isoformat(),
             licence="facts: joint positions read in a published program that names no licence",
-            description_hash=description_hash(),
+            description_hash=humanoid.description_hash,
             notes=demonstrated.notes,
         ),
         quality={
             "clearance_mm": clearance_mm(robot, joints, knots),
-            "limit_margin_deg": limit_margin_deg(joints, knots),
+            "limit_margin_deg": limit_margin_deg(humanoid, joints, knots),
         },
     )
 
@@ -146,13 +149,13 @@ def _hand(motors: tuple[float, ...] | None) -> Array:
     return flexions(_OPEN_HAND if motors is None else motors)
 
 
-def _on_limits(joints: tuple[str, ...], knots: Array, gloss: str) -> Array:
+def _on_limits(humanoid: Humanoid, joints: tuple[str, ...], knots: Array, gloss: str) -> Array:
     """Put what is beyond a limit by the publication's rounding onto it; refuse what is farther.
 
     Raises:
         LutError: A pose is outside the limits ("outside_limits").
     """
-    limits = joint_limits(joints)
+    limits = humanoid.limits(joints)
     beyond = np.maximum(limits.lower - knots, knots - limits.upper).max()
     if beyond > _ROUNDING:
         raise LutError(

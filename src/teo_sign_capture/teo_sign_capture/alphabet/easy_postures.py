@@ -23,18 +23,11 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.face_visibility import shift_off_face
 from teo_sign_capture.alphabet.letter_tolerance import LetterTolerance
+from teo_sign_languages import Alphabet
 from teo_signs.errors import LutError
 from teo_signs.likeness import SEEN_LENGTH, nearest_pairs
 from teo_signs.motion_hash import with_alternatives
 from teo_signs.sign import Sign
-
-# Letters in a thousand of Spanish, counted over 8,000 lemmas and names of the project's lexicon; CH, LL and
-# RR are letters of their own, and none is left out.
-LETTER_FREQUENCY = {
-    "A": 143, "B": 18, "C": 52, "CH": 4, "D": 36, "E": 97, "F": 11, "G": 18, "H": 5, "I": 90, "J": 6, "K": 1,
-    "L": 41, "LL": 4, "M": 30, "N": 64, "Ñ": 2, "O": 97, "P": 26, "Q": 3, "R": 94, "RR": 4, "S": 44, "T": 53,
-    "U": 33, "V": 13, "W": 1, "X": 2, "Y": 2, "Z": 7,
-}  # fmt: skip
 
 # [rad] Most by which a joint's offset changes in each program.
 _STEPS = np.radians([15.0, 15.0, 10.0, 7.0, 5.0, 3.0, 2.0, 1.0])
@@ -48,20 +41,23 @@ _BEYOND = 10.0
 _LOOK_ALIKE = 2.5
 
 
-def ease_letters(robot: Robot, tolerances: Mapping[str, LetterTolerance]) -> dict[str, Array]:
+def ease_letters(
+    robot: Robot, alphabet: Alphabet, tolerances: Mapping[str, LetterTolerance]
+) -> dict[str, Array]:
     """Offsets of the letters with which spelling needs least travel.
 
     Args:
         robot: The robot.
-        tolerances: Of each letter of `LETTER_FREQUENCY`.
+        alphabet: The language's, with how often each letter is spelled.
+        tolerances: Of each of its letters.
 
     Returns:
-        By letter, what is added to every knot [rad]. Shape (12,) each.
+        By letter, what is added to every knot [rad]. Shape (m,) each.
 
     Raises:
         LutError: A letter is missing ("unknown_sign").
     """
-    missing = [letter for letter in LETTER_FREQUENCY if letter not in tolerances]
+    missing = [letter for letter in alphabet.letters if letter not in tolerances]
     if missing:
         raise LutError(
             "unknown_sign", f"expected all letters of the alphabet, got none for {', '.join(missing)}"
@@ -69,7 +65,7 @@ def ease_letters(robot: Robot, tolerances: Mapping[str, LetterTolerance]) -> dic
     part_look_alikes(robot, tolerances)
     offsets = {letter: np.zeros(len(one.sign.joints)) for letter, one in tolerances.items()}
     for step in _STEPS:
-        offsets = _program(tolerances, offsets, float(step))
+        offsets = _program(tolerances, alphabet.frequencies, offsets, float(step))
         for letter, one in tolerances.items():
             shift = shift_off_face(robot, one.sign.knots + offsets[letter])
             if shift.any():
@@ -78,12 +74,22 @@ def ease_letters(robot: Robot, tolerances: Mapping[str, LetterTolerance]) -> dic
 
 
 def part_look_alikes(robot: Robot, tolerances: Mapping[str, LetterTolerance]) -> None:
-    """Have letters that their hands tell apart move no finger tip towards the other's."""
+    """Have letters that look alike keep what tells them apart: finger tips, movement, or palms."""
     for pair in nearest_pairs(robot, [one.sign for one in tolerances.values()]):
-        if pair.seen < _LOOK_ALIKE and pair.handshape >= pair.seen * SEEN_LENGTH * (1.0 - 1e-9):
-            first, second = tolerances[pair.first], tolerances[pair.second]
+        if pair.seen >= _LOOK_ALIKE:
+            continue
+        first, second = tolerances[pair.first], tolerances[pair.second]
+        told = pair.seen * SEEN_LENGTH * (1.0 - 1e-9)
+        if pair.handshape >= told:
             first.keep_from(second)
             second.keep_from(first)
+        elif pair.movement >= told:
+            for one in (first, second):
+                if len(one.sign.knots) > 2:  # else it stands still
+                    one.keep_moving()
+        else:
+            first.keep_turned_from(second)
+            second.keep_turned_from(first)
 
 
 def with_easy_posture(sign: Sign, offset: Array) -> Sign:
@@ -93,7 +99,10 @@ def with_easy_posture(sign: Sign, offset: Array) -> Sign:
 
 
 def _program(
-    tolerances: Mapping[str, LetterTolerance], offsets: Mapping[str, Array], step: float
+    tolerances: Mapping[str, LetterTolerance],
+    frequencies: Mapping[str, int],
+    offsets: Mapping[str, Array],
+    step: float,
 ) -> dict[str, Array]:
     """Solve for the offsets within a step of those given."""
     letters = list(tolerances)
@@ -113,7 +122,8 @@ def _program(
             columns = [np.arange(size * index, size * (index + 1)) for index in (first, second)]
             travel = (np.array([free + number]), -np.ones((size, 1)))
             table.add([(columns[0], unit), (columns[1], -unit), travel], sign * (begins - ends))
-    share = np.array([LETTER_FREQUENCY[letter] for letter in letters]) / sum(LETTER_FREQUENCY.values())
+    counts = np.array([frequencies.get(letter, 1) for letter in letters])
+    share = counts / counts.sum()
     price = np.concatenate(
         [
             np.zeros(free),

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """A letter as a reader sees it: handshape, orientation and movement, in differences that are just seen.
 
-TEO's letters and the recordings are brought to the same features, so that `warp` says how different they are.
+A robot's letters and the recordings are brought to the same features, so that `warp` says how different they
+are.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -21,17 +24,19 @@ from teo_signs.likeness import SEEN_ANGLE, SEEN_LENGTH
 _SEEN_MOVEMENT = SEEN_LENGTH / 2.0
 
 
-def recorded_features(clip: LetterClip, scale: float) -> Array:
-    """What the person shows, in TEO's size, from where the hand is in place to where it leaves.
+def recorded_features(clip: LetterClip, scale: float, fingers: Sequence[int] = range(4)) -> Array:
+    """What the person shows, in the robot's size, from where the hand is in place to where it leaves.
 
     Args:
         clip: The recording.
-        scale: Metres of TEO's for a pixel of the recording.
+        scale: Metres of the robot's for a pixel of the recording.
+        fingers: Which of the four are looked at, index 0: those that the robot has.
     """
     stroke = find_stroke(clip)
     hand = scale * clip.hand[stroke.first : stroke.last + 1]
-    fingers = np.stack([hand[:, [knuckle + end for knuckle in KNUCKLES]] for end in (0, 2, 3)], axis=1)
-    return features(palm_axes(hand), fingers, hand[:, THUMB + 3])
+    shown = [KNUCKLES[finger] for finger in fingers]
+    ends = np.stack([hand[:, [knuckle + end for knuckle in shown]] for end in (0, 2, 3)], axis=1)
+    return features(palm_axes(hand), ends, hand[:, THUMB + 3])
 
 
 def features(palms: Array, fingers: Array, thumb: Array) -> Array:
@@ -39,11 +44,11 @@ def features(palms: Array, fingers: Array, thumb: Array) -> Array:
 
     Args:
         palms: Columns along the hand, to the little finger's side, out of the palm. Shape (n, 3, 3).
-        fingers: Knuckles, last joints and tips of index to little finger [m]. Shape (n, 3, 4, 3).
+        fingers: Knuckles, last joints and tips of the fingers, index first [m]. Shape (n, 3, fingers, 3).
         thumb: Its tip [m]. Shape (n, 3).
 
     Returns:
-        Shape (n, 1, 43): one vector a frame, as `warp` takes them.
+        Shape (n, 1, 43 of four fingers): one vector a frame, as `warp` takes them.
     """
     knuckles, tips = fingers[:, 0], np.concatenate([fingers[:, 2], thumb[:, None]], axis=1)
     # Both ends of the last phalanx: a fist and a claw have their tips at like places.

@@ -1,32 +1,31 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Where the hand is and how the palm is turned, on TEO's right arm: letters and numbers.
+"""Where the hand is and how the palm is turned, on a robot's right arm: letters and numbers.
 
-Where a palm is out of reach its orientation goes before the place.
+Where a palm is out of reach its orientation goes before the place, as long as a word is spelled at one place.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds
-from teo_sign_capture.retarget.arm_kinematics import ELBOW, ArmKinematics
-from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem, ArmWeights
+from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, search_starts, spelling_arm
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_residuals import ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
-
-PALM_FRAME = "right_palm"
-
-# [rad] Mean of the poses in which TEO's own demonstration spells T, E and O. Shape (6,).
-SPELLING_ARM = np.radians([-74.0, 11.2, 11.1, -80.5, 48.9, 1.1])
+from teo_sign_capture.retarget.quality_figures import least_clearance
 
 # The elbow is bent by as much at least [rad]: nobody spells with a straight arm.
-_BENT = np.radians(-46.0)
+_BENT = np.radians(46.0)
+# So far apart [m] all parts stay: planning finds distances to 2 mm (`teo_motion.collision`).
+_APART = 0.002
 
 _WEIGHTS = ArmWeights(
     # The palm 10 cm out of place counts as much as 11 deg out of orientation.
@@ -37,9 +36,16 @@ _WEIGHTS = ArmWeights(
     palm=0.77,
     fingers=0.77,
     # Chooses among equals, moves a reachable hand by less than 1 deg.
-    easy=np.full(JOINTS, 0.03),
-    easy_arm=SPELLING_ARM,
+    easy=0.03,
+    sideways=0.03,
 )
+
+# [m] A palm is moved no farther than this for the sake of how it is turned: letters must not lie beside their
+# word. Where signs are read as made elsewhere; all letters of LSE that do not hang are within 10 cm.
+_ONE_PLACE = 0.12
+# For palms that would be: the place's weight doubles at 6 cm, which keeps fists that lean back by 30 deg, as
+# TEO's wrist cannot, at 6 cm and upright.
+_FIRM = replace(_WEIGHTS, strayed=0.06)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +53,7 @@ class ArmFit:
     """A pose of the arm.
 
     Attributes:
-        positions: The joints of `RIGHT_ARM` [rad]. Shape (6,).
+        positions: The joints of the arm [rad]. Shape (j,).
         palm: Orientation reached. Shape (3, 3).
         place: Middle of the palm reached, in ``base_link`` [m]. Shape (3,).
         angle_error: Angle between the orientation reached and the one wanted [rad].
@@ -61,33 +67,45 @@ class ArmFit:
     place_error: float
 
 
-def spelling_bounds(*, both_sides: bool = False) -> Bounds:
-    """Lower and upper bounds of an arm that spells [rad]. Shapes (6,).
+def spelling_bounds(chain: ArmKinematics, *, both_sides: bool = False) -> Bounds:
+    """Lower and upper bounds of an arm that spells [rad]. Shapes (j,).
 
     Args:
+        chain: The arm.
         both_sides: Whether the left arm must be able to mirror the pose.
     """
-    lower, upper = arm_bounds("both" if both_sides else "right")
-    return lower, np.where(np.arange(JOINTS) == ELBOW, np.minimum(upper, _BENT), upper)
+    lower, upper = arm_bounds(chain.humanoid, "both" if both_sides else "right")
+    elbow = np.arange(chain.count) == chain.elbow
+    if chain.opens > 0.0:
+        return lower, np.where(elbow, np.minimum(upper, -_BENT), upper)
+    return np.where(elbow, np.maximum(lower, _BENT), lower), upper
 
 
-def fit_arm(robot: Robot, palm: Array, place: Array, *, both_sides: bool = False) -> ArmFit:
-    """Find the arm that holds the palm so, from all starts.
+def fit_arm(
+    robot: Robot, palm: Array, place: Array, *, both_sides: bool = False, firm: bool = False
+) -> ArmFit:
+    """Find the arm that holds the palm so, from all starts; the best of those that touch nothing.
 
     Args:
         robot: The robot; head and trunk are at home.
         palm: Orientation wanted; columns along, to the little finger's side, out of the palm. Shape (3, 3).
         place: Where the middle of the palm should be, in ``base_link`` [m]. Shape (3,).
         both_sides: Whether the left arm must be able to mirror the pose.
+        firm: Whether the place counts the more the farther the hand is from it.
     """
     chain = ArmKinematics(robot)
-    problem = _problem(chain, palm[None], place[None])
-    bounds = spelling_bounds(both_sides=both_sides)
-    found, costs = search_arms(problem, 0, np.zeros(1, np.intp), bounds)
-    return arm_fits(chain, found[0, costs[0].argmin()][None], palm[None], place[None])[0]
+    problem = _problem(chain, palm[None], place[None], firm=firm)
+    bounds, starts = spelling_bounds(chain, both_sides=both_sides), search_starts(chain.humanoid)
+    found, costs = search_arms(problem, 0, np.zeros(1, np.intp), bounds, starts=starts)
+    joints = chain.humanoid.arm("right")
+    best_first = found[0, costs[0].argsort(kind="stable")]
+    clear = (arm for arm in best_first if least_clearance(robot, joints, arm[None]) >= _APART)
+    return arm_fits(chain, next(clear, best_first[0])[None], palm[None], place[None])[0]
 
 
-def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[ArmFit]:
+def follow_arm(
+    robot: Robot, palms: Array, places: Array, near: ArmFit, *, firm: bool = False
+) -> list[ArmFit]:
     """Find the arm along a path.
 
     Args:
@@ -95,11 +113,17 @@ def follow_arm(robot: Robot, palms: Array, places: Array, near: ArmFit) -> list[
         palms: Orientations wanted. Shape (n, 3, 3).
         places: Places wanted [m]. Shape (n, 3).
         near: A pose from which all are sought.
+        firm: As for `fit_arm`.
     """
     chain = ArmKinematics(robot)
-    problem, frames = _problem(chain, palms, places), np.arange(len(places))
-    found, _ = search_arms(problem, 0, frames, spelling_bounds(), starts=near.positions[None])
+    problem, frames = _problem(chain, palms, places, firm=firm), np.arange(len(places))
+    found, _ = search_arms(problem, 0, frames, spelling_bounds(chain), starts=near.positions[None])
     return arm_fits(chain, found[:, 0], palms, places)
+
+
+def is_at_its_place(fits: Sequence[ArmFit]) -> bool:
+    """Whether a hand is where the letters of a word are, all the time."""
+    return max(fit.place_error for fit in fits) <= _ONE_PLACE
 
 
 def arm_fits(chain: ArmKinematics, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
@@ -114,7 +138,7 @@ def arm_fits(chain: ArmKinematics, positions: Array, palms: Array, places: Array
     ]
 
 
-def _problem(chain: ArmKinematics, palms: Array, places: Array) -> ArmProblem:
+def _problem(chain: ArmKinematics, palms: Array, places: Array, *, firm: bool) -> ArmProblem:
     goals = HandGoals.without_arm(
         local=np.zeros_like(places),
         place=places,
@@ -122,4 +146,4 @@ def _problem(chain: ArmKinematics, palms: Array, places: Array) -> ArmProblem:
         palm=palms[:, :, 2],
         fingers=palms[:, :, 0],
     )
-    return ArmProblem(chain, (goals,), weights=_WEIGHTS)
+    return ArmProblem(chain, (goals,), weights=_FIRM if firm else _WEIGHTS, easy=spelling_arm(chain.humanoid))

@@ -86,7 +86,8 @@ def find_stroke(clip: LetterClip) -> Stroke:
         last=last,
         holds=spans,
         sways=bool(way > _SWAY) or len(spans) > 1,
-        wagging=tuple(int(finger) for finger in np.flatnonzero(beyond > _WAG)),
+        # Fingers of a hand that turns are seen shorter and longer without bending.
+        wagging=() if len(spans) > 1 else tuple(int(finger) for finger in np.flatnonzero(beyond > _WAG)),
     )
 
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Literal, cast
 
 import typer
 
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import DEFAULT_ROBOT, load_humanoid
 from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
@@ -33,6 +35,7 @@ End = Annotated[float | None, typer.Option(help="Look at the recording up to thi
 TableDirectory = Annotated[
     Path | None, typer.Option("--lut", help="Directory of the table; your own without it.")
 ]
+RobotName = Annotated[str, typer.Option("--robot", help="Name of the robot whose sign it becomes.")]
 Replace = Annotated[bool, typer.Option("--replace", help="Take the place of an entry that is there.")]
 Person = Annotated[int | None, typer.Option(help="Id of the person; the signer without it.")]
 Hands = Annotated[
@@ -99,6 +102,7 @@ def capture(
     gloss: Gloss = None,
     start: Start = None,
     end: End = None,
+    robot: RobotName = DEFAULT_ROBOT,
     lut: TableDirectory = None,
     replace: Replace = False,
     person: Person = None,
@@ -133,9 +137,11 @@ def capture(
     from teo_sign_capture.recordings.recording import default_cache, is_bag
 
     try:
-        table = lut or user_lut_directory()
+        _check_robot(robot)
+        table = lut or user_lut_directory(robot=robot)
         settings = Settings(
             table=table,
+            robot=robot,
             replace=replace,
             kind=kind,
             standing=standing,
@@ -176,6 +182,13 @@ def capture(
         raise typer.Exit(1) from error
 
 
+def _check_robot(name: str) -> None:
+    try:
+        load_humanoid(name)
+    except DescriptionError as error:
+        raise LutError(error.code, f"--robot: {error}") from error
+
+
 def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path:
     """Film a sign with a webcam, counting down, and return the film, which is kept."""
     from teo_sign_capture.recordings.recording import default_cache
@@ -191,7 +204,7 @@ def _capture_one(job: Job, settings: Settings, reporter: Reporter) -> None:
     from teo_sign_capture.entries.outcome import captured_outcome
 
     with reporter:
-        saved = capture_bags(Robot.load(), job, settings, reporter.progress)
+        saved = capture_bags(Robot.load(settings.robot), job, settings, reporter.progress)
     reporter.captured(captured_outcome(saved))
 
 

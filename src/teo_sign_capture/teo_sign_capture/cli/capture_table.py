@@ -11,13 +11,16 @@ from typing import Annotated, NoReturn
 import typer
 from rich.console import Console
 
+from teo_common.errors import CodedError
 from teo_description.robot import Robot
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 
 Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
+Code = Annotated[str, typer.Option("--language", help="Code of the sign language.")]
 Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
 
 _output = Console(highlight=False)
@@ -29,59 +32,63 @@ def capture_letters(
     only: Annotated[
         list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
     ] = None,
+    language: Code = DEFAULT_LANGUAGE,
     replace: Replace = False,
 ) -> None:
-    """Capture the manual alphabet from the recordings in the package spoken-to-signed."""
+    """Capture a manual alphabet from the recordings in the package spoken-to-signed."""
     from teo_sign_capture.alphabet.letters import capture_letter, read_alphabet
-    from teo_sign_capture.recordings.letter_clips import load_letter_clips
 
     robot = Robot.load()
     try:
-        clips = load_letter_clips()
-    except LutError as error:
+        alphabet = read_alphabet(robot, load_language(language))
+    except (LanguageError, LutError) as error:
         _fail(error)
-    unknown = [letter for letter in only or [] if letter not in clips]
+    unknown = [letter for letter in only or [] if letter not in alphabet.clips]
     if unknown:
-        message = f"expected letters among {', '.join(clips)}; got {', '.join(unknown)}"
+        message = f"expected letters among {', '.join(alphabet.clips)}; got {', '.join(unknown)}"
         _fail(LutError("unknown_letter", message))
-    alphabet = read_alphabet(robot, clips)
-    _save((capture_letter(robot, alphabet, letter) for letter in only or clips), out, replace=replace)
+    _save(
+        (capture_letter(robot, alphabet, letter) for letter in only or alphabet.clips), out, replace=replace
+    )
 
 
 def ease_letters(
     lut: Annotated[Path, typer.Option(help="Directory of the table whose letters get easy postures.")],
+    language: Code = DEFAULT_LANGUAGE,
 ) -> None:
     """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
     from teo_sign_capture.alphabet import easy_postures
     from teo_sign_capture.alphabet.letter_features import recorded_features
     from teo_sign_capture.alphabet.letter_tolerance import LetterTolerance
     from teo_sign_capture.alphabet.letters import read_alphabet
-    from teo_sign_capture.recordings.letter_clips import load_letter_clips
 
     robot = Robot.load()
     try:
-        table, clips = Lut.open(lut), load_letter_clips()
-        scale = read_alphabet(robot, clips).scale
-        recordings = {letter: recorded_features(clip, scale) for letter, clip in clips.items()}
-        letters = {letter: table[letter] for letter in clips if letter in table}
+        table = Lut.open(lut, language=language)
+        alphabet = read_alphabet(robot, table.language)
+        recordings = {
+            letter: recorded_features(clip, alphabet.scale) for letter, clip in alphabet.clips.items()
+        }
+        letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
         tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
-        offsets = easy_postures.ease_letters(robot, tolerances)
+        offsets = easy_postures.ease_letters(robot, table.language.alphabet, tolerances)
     except LutError as error:
         _fail(error)
     eased = (easy_postures.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
     _save(eased, lut, replace=True)
 
 
-def capture_numbers(out: Out, replace: Replace = False) -> None:
+def capture_numbers(out: Out, language: Code = DEFAULT_LANGUAGE, replace: Replace = False) -> None:
     """Bring the scores of numbers onto TEO; `capture_scores` does so with all."""
-    from teo_sign_capture.notation.score_file import default_scores_directory, read_scores
+    from teo_sign_capture.notation.score_file import read_scores
     from teo_sign_capture.notation.score_retarget import score_sign
 
     robot = Robot.load()
     try:
-        numbers = [score for score in read_scores(default_scores_directory()) if score.kind == "number"]
-        _save((score_sign(robot, score) for score in numbers), out, replace=replace)
-    except LutError as error:
+        found = load_language(language)
+        numbers = [score for score in read_scores(found.scores) if score.kind == "number"]
+        _save((score_sign(robot, score, language=found.code) for score in numbers), out, replace=replace)
+    except (LanguageError, LutError) as error:
         _fail(error)
 
 
@@ -95,32 +102,34 @@ def capture_demonstration(out: Out, replace: Replace = False) -> None:
 def capture_scores(
     out: Out,
     scores: Annotated[
-        Path | None, typer.Option(help="Directory of scores (YAML); the package's without it.")
+        Path | None, typer.Option(help="Directory of scores (YAML); the language's without it.")
     ] = None,
     only: Annotated[
         list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
     ] = None,
+    language: Code = DEFAULT_LANGUAGE,
     replace: Replace = False,
 ) -> None:
     """Bring sign scores, written descriptions of signs, onto TEO."""
-    from teo_sign_capture.notation.score_file import default_scores_directory, read_scores
+    from teo_sign_capture.notation.score_file import read_scores
     from teo_sign_capture.notation.score_retarget import score_sign
 
     robot = Robot.load()
     try:
-        found = {score.gloss: score for score in read_scores(scores or default_scores_directory())}
+        signed = load_language(language)
+        found = {score.gloss: score for score in read_scores(scores or signed.scores)}
         unknown = [gloss for gloss in only or [] if gloss not in found]
         if unknown:
             message = f"expected glosses with a score ({len(found)} there are), got {', '.join(unknown)}"
             raise LutError("unknown_sign", message)
-    except LutError as error:
+    except (LanguageError, LutError) as error:
         _fail(error)
     failed: list[str] = []
 
     def signs() -> Iterator[Sign]:
         for gloss in only or found:
             try:
-                yield score_sign(robot, found[gloss])
+                yield score_sign(robot, found[gloss], language=signed.code)
             except LutError as error:
                 failed.append(gloss)
                 _errors.print(f"{error.code}: {error}", soft_wrap=True)
@@ -176,6 +185,6 @@ def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
         )
 
 
-def _fail(error: LutError) -> NoReturn:
+def _fail(error: CodedError) -> NoReturn:
     _errors.print(f"{error.code}: {error}", soft_wrap=True)
     raise typer.Exit(1) from error

@@ -32,7 +32,7 @@ def ease(
 
     eased = 0
     try:
-        directory = context.obj[0] if lut is None else lut
+        directory = context.obj()[0] if lut is None else lut
         table = Lut.open(directory)
         # A table of a few signs stands among those of the package.
         easy = EasyTable(Robot.load(), dict(Lut.open()) | dict(table))

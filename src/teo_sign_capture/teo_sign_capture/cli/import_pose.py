@@ -70,7 +70,7 @@ def import_pose(
         list[str] | None, typer.Option(help="SignWriting: a gloss; may be given again. All without it.")
     ] = None,
     any_term: Annotated[
-        bool, typer.Option("--any-term", help="SignWriting: take terms that are no known Spanish words.")
+        bool, typer.Option("--any-term", help="SignWriting: take terms that are no known words.")
     ] = False,
     jobs: Annotated[
         int | None, typer.Option(min=1, help="SignWriting: signs at a time; one for each core without it.")

@@ -13,8 +13,12 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import DEFAULT_ROBOT
 from teo_sign_capture.cli.capture import AsJson, Cache, End, Hands, Person, Start, Topic
 from teo_sign_capture.cli.reporting import JsonReporter, TerminalReporter, write_json
+from teo_sign_capture.cli.retarget import Code, RobotName
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 
 _output = Console(highlight=False)
@@ -34,6 +38,8 @@ def recognise(
             "--lut", help="Directory of the table; your own and, beneath it, the package's without it."
         ),
     ] = None,
+    robot_name: RobotName = DEFAULT_ROBOT,
+    language: Code = DEFAULT_LANGUAGE,
     start: Start = None,
     end: End = None,
     hands: Hands = None,
@@ -57,10 +63,10 @@ def recognise(
     from teo_sign_capture.recordings.recording import default_cache, open_recording
     from teo_signs.look_up_table import Lut, user_lut_directory
 
-    robot = Robot.load()
     reporter = JsonReporter() if as_json else TerminalReporter()
     try:
-        signs = Lut.open(lut)
+        robot = Robot.load(robot_name)
+        signs = Lut.open(lut, language=language, robot=robot_name)
         if not signs:
             raise LutError("empty_table", f"expected a table with signs, got none in {signs.place}")
         wanted = None if meant is None else sign_appearance(robot, signs[meant])  # unknown: say so at once
@@ -78,8 +84,8 @@ def recognise(
             shown = recording_appearance(robot, track, start=start, end=end, handedness=hands)
             matches = SignIndex.of_signs(robot, signs.values()).nearest(shown, count)
         compared = None if meant is None or wanted is None else compare(meant, shown, wanted)
-    except LutError as error:
-        reporter.failed(None, error)
+    except (LutError, DescriptionError) as error:
+        reporter.failed(None, LutError(error.code, str(error)))
         raise typer.Exit(1) from error
     if as_json:
         found = [asdict(match) for match in matches]

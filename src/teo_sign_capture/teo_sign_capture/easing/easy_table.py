@@ -50,7 +50,9 @@ class EasyTable:
             table: The signs among which the words stand.
         """
         self._robot = robot
-        self._easy = EasyWords(MotionLimits.of_robot(), neighbours(table, -1), neighbours(table, 0))
+        humanoid = robot.humanoid
+        before, after = (neighbours(humanoid, table, knot) for knot in (-1, 0))
+        self._easy = EasyWords(humanoid, MotionLimits.of_robot(humanoid), before, after)
         self._signs = SignIndex.of_signs(robot, table.values())
 
     def eased(self, sign: Sign) -> Sign:

@@ -19,8 +19,7 @@ from scipy.optimize import linprog
 from scipy.sparse import coo_matrix
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS
-from teo_motion.sentence.rest_posture import REST
+from teo_description.humanoid import Humanoid
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_capture.easing.word_tolerance import WordTolerance
 from teo_signs.sign import Sign
@@ -46,7 +45,7 @@ class Neighbours(NamedTuple):
     """Postures that come before or after a word.
 
     Attributes:
-        postures: Of the 28 commanded joints, NaN where a neighbour leaves them free [rad]. Shape (k, 28).
+        postures: Of the commanded joints, NaN where a neighbour leaves them free [rad]. Shape (k, joints).
         weights: How often each comes, 1 in all. Shape (k,).
     """
 
@@ -54,20 +53,22 @@ class Neighbours(NamedTuple):
     weights: Array
 
 
-def neighbours(table: Mapping[str, Sign], knot: int) -> Neighbours:
+def neighbours(humanoid: Humanoid, table: Mapping[str, Sign], knot: int) -> Neighbours:
     """What comes before (knot -1) or after (knot 0) a word, about: words, spelled words and rest.
 
     Args:
+        humanoid: The robot.
         table: The table, of whose words and letters some are taken at random.
         knot: With which knot they meet the word.
     """
     random = np.random.default_rng(0)
-    rows, weights = [REST], [_REST_SHARE]
+    rest = humanoid.ready
+    rows, weights = [rest], [_REST_SHARE]
     for kind, count, share in (("lexical", _WORDS, _WORD_SHARE), ("letter", _LETTERS, _LETTER_SHARE)):
         signs = [table[gloss] for gloss in sorted(table) if table[gloss].kind == kind]
         for index in random.choice(len(signs), min(count, len(signs)), replace=False).tolist():
-            sign, row = signs[index], np.full(REST.size, np.nan)
-            row[[COMMANDED_JOINTS.index(joint) for joint in sign.joints]] = sign.knots[knot]
+            sign, row = signs[index], np.full(rest.size, np.nan)
+            row[humanoid.columns(sign.joints)] = sign.knots[knot]
             rows.append(row)
             weights.append(share / min(count, len(signs)))
     return Neighbours(np.array(rows), np.array(weights) / sum(weights))
@@ -76,15 +77,18 @@ def neighbours(table: Mapping[str, Sign], knot: int) -> Neighbours:
 class EasyWords:
     """Makes alternatives of words."""
 
-    def __init__(self, limits: MotionLimits, before: Neighbours, after: Neighbours) -> None:
+    def __init__(
+        self, humanoid: Humanoid, limits: MotionLimits, before: Neighbours, after: Neighbours
+    ) -> None:
         """Prepare.
 
         Args:
+            humanoid: The robot.
             limits: Limits of the joints, of which velocity counts here.
             before: What comes before any word.
             after: What comes after.
         """
-        self._speeds = limits.velocity
+        self._humanoid, self._speeds = humanoid, limits.velocity
         self._before, self._after = before, after
 
     def eased(self, word: WordTolerance, accepted: Callable[[Array], bool]) -> Array | None:
@@ -110,7 +114,7 @@ class EasyWords:
         self, word: WordTolerance, neighbours: Neighbours
     ) -> tuple[list[int], NDArray[np.bool_], Array]:
         """Columns of a word's joints, which of them each neighbour fixes, and where, as right arms."""
-        columns = [COMMANDED_JOINTS.index(word.arms.sign.joints[column]) for column in word.arms.columns]
+        columns = self._humanoid.columns(word.arms.sign.joints[column] for column in word.arms.columns)
         theirs = neighbours.postures[:, columns]
         shared = np.isfinite(theirs)
         return columns, shared, word.arms.as_right(np.where(shared, theirs, 0.0))
@@ -118,7 +122,7 @@ class EasyWords:
     def _program(self, word: WordTolerance, postures: Array, step: float, *, hands: bool) -> Array:
         """Solve for the postures within a step of those given, hands included or not."""
         size = postures.shape[1]
-        columns = [COMMANDED_JOINTS.index(word.arms.sign.joints[column]) for column in word.arms.columns]
+        columns = self._humanoid.columns(word.arms.sign.joints[column] for column in word.arms.columns)
         speeds = self._speeds[columns]
         table = _Program(postures.size)
 
@@ -162,7 +166,7 @@ class EasyWords:
         """Pairs of postures between which the arms move, with the least time of it [s], and how often."""
         sign = word.arms.sign
         others = np.setdiff1d(np.arange(len(sign.joints)), word.arms.columns)
-        speeds = self._speeds[[COMMANDED_JOINTS.index(sign.joints[column]) for column in others]]
+        speeds = self._speeds[self._humanoid.columns(sign.joints[column] for column in others)]
         found: dict[tuple[int, int], tuple[float, int]] = {}
         for knot, asked in enumerate(np.diff(sign.times).tolist()):
             pair = int(word.arms.at[knot]), int(word.arms.at[knot + 1])

@@ -7,7 +7,6 @@ Arms are seen as right arms throughout (`arm_bounds`): a left one in the mirror.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import product
 from typing import NamedTuple
 
@@ -15,24 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Side, mirrored
+from teo_sign_capture.retarget.arm_bounds import Side, mirrored, mirrored_hand
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
 from teo_signs.sign import Sign
 
-ARM, HAND = len(RIGHT_ARM), len(RIGHT_HAND)
-_SIDE = ARM + HAND
-_JOINTS: Mapping[Side, tuple[str, ...]] = {"right": RIGHT_ARM + RIGHT_HAND, "left": LEFT_ARM + LEFT_HAND}
+_SIDES: tuple[Side, Side] = ("right", "left")
 _MIRROR = np.array([1.0, -1.0, 1.0])
-# How many of an arm's joints carry a link; a hand's parts are carried by all.
-_CARRIED = {
-    "FrontalShoulder": 1,
-    "SagittalShoulder": 2,
-    "AxialShoulder": 3,
-    "FrontalElbow": 4,
-    "AxialWrist": 5,
-}
 # Share of a tolerance that is used along each of the directions below [1]: between them it is 1.13 times
 # as much.
 ALONG = 0.88
@@ -67,6 +55,7 @@ class WordArms:
         postures: The different postures of those joints, as of right arms [rad]. Shape (p, m).
         at: Which posture each knot has. Shape (n,).
         of_hands: Which of the joints are of hands. Shape (m,).
+        arm, hand: How many joints an arm has, and a hand.
     """
 
     def __init__(self, robot: Robot, sign: Sign) -> None:
@@ -77,14 +66,14 @@ class WordArms:
             sign: The word as captured.
         """
         self.sign = sign
-        self._robot, self._chain = robot, ArmKinematics(robot)
-        self.sides: tuple[Side, ...] = tuple(
-            side for side in _JOINTS if set(_JOINTS[side]) <= set(sign.joints)
-        )
-        names = [joint for side in self.sides for joint in _JOINTS[side]]
+        self._robot, self._chain, self._humanoid = robot, ArmKinematics(robot), robot.humanoid
+        self.arm, self.hand = (len(self._humanoid.arm("right")), len(self._humanoid.hand("right")))
+        joints = {side: self._humanoid.arm(side) + self._humanoid.hand(side) for side in _SIDES}
+        self.sides: tuple[Side, ...] = tuple(side for side in _SIDES if set(joints[side]) <= set(sign.joints))
+        names = [joint for side in self.sides for joint in joints[side]]
         self.columns = np.array([sign.joints.index(name) for name in names])
         self.postures, self.at = _different(self.as_right(sign.knots[:, self.columns]))
-        self.of_hands = np.arange(len(names)) % _SIDE >= ARM
+        self.of_hands = np.arange(len(names)) % (self.arm + self.hand) >= self.arm
         first = [int(np.flatnonzero(self.at == posture)[0]) for posture in range(len(self.postures))]
         self._others = [sign.pose(knot) for knot in first]
 
@@ -99,18 +88,23 @@ class WordArms:
         parts = np.split(arms, len(self.sides), axis=1)
         return np.hstack(
             [
-                np.hstack([mirrored(part[:, :ARM]), part[:, ARM:]]) if side == "left" else part
+                self._swapped(part) if side == "left" else part
                 for side, part in zip(self.sides, parts, strict=True)
             ]
         )
 
+    def _swapped(self, limb: Array) -> Array:
+        """Arm and hand of the other side that mirror these. Shape (n, arm + hand)."""
+        arm, hand = limb[:, : self.arm], limb[:, self.arm :]
+        return np.hstack([mirrored(self._humanoid, arm), mirrored_hand(self._humanoid, hand)])
+
     def of_each_side(self, postures: Array) -> list[Array]:
-        """Arm and hand of each side. Shapes (p, m) and (p, 12)."""
+        """Arm and hand of each side. Shapes (p, m) and (p, arm + hand)."""
         return np.split(postures, len(self.sides), axis=1)
 
     def palms(self, postures: Array) -> list[ArmPoses]:
         """Where the palm of each side is. Shape (p, m)."""
-        return [self._chain.poses(part[:, :ARM]) for part in self.of_each_side(postures)]
+        return [self._chain.poses(part[:, : self.arm]) for part in self.of_each_side(postures)]
 
     def configuration(self, posture: int, postures: Array) -> Array:
         """The whole robot in one of the postures, head and trunk as captured. Shape (p, m)."""
@@ -120,24 +114,24 @@ class WordArms:
         return self._robot.configuration(pose)
 
     def of_side(self, number: int, matrix: Array) -> Array:
-        """A matrix for one arm's joints as one for all. Shapes (r, 6) and (r, m)."""
-        whole = np.zeros((len(matrix), _SIDE * len(self.sides)))
-        whole[:, _SIDE * number : _SIDE * number + matrix.shape[1]] = matrix
+        """A matrix for one arm's joints, or its hand's as well, as one for all. Shapes (r, j) and (r, m)."""
+        size = self.arm + self.hand
+        whole = np.zeros((len(matrix), size * len(self.sides)))
+        whole[:, size * number : size * number + matrix.shape[1]] = matrix
         return whole
 
     def moves(self, link: str, point: Array, posture: int, palms: list[ArmPoses]) -> Array:
         """How a point of a link moves with the arms, in the base's axes [m/rad]. Shape (3, m)."""
         for number, side in enumerate(self.sides):
-            name = side.capitalize()
-            if name not in link or "Hip" in link or "Knee" in link:
+            carried = self._robot.carried_by(link, self._humanoid.arm(side))
+            if not carried:
                 continue
-            carried = _CARRIED.get(link.removesuffix("_link").replace(name, ""), ARM)
             mirror = _MIRROR if side == "left" else np.ones(3)
             points = np.tile(point * mirror, (len(palms[number].place), 1))
             moves = palms[number].point_jacobian(points)[posture] * mirror[:, None]
             moves[:, carried:] = 0.0
             return self.of_side(number, moves)
-        return np.zeros((3, _SIDE * len(self.sides)))
+        return np.zeros((3, (self.arm + self.hand) * len(self.sides)))
 
 
 def _different(arms: Array) -> tuple[Array, NDArray[np.intp]]:

@@ -15,10 +15,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_HAND, joint_limits
-from teo_description.hand_geometry import DextraHand
+from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
-from teo_sign_capture.easing.word_arms import ALONG, ARM, DIRECTIONS, HAND, Rows, WordArms
+from teo_sign_capture.easing.word_arms import ALONG, DIRECTIONS, Rows, WordArms
 from teo_sign_capture.easing.word_contacts import WordContacts
 from teo_sign_capture.retarget.arm_bounds import arm_bounds
 from teo_sign_capture.retarget.arm_kinematics import ArmPoses
@@ -61,7 +60,7 @@ class WordTolerance:
         """
         self.arms = WordArms(robot, sign)
         self.contacts = WordContacts(robot, self.arms)
-        self._hand = DextraHand(robot)
+        self._hand, self._humanoid = HandGeometry(robot), robot.humanoid
         self.lower, self.upper = self._room()
         self._captured = [_turned_less(palms, turns) for palms in self.arms.palms(self.arms.postures)]
 
@@ -88,12 +87,12 @@ class WordTolerance:
 
     def _room(self) -> tuple[Array, Array]:
         """Bounds of the joints in each posture: arms like a person's, ends of fingers near theirs."""
-        limits = joint_limits(RIGHT_HAND)
+        limits = self._hand.limits
         lower: list[Array] = []
         upper: list[Array] = []
         for side, part in zip(self.arms.sides, self.arms.of_each_side(self.arms.postures), strict=True):
-            arm_lower, arm_upper = arm_bounds(side)
-            room = [self._bends(hand) for hand in part[:, ARM:]]
+            arm_lower, arm_upper = arm_bounds(self._humanoid, side)
+            room = [self._bends(hand) for hand in part[:, self.arms.arm :]]
             for ends, arm, bends, hand, rows in (
                 (np.maximum, arm_lower, [one[0] for one in room], limits.lower, lower),
                 (np.minimum, arm_upper, [one[1] for one in room], limits.upper, upper),
@@ -108,7 +107,7 @@ class WordTolerance:
         """Least and greatest position of each joint of a hand with which its ends stay near [rad]."""
         here = self._hand.points(hand)
         least, most = hand.copy(), hand.copy()
-        for joint in range(HAND):
+        for joint in range(self.arms.hand):
             finger = joint - 2
             near = _FOLDED_BEND if finger >= 0 and hand[joint] > _FOLDED else _BEND
             for way, found in ((-1.0, least), (1.0, most)):

@@ -12,6 +12,7 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
+from teo_description.humanoid import DEFAULT_ROBOT
 from teo_description.robot import Robot
 from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
@@ -72,6 +73,7 @@ class Settings:
 
     Attributes:
         table: Directory of the table.
+        robot: Name of the robot whose table it is.
         replace: Whether entries that are there already may be replaced.
         kind: Of the signs.
         standing: How well founded the forms are; None for "recorded", or "sketched" of what a program drew.
@@ -89,6 +91,7 @@ class Settings:
     """
 
     table: Path
+    robot: str = DEFAULT_ROBOT
     replace: bool = False
     kind: Kind = "lexical"
     standing: Standing | None = None
@@ -157,7 +160,7 @@ def _captured(robot: Robot, job: Job, settings: Settings, on_progress: Progress 
         try:
             track, found = recorded_track(recording, settings, person=job.person, on_progress=told)
             warnings += found
-            tell(f"bringing {recording.name} onto TEO", number, len(recordings))
+            tell(f"bringing {recording.name} onto {robot.humanoid.name.upper()}", number, len(recordings))
             takes.append(capture_take(robot, track, cut=job.cut, handedness=job.handedness))
         except LutError as error:
             failed.append(error)
@@ -236,7 +239,7 @@ def check_free(gloss: str, settings: Settings) -> None:
         reason = error.errors(include_url=False)[0]["msg"].removeprefix("Value error, ")
         raise LutError("bad_gloss", f"--gloss: expected {reason}, got {gloss!r}") from error
     try:
-        taken = held_entry(settings.table, gloss)
+        taken = held_entry(settings.table, gloss, robot=settings.robot)
     except LutError as error:
         raise LutError("not_written", f"expected a place to write to, got: {error}") from error
     if taken is not None and not settings.replace and settings.trial is None:

@@ -150,7 +150,7 @@ def capture_job(job: Job, settings: Settings) -> Outcome:
     try:
         if not settings.replace and is_captured(job, settings.table):
             return Outcome(gloss=job.gloss, code=UNCHANGED, message="made from these recordings before")
-        return captured_outcome(capture_bags(_robot(), job, settings))
+        return captured_outcome(capture_bags(_robot(settings.robot), job, settings))
     except LutError as error:
         return failed_outcome(job.gloss, error)
     except Exception as error:  # a mistake of ours in one of hundreds is no reason to lose the others
@@ -222,6 +222,6 @@ def _bad_manifest(path: Path, line: int, expected: str, got: str) -> LutError:
 
 
 @functools.cache
-def _robot() -> Robot:
+def _robot(name: str) -> Robot:
     """One for each process: loading it takes longer than a frame."""
-    return Robot.load()
+    return Robot.load(name)

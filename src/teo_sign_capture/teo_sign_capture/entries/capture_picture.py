@@ -11,12 +11,12 @@ import cv2
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.pictures.rendering import Image, film_strip, render_pose, save_png, write_video
+from teo_description.pictures.rendering import Image, film_strip, save_png, write_video
 from teo_sign_capture.entries.sign_entry import Captured
 from teo_sign_capture.entries.take import Take
 from teo_sign_capture.recordings.colour_images import colour_images, video_pictures
 from teo_sign_capture.recordings.recording import Recording, skeletons_of
-from teo_signs.pictures import FRAME_RATE, FRONT, pose_at
+from teo_signs.pictures import FRAME_RATE, render_sign
 
 _MOMENTS = 7
 # [px] Width and height of each picture: seven beside each other are as wide as a screen.
@@ -50,9 +50,9 @@ def save_capture_picture(path: Path, captured: Captured, recording: Recording | 
     last = float(take.track.times[-1])
     shares = np.linspace(0.0, 1.0, _MOMENTS)
     above = [draw(share * last) for share in shares]
-    below = [render_pose(pose_at(sign, share * sign.duration), FRONT.sized(*_SIZE)) for share in shares]
+    below = [render_sign(sign, share * sign.duration, size=_SIZE) for share in shares]
     captions = [f"{take.source}  {take.span.start + share * last:.2f} s" for share in shares]
-    captions += [f"TEO: {sign.gloss}  {share * sign.duration:.2f} s" for share in shares]
+    captions += [f"{sign.robot}: {sign.gloss}  {share * sign.duration:.2f} s" for share in shares]
     save_png(path, film_strip(above + below, captions, columns=_MOMENTS))
 
 
@@ -67,9 +67,7 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording | Non
     last = float(take.track.times[-1])
     shares = np.linspace(0.0, 1.0, 1 + max(1, round(last * FRAME_RATE)))
     frames = (
-        np.hstack(
-            [draw(share * last), render_pose(pose_at(sign, share * sign.duration), FRONT.sized(*_SIZE))]
-        )
+        np.hstack([draw(share * last), render_sign(sign, share * sign.duration, size=_SIZE)])
         for share in shares
     )
     return write_video(path, frames, [sign.gloss] * len(shares), frames_per_second=FRAME_RATE)

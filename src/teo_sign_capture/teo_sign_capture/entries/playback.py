@@ -11,7 +11,6 @@ from types import MappingProxyType
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import joint_limits
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import Plan, sample_at
@@ -70,18 +69,18 @@ def play(robot: Robot, sign: Sign, times: Array, positions: Array) -> Playback:
             least_standing="sketched",
         ).plan([Token(gloss=sign.gloss, kind=_KINDS[sign.kind])])
     except PlanError as error:
-        raise LutError(error.code, f"{sign.gloss}: TEO cannot sign it: {error}") from error
-    _check_limits(sign.gloss, plan)
+        raise LutError(error.code, f"{sign.gloss}: it cannot be signed: {error}") from error
+    _check_limits(robot, sign.gloss, plan)
     return Playback(
         stretch=plan.timings[0].stretch,
-        path_error=_path_error(sign, plan, times, positions),
+        path_error=_path_error(robot, sign, plan, times, positions),
         clearance=_clearance(robot, sign.gloss, plan),
     )
 
 
-def _check_limits(gloss: str, plan: Plan) -> None:
+def _check_limits(robot: Robot, gloss: str, plan: Plan) -> None:
     """Look at positions and their differences, whatever the planner knows of its pieces."""
-    limits = joint_limits(plan.names)
+    limits = robot.humanoid.limits(plan.names)
     positions = sample_at(plan.motions, np.arange(0.0, plan.duration, _STEP)).positions
     beyond = np.maximum(limits.lower - positions, positions - limits.upper).max(axis=0)
     speed = np.abs(np.diff(positions, axis=0)).max(axis=0) / _STEP
@@ -106,13 +105,13 @@ def _clearance(robot: Robot, gloss: str, plan: Plan) -> float:
     if least < 0.0:
         raise LutError(
             "self_collision",
-            f"{gloss}: expected parts of TEO that keep apart, got {parts} {-1000.0 * least:.0f} mm into each "
-            f"other at {when:.2f} s",
+            f"{gloss}: expected parts of it that keep apart, got {parts} {-1000.0 * least:.0f} mm into "
+            f"each other at {when:.2f} s",
         )
     return least
 
 
-def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array:
+def _path_error(robot: Robot, sign: Sign, plan: Plan, times: Array, positions: Array) -> Array:
     """Distance of every captured frame to the path played between the knots around it [rad]. Shape (m,)."""
     columns = [plan.names.index(joint) for joint in sign.joints]
     waypoints = _waypoint_times(sign, plan, columns)
@@ -122,7 +121,7 @@ def _path_error(sign: Sign, plan: Plan, times: Array, positions: Array) -> Array
         played = sample_at(plan.motions, np.linspace(begin, end, _BETWEEN)).positions[:, columns]
         away = np.abs(positions[between][:, None] - played)
         # What is near is told by arms rather than by fingers, which may be farther off.
-        nearest = (away / tube_radii(sign.joints)).max(axis=2).argmin(axis=1)
+        nearest = (away / tube_radii(robot.humanoid, sign.joints)).max(axis=2).argmin(axis=1)
         worst = np.maximum(worst, away[np.arange(len(away)), nearest].max(axis=0, initial=0.0))
     return worst
 

@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import description_hash
 from teo_description.robot import Robot
 from teo_sign_capture.entries.gates import Verdict, accepted_standing, judge, objections
 from teo_sign_capture.entries.playback import Playback, play
 from teo_sign_capture.entries.take import Take
 from teo_sign_capture.entries.take_combination import Combined, combine
 from teo_sign_capture.retarget.knot_reduction import TOLERANCE, deviations, reduce_to_knots
-from teo_sign_capture.retarget.motion_smoothing import is_finger, smoothest_motion
+from teo_sign_capture.retarget.motion_smoothing import smoothest_motion
 from teo_sign_capture.retarget.quality_figures import limit_margin_deg
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_schema import Kind, Provenance, Standing
@@ -102,18 +102,19 @@ def make_sign(
     used = [takes[index] for index in combined.used]
     sign = Sign(
         gloss=gloss_key(gloss),
-        language="lse",
+        language=DEFAULT_LANGUAGE,
+        robot=robot.humanoid.name,
         kind=kind,
         handedness=takes[combined.leader].span.handedness,
         joints=combined.joints,
         times=combined.times,
         knots=combined.positions,
-        provenance=_provenance(origin, takes, combined),
+        provenance=_provenance(robot, origin, takes, combined),
         quality={},
     )
     sign, playback = _played(robot, sign)
     away = deviations(combined.times, combined.positions, sign.times, sign.knots).max(axis=0)
-    quality = _quality(used, sign, playback, away) | {"takes_count": float(len(takes))}
+    quality = _quality(robot, used, sign, playback, away) | {"takes_count": float(len(takes))}
     # A letter is a posture that is held: clips of the alphabet begin and end with the hand raised.
     has_rest = kind == "letter" or any(take.has_rest for take in used)
     verdicts = judge(quality, duration=sign.duration, has_rest=has_rest)
@@ -134,7 +135,7 @@ def _accepted(provenance: Provenance, standing: Standing, against: Sequence[Verd
 def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
     """The sign in fewer knots, gently moved, and what the planner makes of it."""
     for share in (1.0, 0.5, 0.25, 0.0):
-        gentle = smoothest_motion(whole.times, whole.joints, whole.knots, share=share)
+        gentle = smoothest_motion(robot.humanoid, whole.times, whole.joints, whole.knots, share=share)
         knots = reduce_to_knots(whole.times, gentle, share * TOLERANCE)
         sign = replace(whole, times=whole.times[knots], knots=gentle[knots])
         try:
@@ -146,7 +147,7 @@ def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
     raise AssertionError("the last share returns or raises")
 
 
-def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Provenance:
+def _provenance(robot: Robot, origin: Origin, takes: Sequence[Take], combined: Combined) -> Provenance:
     take = takes[combined.leader]
     gaps = [gap for index in combined.used for gap in takes[index].gaps]
     filled = "; ".join(f"{gap.part.replace('_', ' ')} {gap.start:.2f} to {gap.end:.2f} s" for gap in gaps)
@@ -167,12 +168,14 @@ def _provenance(origin: Origin, takes: Sequence[Take], combined: Combined) -> Pr
         recorded=take.recorded,
         created=datetime.date.today().isoformat(),
         licence=origin.licence,
-        description_hash=description_hash(),
+        description_hash=robot.humanoid.description_hash,
         notes=" ".join(filter(None, notes)),
     )
 
 
-def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array) -> dict[str, float]:
+def _quality(
+    robot: Robot, takes: Sequence[Take], sign: Sign, playback: Playback, away: Array
+) -> dict[str, float]:
     def usual(errors: str) -> float:
         """The worse hand's error that 95 of 100 frames keep below, mean of the takes."""
         found = [getattr(take.motion, errors) for take in takes]
@@ -185,12 +188,13 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
         hands = [array[:, np.isfinite(array).any(axis=0)] for array in found]
         return float(np.mean([worse(np.nanmean(array, axis=0)) for array in hands]))
 
-    fingers = np.array([is_finger(joint) for joint in sign.joints])
+    fingers = np.array([joint not in robot.humanoid.body_joints for joint in sign.joints])
     figures = {
         "place_error_p95_mm": 1000.0 * usual("place_error"),
         **_contact_figure(takes),
         "major_place_wrong": on_average("wrong_place", np.nanmax),
         "same_zone_percent": 100.0 * on_average("same_zone", np.nanmin),
+        "same_zone_of_middle_percent": 100.0 * on_average("same_zone_of_middle", np.nanmin),
         "palm_error_p95_deg": np.degrees(usual("palm_error")),
         "finger_error_p95_deg": np.degrees(usual("finger_error")),
         "flexion_error_p95_deg": np.degrees(usual("flexion_error")),
@@ -204,7 +208,7 @@ def _quality(takes: Sequence[Take], sign: Sign, playback: Playback, away: Array)
         "stroke_s": float(np.mean([take.span.duration for take in takes])),
         "movement_s": float(np.mean([take.span.returns - take.span.leaves for take in takes])),
         "clearance_mm": 1000.0 * playback.clearance,
-        "limit_margin_deg": limit_margin_deg(sign.joints, sign.knots),
+        "limit_margin_deg": limit_margin_deg(robot.humanoid, sign.joints, sign.knots),
     }
     # Adding zero takes the sign from -0.0.
     return {name: round(float(value), _DECIMALS.get(name, 1)) + 0.0 for name, value in figures.items()}

@@ -54,7 +54,8 @@ def similar_signs(robot: Robot, sign: Sign, table: Path) -> tuple[SimilarSign, .
     """
     others: dict[str, Sign] = {}
     try:
-        signs = Lut.open(None if table == user_lut_directory() else table)
+        name = robot.humanoid.name
+        signs = Lut.open(None if table == user_lut_directory(robot=name) else table, robot=name)
     except LutError:  # a table that is made with its first sign
         return ()
     for gloss in signs.glosses():

@@ -17,11 +17,13 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
+from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_sign_capture.time_warp import warp
 from teo_signs.errors import LutError
 
+_SIDES: tuple[Side, Side] = ("right", "left")
 # [m] Unit of places: two fingers' breadth.
 _PLACE = 0.03
 # [rad] Unit of directions and bends, as in `lut nearest`.
@@ -74,11 +76,11 @@ def combine(robot: Robot, motions: Sequence[RobotMotion], names: Sequence[str]) 
     if len(motions) == 1:
         return _chosen(motions, 0, (0,), "One take.")
     for name, motion in zip(names, motions, strict=True):
-        if _hands(motion) != _hands(motions[0]):
+        if _hands(robot, motion) != _hands(robot, motions[0]):
             raise LutError(
                 "takes_differ",
-                f"expected takes made with the same hands, got {_hands(motions[0])} in {names[0]} and "
-                f"{_hands(motion)} in {name}: leave one out, or name the hands with --hands",
+                f"expected takes made with the same hands, got {_hands(robot, motions[0])} in {names[0]} and "
+                f"{_hands(robot, motion)} in {name}: leave one out, or name the hands with --hands",
             )
     shown = [features(robot, motion) for motion in motions]
     count = len(motions)
@@ -135,13 +137,17 @@ def features(robot: Robot, motion: RobotMotion) -> Array:
         For each hand its place and two of its directions, then the bend of each axis of a hand (second and
         third number 0). Shape (n, f, 3).
     """
-    sides = _hands(motion)
-    fingers = [index for index, joint in enumerate(motion.joints) if "Hand" in joint or "Finger" in joint]
+    humanoid = robot.humanoid
+    sides = _hands(robot, motion)
+    palm = humanoid.file.hand.palm
+    palms = {"right": palm, "left": humanoid.mirrored_name(palm)}
+    hands = set(humanoid.hand("right") + humanoid.hand("left"))
+    fingers = [index for index, joint in enumerate(motion.joints) if joint in hands]
     rows = []
     for pose in motion.positions:
         q = robot.configuration(dict(zip(motion.joints, pose.tolist(), strict=True)))
         row = []
-        for palm in robot.placements(q, [f"{side}_palm" for side in sides]):
+        for palm in robot.placements(q, [palms[side] for side in sides]):
             row += [palm[:3, 3] / _PLACE, palm[:3, 0] / _TURN, palm[:3, 2] / _TURN]
         bends = np.zeros((len(fingers), 3))
         bends[:, 0] = pose[fingers] / _TURN
@@ -149,10 +155,9 @@ def features(robot: Robot, motion: RobotMotion) -> Array:
     return np.array(rows)
 
 
-def _hands(motion: RobotMotion) -> tuple[str, ...]:
-    return tuple(
-        side for side in ("right", "left") if any(side.capitalize() in joint for joint in motion.joints)
-    )
+def _hands(robot: Robot, motion: RobotMotion) -> tuple[Side, ...]:
+    humanoid = robot.humanoid
+    return tuple(side for side in _SIDES if set(humanoid.arm(side)) <= set(motion.joints))
 
 
 def _shortfall(motion: RobotMotion) -> float:

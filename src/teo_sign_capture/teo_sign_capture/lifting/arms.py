@@ -9,7 +9,7 @@ back, hands are not inside trunk or head and mostly where one signs, elbows and 
 nothing jumps from one side to the other between two frames. The cheapest of all courses through the clip is
 taken.
 
-The view is taken as from far away: all of a person has the same scale.
+Points are as from far away: all of a person has the same scale, what is nearer was drawn in before.
 """
 
 from __future__ import annotations

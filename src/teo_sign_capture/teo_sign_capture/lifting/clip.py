@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """From a person's points in a picture to a track of keypoints in space.
 
-The view is taken as from far away, the person as facing it: what is left and up is seen, what is forward
-follows from the lengths of limbs (`lifting.arms`), of a hand's bones (`lifting.hands`) and from the shape of
-a head (`lifting.head`). Shoulders and hips are in one plane across the view.
+The person is taken as facing the camera: what is left and up is seen, what is forward follows from the
+lengths of limbs (`lifting.arms`), of a hand's bones (`lifting.hands`) and from the shape of a head
+(`lifting.head`). Shoulders and hips are in one plane across the view; what is before it looks larger by how
+near the camera is.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +19,7 @@ from teo_sign_capture.lifting.arms import lift_arm
 from teo_sign_capture.lifting.body_measure import BodyMeasure, measure_body
 from teo_sign_capture.lifting.hands import LiftedHand, has_depth, lift_hand
 from teo_sign_capture.lifting.head import POINTS, lift_head
-from teo_sign_capture.recordings.pose_file import PoseClip
+from teo_sign_capture.recordings.pose_file import Points, PoseClip
 from teo_sign_capture.tracks.body_axes import in_body_axes
 from teo_sign_capture.tracks.hand_model import MIDDLE, RING, WRIST
 from teo_sign_capture.tracks.skeleton_track import (
@@ -53,18 +56,46 @@ def lift_clip(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:
     Raises:
         LutError: "no_torso", see `in_body_axes`.
     """
+    # Limbs that come towards the camera look longer than they are, and so less foreshortened: what a first
+    # lift finds to be near is drawn in and lifted anew. More lifts would trust depths beyond what they tell:
+    # hands that hang or touch come off the body.
+    lifted = _lift_from_afar(_drawn_in(clip, _lift_from_afar(clip)))
+    return in_body_axes(
+        times=np.arange(len(clip.body.places), dtype=np.float64) / clip.rate,
+        **lifted,
+        face=Keypoints.lost(len(clip.body.places), FACE),
+        source=clip.source,
+        recorded=recorded,
+        up=(0.0, 0.0, 1.0),
+    )
+
+
+def _drawn_in(clip: PoseClip, lifted: dict[str, Keypoints]) -> PoseClip:
+    """A clip as from far away: points that are nearer to the camera than the shoulders look farther out."""
+    middle = _between_shoulders(clip)[:, None]
+
+    def part(name: str) -> Points:
+        points: Points = getattr(clip, name)
+        forward = np.nan_to_num(lifted[name].positions[..., :1])
+        places = points.places.copy()
+        places[..., 1:] = middle + (places[..., 1:] - middle) * (1.0 - forward / _CAMERA)
+        return replace(points, places=places)
+
+    return replace(clip, body=part("body"), left_hand=part("left_hand"), right_hand=part("right_hand"))
+
+
+def _lift_from_afar(clip: PoseClip) -> dict[str, Keypoints]:
+    """Body and hands of a clip in which all of a person has one scale, from between the shoulders [m]."""
     measure = measure_body(clip.body)
-    period = 1.0 / clip.rate
     places = measure.scale * clip.body.places
     places[..., 0] = np.nan
     sigma = np.full((*places.shape[:2], 2), np.nan)
-    middle = _filled(places[:, [SHOULDER["left"], SHOULDER["right"]], 1:].mean(axis=1))
     # Hands are found finer than wrists of bodies.
     for side in _SIDES:
         wrists = measure.scale * clip.hand(side).places[:, WRIST, 1:]
         seen = np.isfinite(wrists).all(axis=1)
         places[seen, BODY_WRIST[side], 1:] = wrists[seen]
-    places[..., 1:] -= middle[:, None]
+    places[..., 1:] -= measure.scale * _between_shoulders(clip)[:, None]
     for point in (*SHOULDER.values(), *HIP.values()):
         known = np.isfinite(places[:, point, 1])
         places[known, point, 0] = 0.0
@@ -76,18 +107,16 @@ def lift_clip(clip: PoseClip, *, recorded: str | None = None) -> SkeletonTrack:
     for point, pair in ((NECK, SHOULDER), (MID_HIP, HIP)):
         places[:, point] = places[:, list(pair.values())].mean(axis=1)
         sigma[:, point] = sigma[:, list(pair.values())].mean(axis=1)
-    places[..., 1:] *= 1.0 - places[..., :1] / _CAMERA
-    places[..., 1:] += middle[:, None]
-    return in_body_axes(
-        times=np.arange(len(places), dtype=np.float64) * period,
-        body=_keypoints(places, _mean(sigma), _body_confidence(clip)),
-        left_hand=_hand(clip, "left", places, sigma, hands["left"]),
-        right_hand=_hand(clip, "right", places, sigma, hands["right"]),
-        face=Keypoints.lost(len(places), FACE),
-        source=clip.source,
-        recorded=recorded,
-        up=(0.0, 0.0, 1.0),
-    )
+    return {
+        "body": _keypoints(places, _mean(sigma), _body_confidence(clip)),
+        "left_hand": _hand(clip, "left", places, sigma, hands["left"]),
+        "right_hand": _hand(clip, "right", places, sigma, hands["right"]),
+    }
+
+
+def _between_shoulders(clip: PoseClip) -> Array:
+    """The middle of the shoulders in the picture. Shape (T, 2)."""
+    return _filled(clip.body.places[:, [SHOULDER["left"], SHOULDER["right"]], 1:].mean(axis=1))
 
 
 def _lift_side(clip: PoseClip, side: str, places: Array, sigma: Array, measure: BodyMeasure) -> LiftedHand:

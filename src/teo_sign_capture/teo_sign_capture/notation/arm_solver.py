@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Arms that bring a hand where a score wants it, as well as TEO can.
+"""Arms that bring a hand where a score wants it, as well as a robot can.
 
 What is traded against what follows what carries meaning in a sign: the place first, on the body above all;
-then the way the palm faces; then the way the fingers point. TEO's wrist bends sideways only, so not every
-hand that a person can hold is within reach; what is left over is measured and reported with the sign.
+then the way the palm faces; then the way the fingers point. TEO's wrist, for one, bends sideways only: not
+every hand that a person can hold is within reach; what is left over is measured and reported with the sign.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import DextraHand
+from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_capture.notation.targets import HandTarget
-from teo_sign_capture.retarget.arm_bounds import Bounds
+from teo_sign_capture.retarget.arm_bounds import Bounds, search_starts, with_elbow_out
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, angles_between
-from teo_sign_capture.retarget.arm_residuals import EASY_ARM, JOINTS, ArmProblem, ArmWeights
+from teo_sign_capture.retarget.arm_residuals import ArmProblem, ArmWeights
 from teo_sign_capture.retarget.arm_search import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.viterbi import cheapest_path
@@ -34,8 +34,8 @@ _WEIGHTS = ArmWeights(
     palm=1.0,
     fingers=0.7,
     # Chooses among equals, moves a reachable hand by less than 1 deg.
-    easy=np.full(JOINTS, 0.03),
-    easy_arm=EASY_ARM,
+    easy=0.03,
+    sideways=0.03,
 )
 # What a radian of way from one posture to the next costs [1/rad^2]: of two arms that do as well, the one that
 # need not swing about.
@@ -49,7 +49,7 @@ class ArmCandidate:
     """An arm for a target, seen as a right arm.
 
     Attributes:
-        positions: The joints of the arm [rad]. Shape (6,).
+        positions: The joints of the arm [rad]. Shape (j,).
         palm_error: Angle between the ways the palm faces and should face [rad].
         finger_error: The same of the way the fingers point [rad].
         cost: What the search made small.
@@ -64,15 +64,20 @@ class ArmCandidate:
 class ArmSolver:
     """Finds arms for targets on one robot."""
 
-    def __init__(self, robot: Robot) -> None:
-        self._chain = ArmKinematics(robot)
-        self._hand = DextraHand(robot)
+    def __init__(self, robot: Robot, chain: ArmKinematics) -> None:
+        self._chain = chain
+        self._hand = HandGeometry(robot)
 
     def candidates(self, targets: Sequence[HandTarget], bounds: Bounds) -> list[list[ArmCandidate]]:
         """The arms for each target at which the search ends, one for each valley, the best first."""
         goals = _goals(targets, np.array([self.part(target) for target in targets]))
         problem = ArmProblem(self._chain, (goals,), weights=_WEIGHTS)
-        found, costs = search_arms(problem, 0, np.arange(len(targets)), bounds)
+        starts, frames = search_starts(self._chain.humanoid), np.arange(len(targets))
+        found, costs = search_arms(problem, 0, frames, bounds, starts=starts)
+        out = with_elbow_out(self._chain.humanoid, bounds)
+        if out is not None:
+            others, prices = search_arms(problem, 0, frames, out, starts=starts)
+            found, costs = np.concatenate([found, others], axis=1), np.concatenate([costs, prices], axis=1)
         return [self._distinct(*of_target) for of_target in zip(targets, found, costs, strict=True)]
 
     def _distinct(self, target: HandTarget, found: Array, costs: Array) -> list[ArmCandidate]:
@@ -104,7 +109,7 @@ class ArmSolver:
             "thumb": points.thumb[-1],
             "fingertips": tips[target.shape[2:] <= target.shape[2:].min() + np.radians(15.0)].mean(axis=0),
             "index_side": points.fingers[0, 0] + np.array([0.0, -0.015, 0.0]),
-            "little_side": points.fingers[3, 0] + np.array([-0.02, 0.015, 0.0]),
+            "little_side": points.fingers[-1, 0] + np.array([-0.02, 0.015, 0.0]),
         }
         return np.asarray(shown[target.part])
 

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_capture.signing_space.places import OTHER_HAND, find_place
+from teo_sign_capture.signing_space.places import OTHER_HAND, written_place
 
 # [m] From the middle: hands that meet or cross are as far apart on both.
 _ALIKE = 0.10
@@ -87,7 +87,7 @@ def person_place(name: str, offset: Array) -> tuple[str, list[float]]:
     if name in OTHER_HAND:
         return name, _rounded(x, -y, z)
     at, (forwards, outwards, up) = _PLACES[name]
-    middle = -float(find_place(name).point[1])
+    middle = -float(written_place(name).point[1])
     return at, _rounded(forwards + x, outwards + _aside(middle - y) - _aside(middle), up + z)
 
 
@@ -121,8 +121,10 @@ _SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, fl
     "hook": ((_CROOKED, _FOLDED, _FOLDED, _FOLDED), "over", _TOGETHER),
     "two": ((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across", (13, -10, -4, -6)),
     "bent_two": ((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "across", (10, -8, -4, -6)),
+    "bent_thumb_two": ((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "up", (8, -4, -4, -6)),
     "three": ((_STRAIGHT, _STRAIGHT, _STRAIGHT, _FOLDED), "across", (13, 0, -13, -8)),
     "four": ((_STRAIGHT,) * 4, "across", _FAN),
+    "bent_four": (((75, 8, 5),) * 4, "across", _TOGETHER),
     "little": ((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "over", _TOGETHER),
     "horns": ((_STRAIGHT, _FOLDED, _FOLDED, _STRAIGHT), "over", (6, 0, -2, -12)),
     "thumb_little": ((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "up", (2, 0, -2, -14)),
@@ -131,6 +133,7 @@ _SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, fl
     "pinch": ((_AT_THUMB, _FOLDED, _FOLDED, _FOLDED), "opposed", _TOGETHER),
     "ring": ((_AT_THUMB, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
     "middle_flick": ((_STRAIGHT, _AT_THUMB, _STRAIGHT, _STRAIGHT), "opposed", (8, 0, -8, -16)),
+    "ring_flick": ((_STRAIGHT, _STRAIGHT, _AT_THUMB, _STRAIGHT), "opposed", (8, 4, 0, -14)),
     "two_flick": ((_AT_THUMB, _AT_THUMB, _FOLDED, _FOLDED), "opposed", _TOGETHER),
     "three_flick": ((_AT_THUMB, _AT_THUMB, _AT_THUMB, _FOLDED), "opposed", _TOGETHER),
 }

@@ -10,12 +10,11 @@ from pathlib import Path
 import yaml
 from pydantic import ValidationError
 
-from teo_common.package_files import package_path
 from teo_sign_capture.notation.compound import performed
 from teo_sign_capture.notation.inflection import inflected_scores
 from teo_sign_capture.notation.score_schema import Compound, Score
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import LANGUAGE
 from teo_signs.sign import gloss_key
 
 # Names of models that pydantic puts into the place of an error, where a field may be one of two.
@@ -26,15 +25,8 @@ _MOST_BYTES = 100_000
 
 
 def default_scores_directory() -> Path:
-    """The scores of LSE that come with the package.
-
-    Raises:
-        LutError: "no_directory".
-    """
-    try:
-        return package_path("teo_sign_capture", f"scores/{LANGUAGE}")
-    except FileNotFoundError as error:
-        raise LutError("no_directory", str(error)) from error
+    """The scores of the default language."""
+    return load_language(DEFAULT_LANGUAGE).scores
 
 
 def read_score(path: Path) -> Score:

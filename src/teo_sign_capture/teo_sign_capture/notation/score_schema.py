@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
-from teo_sign_capture.notation.handshapes import handshape
+from teo_sign_capture.notation.handshapes import written_shape
 from teo_sign_capture.retarget.arm_bounds import Side
 from teo_sign_capture.signing_space.directions import direction, displacement
 from teo_sign_capture.signing_space.places import OTHER_HAND, split_place
@@ -27,7 +27,7 @@ def _checked(check: object) -> AfterValidator:
     return AfterValidator(validate)
 
 
-Shape = Annotated[str, _checked(handshape)]
+Shape = Annotated[str, _checked(written_shape)]
 Direction = Annotated[str, _checked(direction)]
 Displacement = Annotated[str, _checked(displacement)]
 PlaceText = Annotated[str, _checked(split_place)]
@@ -115,6 +115,10 @@ class Step(BaseModel):
     wiggle: Wiggle | None = Field(None, description="Made after the posture is reached.")
 
 
+# One hand; both, each written; or the left as the mirror of the right.
+Hands = Literal["right", "both", "mirrored"]
+
+
 class Repeat(BaseModel):
     """Steps that are made again."""
 
@@ -198,9 +202,7 @@ class Forms(BaseModel):
 class Score(_Heading):
     """A sign as its form is described."""
 
-    hands: Literal["right", "both", "mirrored"] = Field(
-        description="One hand; both, each written; or the left as the mirror of the right."
-    )
+    hands: Hands = Field(description="One hand; both, each written; or the left as the mirror of the right.")
     steps: list[Step | Repeat] = Field(min_length=1)
     forms: Forms | None = Field(None, description="Inflected forms beside these steps, the citation form.")
 

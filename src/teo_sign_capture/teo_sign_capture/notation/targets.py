@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A score as postures in space: for each moment, where each hand is, how it is turned, its shape."""
+"""A score as postures in a robot's space: when each hand is where, turned how, in which shape."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from teo_common.arrays import Array
+from teo_description.robot import Robot
 from teo_sign_capture.notation.handshapes import handshape
 from teo_sign_capture.notation.score_schema import (
     Circle,
@@ -36,7 +37,7 @@ class HandTarget:
     """What is wanted of a hand, seen as a right hand.
 
     Attributes:
-        shape: The six axes of the hand [rad]. Shape (6,).
+        shape: The axes of the hand [rad]. Shape (axes,).
         part: Part of the hand that is at the place.
         other: Name of the place on the other hand that `point` is relative to; empty for `base_link`.
         point: Where the part is [m]. Shape (3,).
@@ -83,15 +84,15 @@ class Posture:
     swinging: Side | None = None
 
 
-def postures(score: Score) -> list[Posture]:
-    """All moments of a score, in order of time."""
+def postures(robot: Robot, score: Score) -> list[Posture]:
+    """All moments of a score on a robot, in order of time."""
     made: list[Posture] = []
     right = left = None
     turn = bow = time = 0.0
     for step in flattened(score.steps):
-        right = _target(right, step.right)
+        right = _target(robot, right, step.right)
         if score.hands == "both":
-            left = _target(left, step.left)
+            left = _target(robot, left, step.left)
         elif score.hands == "mirrored":
             left = right
         if step.head is not None:
@@ -109,20 +110,20 @@ def postures(score: Score) -> list[Posture]:
     return made
 
 
-def _target(before: HandTarget | None, hand: HandScore | None) -> HandTarget:
+def _target(robot: Robot, before: HandTarget | None, hand: HandScore | None) -> HandTarget:
     """A hand's target from what the score says, and from the step before where it says nothing."""
     if hand is None:
         assert before is not None, "the schema asks for a first step that says everything"
         return before
     fields = {} if before is None else dict(vars(before))
     if hand.shape is not None:
-        fields["shape"] = handshape(hand.shape)
+        fields["shape"] = handshape(robot, hand.shape)
     if hand.place is not None:
         name, offset = split_place(hand.place)
         if name in OTHER_HAND:
             fields |= {"other": name, "point": offset, "outward": np.array([1.0, 0.0, 0.0]), "body": True}
         else:
-            place = find_place(name)
+            place = find_place(robot.humanoid, name)
             fields |= {
                 "other": "",
                 "point": place.point + offset,

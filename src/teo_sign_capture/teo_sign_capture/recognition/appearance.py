@@ -17,9 +17,9 @@ from __future__ import annotations
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
+from teo_description.humanoid import SIDES
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.retarget.arm_bounds import mirrored, mirrored_hand
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
 from teo_sign_capture.retarget.free_motion import free_motion
 from teo_sign_capture.retarget.hand_goals import HandGoals
@@ -61,12 +61,16 @@ def sign_appearance(robot: Robot, sign: Sign) -> Array:
     positions = np.column_stack([np.interp(moments, sign.times, column) for column in sign.knots.T])
     chain = ArmKinematics(robot)
     hands: dict[str, Array] = {}
-    for side, arm, hand in (("right", RIGHT_ARM, RIGHT_HAND), ("left", LEFT_ARM, LEFT_HAND)):
+    humanoid = robot.humanoid
+    for side in SIDES:
+        arm, hand = humanoid.arm(side), humanoid.hand(side)
         if not set(arm + hand) <= set(sign.joints):
             continue
         joints = positions[:, [sign.joints.index(joint) for joint in arm]]
-        poses = chain.poses(joints if side == "right" else mirrored(joints))
         bends = positions[:, [sign.joints.index(joint) for joint in hand]]
+        if side == "left":
+            joints, bends = mirrored(humanoid, joints), mirrored_hand(humanoid, bends)
+        poses = chain.poses(joints)
         hands[side] = _of_arm(poses, bends)
     return _both(hands)
 

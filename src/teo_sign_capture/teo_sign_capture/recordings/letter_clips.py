@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The recordings of the LSE manual alphabet that come with the package `spoken-to-signed`.
+"""The recordings of manual alphabets that come with the package `spoken-to-signed`.
 
-Thirty clips of one signer (collection "ssp"), MediaPipe Holistic landmarks at 25 frames a second. They look
-flat, but are not: width and height were scaled to pixels and the depth was left in MediaPipe's unit, a
-fraction of the picture's width. `DEPTH_SCALE` puts it back. Where the tracker of the hand lost it, which the
-tracker of the body tells, the hand is led straight from where it was last seen to where it is seen again.
+A clip for each letter, of one signer for each language: MediaPipe Holistic landmarks at 25 frames a second.
+They look flat, but are not: width and height were scaled to pixels and the depth was left in MediaPipe's
+unit, a fraction of the picture's width. `DEPTH_SCALE` puts it back. Where the tracker of the hand lost it,
+which the tracker of the body tells, the hand is led straight from where it was last seen to where it is seen
+again.
 """
 
 from __future__ import annotations
@@ -19,21 +20,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_sign_capture.tracks.hand_model import WRIST
+from teo_sign_languages import Language
 from teo_signs.errors import LutError
 
 PACKAGE = "spoken-to-signed"
 LICENCE = "MIT"
-COLLECTION = "ssp"
 
 # Pixels for one unit of the clips' depth: at this value the bones of the hand keep their lengths best over
-# the 758 frames of the 30 clips (mean deviation 10 %, against 14 % without depth; flat between 550 and 700).
+# the 758 frames of the 30 clips of Spanish Sign Language (mean deviation 10 %, against 14 % without depth;
+# flat between 550 and 700).
 DEPTH_SCALE = 620.0
 
 _HAND = "RIGHT_HAND_LANDMARKS"
 _BODY, _BODY_WRIST = "POSE_LANDMARKS", 16
-# [pixel] The hand's wrist is within 27 of the body's in every letter's stroke but Q's, where 15 frames in a
-# row have it 34 to 55 away and the hand shrunk to a third: the hand was lost, the arm was not. Wrist to
-# middle knuckle is 59.
+# [pixel] The hand's wrist is within 27 of the body's in every Spanish letter's stroke but Q's, where 15
+# frames in a row have it 34 to 55 away and the hand shrunk to a third: the hand was lost, the arm was not.
+# Wrist to middle knuckle is 59.
 _LOST = 30.0
 
 
@@ -42,7 +44,7 @@ class LetterClip:
     """One letter as it was signed.
 
     Attributes:
-        letter: "A" ... "Z", "Ñ", "CH", "LL", "RR".
+        letter: Of the language's alphabet: "A", "CH".
         rate: Frames a second [Hz].
         hand: The 21 landmarks of the right hand [pixel of the normalised clip]: forward (to the viewer, from
             the wrist), to the signer's left, up. Shape (n, 21, 3), read-only.
@@ -57,24 +59,45 @@ class LetterClip:
     file: str
 
 
-def load_letter_clips() -> dict[str, LetterClip]:
-    """Read the alphabet, in the order of its index.
+def load_letter_clips(language: Language) -> dict[str, LetterClip]:
+    """Read the recordings of a language's letters.
 
     Returns:
-        Clips by letter.
+        Clips by letter, in the order of the alphabet.
 
     Raises:
-        LutError: The package with the clips is missing or holds other files ("no_clips", "bad_clip").
+        LutError: The language names no recordings, the package that holds them is missing, or has none of a
+            letter ("no_clips"), those of another language ("other_language") or a damaged one ("bad_clip").
     """
+    if language.alphabet.clips is None:
+        raise LutError(
+            "no_clips", f"expected alphabet.clips in language.yaml of {language.code!r}, got none: name them"
+        )
+    collection = language.alphabet.clips.collection
     try:
         root = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon"
         with (root / "index.csv").open(encoding="utf-8", newline="") as file:
-            rows = [row for row in csv.DictReader(file) if row["signed_language"] == COLLECTION]
+            rows = [row for row in csv.DictReader(file) if row["signed_language"] == collection]
+        paths = {row["words"].upper(): row["path"] for row in rows}
     except (ModuleNotFoundError, OSError, KeyError) as error:
         raise LutError(
             "no_clips", f"expected the package {PACKAGE} with its clips (pip install {PACKAGE}), got: {error}"
         ) from error
-    return {row["words"]: _read(root / row["path"], row["words"]) for row in rows}
+    missing = [letter for letter in language.alphabet.letters if letter not in paths]
+    if missing:
+        raise LutError(
+            "no_clips",
+            f"expected a recording of each letter of {language.code!r} in the collection {collection!r}, "
+            f"got none of {', '.join(missing)}: it has {', '.join(paths) or 'none'}",
+        )
+    # The rows of French Sign Language name the American files.
+    others = {Path(paths[letter]).parts[0] for letter in language.alphabet.letters} - {collection}
+    if others:
+        raise LutError(
+            "other_language",
+            f"expected recordings of {collection!r}, got files of {', '.join(sorted(others))} under its name",
+        )
+    return {letter: _read(root / paths[letter], letter) for letter in language.alphabet.letters}
 
 
 def clips_version() -> str:

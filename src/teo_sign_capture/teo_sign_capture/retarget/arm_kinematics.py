@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""TEO's right arm at many poses at once.
+"""A robot's right arm at many poses at once.
 
 Pinocchio gives one pose a call, most of which is Python; a motion of some hundred frames sought from several
 starts asks for thousands of poses a step. Here they are all worked out together. The geometry is read off the
-robot's model: every joint of the arm turns about one of the axes of its link, and all links are parallel to
-the base while the arm hangs.
+robot's model with all joints at zero. Each link is given axes of which one is its joint's: the base's where
+the joint turns about one of these, its own where it does not.
 
 The left arm is the right one in a mirror (`arm_bounds.mirrored`): what is said here of the right arm is
 used for both.
@@ -18,19 +18,20 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_ARM
 from teo_description.robot import Robot
+from teo_sign_capture.retarget.arm_bounds import arm_bounds
 
-# Joints whose axes go through the elbow and the wrist.
-ELBOW, WRIST = 3, 5
+# Cosine of the angle within which a joint's axis is an axis of the base, or the normal of the palm: URDFs are
+# rounded.
+_ALONG, _NORMAL = 1.0 - 1e-9, 0.7
 
 
 class ArmPoses(NamedTuple):
-    """Where n arms are, in ``base_link`` with the trunk at home.
+    """Where n arms of j joints are, in ``base_link`` with the trunk at home.
 
     Attributes:
-        axes: Of the six joints, unit vectors. Shape (n, 6, 3).
-        origins: A point on each axis [m]. Shape (n, 6, 3).
+        axes: Of the joints, unit vectors. Shape (n, j, 3).
+        origins: A point on each axis [m]. Shape (n, j, 3).
         rotation: Of the palm; columns along the hand, to the little finger's side, out of the palm.
             Shape (n, 3, 3).
         place: Of the palm [m]. Shape (n, 3).
@@ -47,34 +48,76 @@ class ArmPoses(NamedTuple):
         return placed
 
     def point_jacobian(self, points: Array) -> Array:
-        """How points that all joints carry move with them [m/rad]. Shape (n, 3, 6)."""
+        """How points that all joints carry move with them [m/rad]. Shape (n, 3, j)."""
         return _cross(self.axes, points[:, None] - self.origins)
 
     def direction_jacobian(self, directions: Array) -> Array:
-        """The same of directions [1/rad]. Shape (n, 3, 6)."""
+        """The same of directions [1/rad]. Shape (n, 3, j)."""
         return _cross(self.axes, directions[:, None])
 
 
 class ArmKinematics:
-    """The right arm of one robot."""
+    """The right arm of one robot.
+
+    Attributes:
+        humanoid: Whose arm it is.
+        count: How many joints it has, j.
+        elbow, turn, wrist: Rows of the joints whose axes go through the elbow, along the forearm, and through
+            the wrist.
+        sideways: Which joints bend the hand towards the thumb or the little finger. Shape (j,).
+        opens: Sign of the elbow's way from folded to straight.
+        shoulder: Where the shoulder's axes meet, in ``base_link`` [m]. Shape (3,).
+        reach: From the shoulder over elbow and wrist to the palm [m].
+    """
 
     def __init__(self, robot: Robot) -> None:
-        q = robot.configuration(dict.fromkeys(RIGHT_ARM, 0.0))
-        placed = robot.placements(q, [f"{joint}_link" for joint in RIGHT_ARM])
-        self.shoulder: Array = placed[1, :3, 3]
-        """Where the shoulder's axes meet, in ``base_link`` [m]. Shape (3,)."""
-        self._steps = np.diff(placed[:, :3, 3], axis=0, prepend=np.zeros((1, 3)))
-        self._turns = [_axis(robot, joint) for joint in RIGHT_ARM]
-        palm = robot.placement(q, "right_palm")
-        self._palm_rotation, self._palm_step = palm[:3, :3], palm[:3, 3] - placed[-1, :3, 3]
-        self.reach = float(np.linalg.norm(self._steps[2:], axis=1).sum() + np.linalg.norm(self._palm_step))
-        """From the shoulder over elbow and wrist to the palm [m]."""
+        self.humanoid = robot.humanoid
+        joints, file = self.humanoid.arm("right"), self.humanoid.file
+        self.count = len(joints)
+        q = robot.configuration(dict.fromkeys(joints, 0.0))
+        palm = robot.placement(q, file.hand.palm)
+        placed = robot.joint_placements(q, joints)
+        origins = placed[:, :3, 3]
+
+        def moving(link: str) -> int:
+            return joints.index(robot.moving_joint(link))
+
+        links = file.collision.right_arm
+        self.elbow, self.turn, self.wrist = (
+            moving(link) for link in (links.forearm[0], links.forearm[-1], links.hand[0])
+        )
+        upper = moving(links.shoulder[-1])
+        self.shoulder: Array = origins[upper]
+        axes = np.array(
+            [frame[:3, :3] @ robot.joint_axis(name) for frame, name in zip(placed, joints, strict=True)]
+        )
+        self.sideways = (np.arange(self.count) > self.turn) & (np.abs(axes @ palm[:3, 2]) > _NORMAL)
+        frames = [_link_axes(axis) for axis in axes]
+        self._turns = [int(np.argmax(axis @ frame)) for axis, frame in zip(axes, frames, strict=True)]
+        before = [np.eye(3), *frames]
+        self._changes = [
+            None if np.array_equal(one, other) else one.T @ other
+            for one, other in zip(before, frames, strict=False)
+        ]
+        steps = np.diff(origins, axis=0, prepend=np.zeros((1, 3)))
+        self._steps = np.array([step @ frame for step, frame in zip(steps, before, strict=False)])
+        last = palm[:3, 3] - origins[-1]
+        self._palm_rotation, self._palm_step = frames[-1].T @ palm[:3, :3], last @ frames[-1]
+        self.opens = self._opening()
+        self.reach = float(np.linalg.norm(steps[upper + 1 :], axis=1).sum() + np.linalg.norm(last))
+
+    def _opening(self) -> float:
+        """Which of the elbow's bounds folds the arm: the other is where it opens to."""
+        bent = np.zeros((2, self.count))
+        bent[:, self.elbow] = [bound[self.elbow] for bound in arm_bounds(self.humanoid, "right")]
+        lowest, highest = np.linalg.norm(self.poses(bent).origins[:, self.wrist] - self.shoulder, axis=1)
+        return 1.0 if lowest < highest else -1.0
 
     def poses(self, positions: Array) -> ArmPoses:
         """Where the arm is.
 
         Args:
-            positions: Of the joints of `RIGHT_ARM` [rad]. Shape (n, 6).
+            positions: Of its joints [rad]. Shape (n, j).
         """
         count = len(positions)
         cosines, sines = np.cos(positions), np.sin(positions)
@@ -83,6 +126,9 @@ class ArmKinematics:
         axes, origins = np.empty((count, len(self._turns), 3)), np.empty((count, len(self._turns), 3))
         for joint, axis in enumerate(self._turns):
             place = place + turned @ self._steps[joint]
+            change = self._changes[joint]
+            if change is not None:
+                turned = turned @ change
             origins[:, joint], axes[:, joint] = place, turned[:, :, axis]
             one, other = turned[:, :, (axis + 1) % 3], turned[:, :, (axis + 2) % 3]
             cosine, sine = cosines[:, joint, None], sines[:, joint, None]
@@ -104,7 +150,10 @@ def _cross(first: Array, second: Array) -> Array:
     return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=1)
 
 
-def _axis(robot: Robot, joint: str) -> int:
-    """About which of its axes a joint turns: 0 x, 1 y, 2 z."""
-    model = robot.model.joints[robot.model.getJointId(joint)]
-    return ("RX", "RY", "RZ").index(model.shortname()[-2:])
+def _link_axes(axis: Array) -> Array:
+    """Axes of a link with its joint's among them, as columns: the base's if they will do. Shape (3, 3)."""
+    if axis.max() > _ALONG:
+        return np.eye(3)
+    aside = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
+    aside /= np.linalg.norm(aside)
+    return np.column_stack([axis, aside, np.cross(axis, aside)])

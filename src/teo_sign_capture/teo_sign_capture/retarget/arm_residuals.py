@@ -16,19 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_ARM
-from teo_sign_capture.retarget.arm_kinematics import ELBOW, WRIST, ArmKinematics, ArmPoses
+from teo_sign_capture.retarget.arm_bounds import easy_arm
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
 Goals = TypeVar("Goals", HandGoals, PairGoals)
 
-JOINTS = len(RIGHT_ARM)
-
 # [rad/m] Weight of the way from hand to hand: a contact is kept to a centimetre or two.
 _TOGETHER = 20.0
-# [rad] An arm that signs at ease. Shape (6,).
-EASY_ARM = np.radians([-45.0, -12.0, 10.0, -80.0, 20.0, 0.0])
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -44,8 +40,8 @@ class ArmWeights:
         fore_arm: Weight of the direction from elbow to wrist.
         strayed: [m] A hand in the air that is so far from its place counts twice as much as by `in_air`
             alone, nearer hardly more; infinite if every centimetre counts the same.
-        easy: Pull of each joint towards `easy_arm`. Shape (6,).
-        easy_arm: An arm at ease [rad]. Shape (6,).
+        easy: Pull of each joint towards an arm at ease.
+        sideways: The same of joints that bend the hand sideways.
     """
 
     in_air: Array
@@ -55,8 +51,8 @@ class ArmWeights:
     upper_arm: float = 0.0
     fore_arm: float = 0.0
     strayed: float = np.inf
-    easy: Array
-    easy_arm: Array
+    easy: float
+    sideways: float
 
 
 # Weights for a motion captured from a person.
@@ -78,8 +74,8 @@ CAPTURED = ArmWeights(
     fore_arm=0.35,
     # The pull moves a reachable hand by less than 1 deg. The wrist bends to the side, which a person's hardly
     # does.
-    easy=np.array([0.03, 0.03, 0.03, 0.03, 0.03, 0.1]),
-    easy_arm=EASY_ARM,
+    easy=0.03,
+    sideways=0.1,
 )
 
 
@@ -109,6 +105,7 @@ class ArmProblem:
         hands: tuple[HandGoals, ...],
         pair: PairGoals | None = None,
         weights: ArmWeights = CAPTURED,
+        easy: Array | None = None,
     ) -> None:
         """State it.
 
@@ -117,8 +114,11 @@ class ArmProblem:
             hands: What is wanted of each hand; the right one first if there are two.
             pair: What is wanted of two hands together; None if one takes part, or nothing is.
             weights: What counts how much.
+            easy: The arm at ease [rad], shape (j,); the robot's without it.
         """
         self._chain = chain
+        self._easy = easy_arm(chain.humanoid) if easy is None else easy
+        self._pulls = np.where(chain.sideways, weights.sideways, weights.easy)
         self._hands = hands
         self._pair = pair
         self._weights = weights
@@ -127,7 +127,7 @@ class ArmProblem:
         """What is wanted in some frames one after the other."""
         pair = None if self._pair is None else _cut(self._pair, part)
         hands = tuple(_cut(goals, part) for goals in self._hands)
-        return ArmProblem(self._chain, hands, pair, self._weights)
+        return ArmProblem(self._chain, hands, pair, self._weights, self._easy)
 
     def spread_apart(self, amount: Array) -> ArmProblem:
         """The same with hands away from everything, each on the side of the other on which it belongs.
@@ -147,17 +147,18 @@ class ArmProblem:
             replace(goals, place=goals.place + shift)
             for goals, shift in zip(self._hands, shifts, strict=False)
         )
-        return ArmProblem(self._chain, hands, None, self._weights)
+        return ArmProblem(self._chain, hands, None, self._weights, self._easy)
 
     def of_hand(self, hand: int, positions: Array, frames: NDArray[np.intp]) -> Quadratic:
-        """One arm by itself, at any positions [rad], shape (n, 6), each for one of the frames, shape (n,)."""
+        """One arm by itself, at any positions [rad], shape (n, j), each for one of the frames, shape (n,)."""
         poses = self._chain.poses(positions)
         return self._single(self._hands[hand], frames, poses, positions)
 
     def whole(self, positions: Array) -> Quadratic:
-        """All arms over all frames. Shape (T, 6 or 12) [rad]."""
+        """All arms over all frames, one after the other. Shape (T, j or 2 j) [rad]."""
         frames = np.arange(len(positions))
-        arms = [positions[:, at : at + JOINTS] for at in range(0, positions.shape[1], JOINTS)]
+        joints = self._chain.count
+        arms = [positions[:, at : at + joints] for at in range(0, positions.shape[1], joints)]
         poses = [self._chain.poses(arm) for arm in arms]
         singles = [
             self._single(goals, frames, pose, arm)
@@ -168,7 +169,7 @@ class ArmProblem:
         count, size = positions.shape
         gradient, curvature = np.zeros((count, size)), np.zeros((count, size, size))
         for at, single in enumerate(singles):
-            own = slice(JOINTS * at, JOINTS * (at + 1))
+            own = slice(joints * at, joints * (at + 1))
             gradient[:, own], curvature[:, own, own] = single.gradient, single.curvature
         cost = singles[0].cost + singles[1].cost
         if self._pair is None:
@@ -190,11 +191,11 @@ class ArmProblem:
     def _single(
         self, goals: HandGoals, frames: NDArray[np.intp], poses: ArmPoses, positions: Array
     ) -> Quadratic:
-        weights = self._weights
+        weights, chain = self._weights, self._chain
         points = poses.points(goals.local[frames])
         palm, fingers = poses.rotation[:, :, 2], poses.rotation[:, :, 0]
-        upper_arm = _unit(poses.origins[:, ELBOW] - self._chain.shoulder)
-        fore_arm = _unit(poses.origins[:, WRIST] - poses.origins[:, ELBOW])
+        upper_arm = _unit(poses.origins[:, chain.elbow] - chain.shoulder)
+        fore_arm = _unit(poses.origins[:, chain.wrist] - poses.origins[:, chain.elbow])
         at_place = weights.in_air + (weights.on_body - weights.in_air) * goals.contact[frames, None]
         off = points - goals.place[frames]
         away, astray = self._astray(off, at_place, goals.contact[frames])
@@ -205,18 +206,19 @@ class ArmProblem:
                 weights.fingers * (fingers - goals.fingers[frames]),
                 weights.upper_arm * (upper_arm - goals.upper_arm[frames]),
                 weights.fore_arm * (fore_arm - goals.fore_arm[frames]),
-                weights.easy * (positions - weights.easy_arm),
+                self._pulls * (positions - self._easy),
             ],
             axis=1,
         )
+        of_upper_arm, of_fore_arm = (np.arange(chain.count) < end for end in (chain.elbow, chain.elbow + 1))
         slopes = np.concatenate(
             [
                 astray @ poses.point_jacobian(points),
                 weights.palm * poses.direction_jacobian(palm),
                 weights.fingers * poses.direction_jacobian(fingers),
-                weights.upper_arm * poses.direction_jacobian(upper_arm) * (np.arange(JOINTS) < ELBOW),
-                weights.fore_arm * poses.direction_jacobian(fore_arm) * (np.arange(JOINTS) < WRIST - 1),
-                np.broadcast_to(np.diag(weights.easy), (len(positions), JOINTS, JOINTS)),
+                weights.upper_arm * poses.direction_jacobian(upper_arm) * of_upper_arm,
+                weights.fore_arm * poses.direction_jacobian(fore_arm) * of_fore_arm,
+                np.broadcast_to(np.diag(self._pulls), (len(positions), chain.count, chain.count)),
             ],
             axis=1,
         )

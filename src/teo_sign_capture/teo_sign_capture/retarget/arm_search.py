@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Single postures of an arm, each sought from every start at once.
 
-What is wanted of a hand has several nearest arms: TEO's six joints reach a pose of the hand in few ways, and
-fall short of one in as many. Newton's method with Gauss and Newton's curvature, projected onto the bounds
-(Bertsekas, SIAM J. Control 1982), runs from all starts of all postures together. This one search serves
-captured motions, sign scores, letters and numbers.
+What is wanted of a hand has several nearest arms: six joints reach a pose of the hand in few ways, and fall
+short of one in as many; seven reach one in as many families. Newton's method with Gauss and Newton's
+curvature, projected onto the bounds (Bertsekas, SIAM J. Control 1982), runs from all starts of all postures
+together. This one search serves captured motions, sign scores, letters and numbers.
 """
 
 from __future__ import annotations
@@ -15,27 +15,8 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_bounds import Bounds
-from teo_sign_capture.retarget.arm_residuals import EASY_ARM, JOINTS, ArmProblem
+from teo_sign_capture.retarget.arm_residuals import ArmProblem
 
-# [rad] Right arms that sign, one in each valley. 64 starts more, spread evenly over the bounds, find nothing
-# better for any posture of the shipped scores; an arm that hangs finds nothing better for captured motions.
-# Shape (8, 6).
-STARTS = np.vstack(
-    [
-        EASY_ARM,
-        np.radians(
-            [
-                [-74.0, 11.2, 11.1, -80.5, 48.9, 1.1],  # spelling
-                [-75.0, -12.0, 45.0, -89.0, -55.0, 20.0],  # hand at the chest
-                [-42.0, -74.0, 50.0, -95.0, 20.0, -20.0],  # elbow out
-                [-30.0, -10.0, -20.0, -80.0, 70.0, 10.0],  # palm up
-                [-55.0, -5.0, 52.0, -95.0, -56.0, 7.0],  # forearm across
-                [-90.0, -20.0, 30.0, -95.0, 60.0, -30.0],  # hand at the head
-                [-68.0, -9.0, 54.0, -99.0, 89.0, 44.0],  # palm to the front
-            ]
-        ),
-    ]
-)
 # A joint so near to its bound is at it [rad].
 ON_BOUND = 1e-9
 # Steps after which the search for a posture that nothing refines ends, and the step that ends it [rad].
@@ -51,7 +32,7 @@ def search_arms(
     frames: NDArray[np.intp],
     bounds: Bounds,
     *,
-    starts: Array = STARTS,
+    starts: Array,
     steps: int = _STEPS,
 ) -> tuple[Array, Array]:
     """Find the postures at which the search ends, from each start for each frame.
@@ -60,15 +41,16 @@ def search_arms(
         problem: What is wanted.
         hand: Which of its hands.
         frames: Frames of the problem. Shape (n,).
-        bounds: Lower and upper bounds of the arm [rad]. Shapes (6,).
-        starts: Where the search begins [rad]. Shape (s, 6).
+        bounds: Lower and upper bounds of the arm [rad]. Shapes (j,).
+        starts: Where the search begins [rad], as of `arm_bounds.search_starts`. Shape (s, j).
         steps: Most steps of the search.
 
     Returns:
-        Positions [rad], shape (n, s, 6), and their costs, shape (n, s).
+        Positions [rad], shape (n, s, j), and their costs, shape (n, s).
     """
     lower, upper = bounds
-    count, every = len(frames) * len(starts), np.arange(JOINTS)
+    joints = starts.shape[1]
+    count, every = len(frames) * len(starts), np.arange(joints)
     where = np.repeat(frames, len(starts))
     positions = np.clip(np.tile(starts, (len(frames), 1)), lower, upper)
     here = problem.of_hand(hand, positions, where)
@@ -91,4 +73,4 @@ def search_arms(
         active = active[~done & (damping[active] < _MOST)]
         if not active.size:
             break
-    return positions.reshape(len(frames), len(starts), JOINTS), cost.reshape(len(frames), len(starts))
+    return positions.reshape(len(frames), len(starts), joints), cost.reshape(len(frames), len(starts))

@@ -53,21 +53,22 @@ _MOST_DAMPING = 1e6
 TRUSTED = np.radians(12.0)
 
 
-def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds]) -> Array:
+def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds], starts: Array) -> Array:
     """Find the joints of one arm or two over a motion, as if nothing could touch.
 
     Args:
         problem: What is wanted.
         times: [s]. Shape (T,).
-        bounds: Lower and upper bounds of each arm [rad]. Shapes (6,).
+        bounds: Lower and upper bounds of each arm [rad]. Shapes (j,).
+        starts: Where the search begins [rad]. Shape (s, j).
 
     Returns:
-        Shape (T, 6 or 12) [rad].
+        Shape (T, j or 2 j) [rad].
     """
     frames = _searched_frames(times)
     arms = []
     for hand, arm_bounds in enumerate(bounds):
-        found, cost = search_arms(problem, hand, frames, arm_bounds, steps=_SEARCH_STEPS)
+        found, cost = search_arms(problem, hand, frames, arm_bounds, starts=starts, steps=_SEARCH_STEPS)
         farthest = SWIFT * (np.diff(times[frames]) + _SPREAD)
         lasting = np.gradient(times[frames]) / _EVERY if len(frames) > 1 else np.ones(1)
         chosen = cheapest_path(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=HASTE)
@@ -99,8 +100,8 @@ def refine_arms(
     Args:
         problem: What is wanted.
         times: [s]. Shape (T,).
-        bounds: Of each arm [rad]. Shapes (6,).
-        start: Shape (T, 6 or 12) [rad].
+        bounds: Of each arm [rad]. Shapes (j,).
+        start: Shape (T, j or 2 j) [rad].
         terms: What must not touch; None if nothing can.
         shares: What is wanted counts by so much in each frame, 0 to 1; None if it counts in full. Shape (T,).
         trusted: With collision terms, how far from the start each joint may go [rad]; one for all, or shape

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Where on TEO a place at or before a person's body is.
+"""Where on a robot a place at or before a person's body is.
 
-TEO's shoulders are nearly twice as far apart as a person's, its head is small and its arms are longer. In the
+A robot is not built as a person: TEO's shoulders are nearly twice as far apart, its head is small. In the
 air the workspace is scaled axis by axis (`WorkspaceScaling`): crown, shoulders and waist keep their heights;
 distances before the body scale with the length of the arms; sideways the scale is half-way between both, so
 that circles stay nearly round; and arms stretched out, or hanging, stay so.
@@ -15,12 +15,14 @@ chin stays there while the head turns.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pinocchio as pin
 from scipy.interpolate import PchipInterpolator
 
 from teo_common.arrays import Array
-from teo_description import urdf_text
+from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.head_motion import HeadMotion
@@ -41,17 +43,17 @@ class WorkspaceScaling:
         scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
     """
 
-    def __init__(self, person: Person, reach: float, shoulder: float, height: float) -> None:
+    def __init__(self, person: Person, reach: float, shoulder: float, height: float, crown: float) -> None:
         """Find it.
 
         Args:
             person: The person.
-            reach: Of TEO's arm, shoulder to palm [m].
-            shoulder: Half the distance between TEO's shoulders [m].
-            height: Of TEO's shoulders above its hips [m].
+            reach: Of the robot's arm, shoulder to palm [m].
+            shoulder: Half the distance between the robot's shoulders [m].
+            height: Of the robot's shoulders above its hips [m].
+            crown: The robot's height above its shoulders [m].
         """
-        along = reach / person.arm
-        crown, own_crown = find_place("head_top").point[2] - height, person.places["head_top"][2]
+        along, own_crown = reach / person.arm, person.places["head_top"][2]
         across = (along + crown / own_crown) / 2.0
         self._along = along
         self._aside = _monotone(
@@ -101,13 +103,13 @@ _MIDDLE = {
     for name in ("head_top", "forehead", "nose", "mouth", "chin", "throat", "upper_chest", "chest", "belly")
 }
 _ASIDE = {"eye": "eye", "ear": "ear", "shoulder": "shoulder", "chest_aside": "other_chest"}
-_BODY_LINKS = ("FrontalTrunk_link", "FrontalNeck_link")
 
 
 class BodyMap:
     """The map from one person's body to TEO's, head and trunk of TEO at home.
 
     Attributes:
+        humanoid: The robot.
         scale: What lengths are multiplied by before the chest: forwards, sideways, up. Shape (3,).
         shoulder_height: Of TEO's shoulders above its hips [m].
     """
@@ -116,7 +118,9 @@ class BodyMap:
         reach, shoulder = arm.reach, -float(arm.shoulder[1])
         self._origin = arm.shoulder * (1.0, 0.0, 1.0)
         self.shoulder_height = float(arm.shoulder[2])
-        self._scaling = WorkspaceScaling(person, reach, shoulder, self.shoulder_height)
+        self.humanoid = robot.humanoid
+        crown = find_place(self.humanoid, "head_top").point[2] - self.shoulder_height
+        self._scaling = WorkspaceScaling(person, reach, shoulder, self.shoulder_height, crown)
         self.scale: Array = self._scaling.scale
         self._size = person.trunk / _TRUNK
         self._boxes = body_boxes(robot)
@@ -193,9 +197,9 @@ class BodyMap:
         ours, theirs = [], []
         for name, place in _MIDDLE.items():
             ours.append(person.places[name])
-            theirs.append(on_skin(self._boxes, place) * (1.0, 0.0, 1.0))
+            theirs.append(on_skin(self.humanoid, self._boxes, place) * (1.0, 0.0, 1.0))
         for name, place in _ASIDE.items():
-            right = on_skin(self._boxes, place)
+            right = on_skin(self.humanoid, self._boxes, place)
             right[1] = -abs(right[1])
             for side in (np.ones(3), MIRROR):
                 ours.append(person.places[name] * side)
@@ -203,9 +207,9 @@ class BodyMap:
         return np.array(ours), np.array(theirs)
 
 
-def on_skin(boxes: list[Box], name: str) -> Array:
-    """A place of articulation on TEO, moved out of the shapes that count in a collision [m]. Shape (3,)."""
-    place = find_place(name)
+def on_skin(humanoid: Humanoid, boxes: list[Box], name: str) -> Array:
+    """A place on a robot, moved out of the shapes that count in a collision [m]. Shape (3,)."""
+    place = find_place(humanoid, name)
     out = place.outward
     leaving = [0.0]
     for middle, half in boxes:
@@ -224,13 +228,25 @@ def smooth_step(share: Array) -> Array:
 
 
 def body_boxes(robot: Robot) -> list[Box]:
-    """Middles and half sides of the boxes of trunk and head, at home [m]."""
-    geometry = pin.buildGeomFromUrdfString(robot.model, urdf_text(), pin.GeometryType.COLLISION)
+    """Middles and half sides of boxes round the shapes of trunk and head, at home [m]."""
+    humanoid = robot.humanoid
+    geometry = pin.buildGeomFromUrdfString(robot.model, humanoid.urdf_text(), pin.GeometryType.COLLISION)
+    moved_by = {*humanoid.trunk[-1:], *humanoid.head[-1:]}
     found = []
     for item in geometry.geometryObjects:
         link = robot.model.frames[item.parentFrame].name
-        if link in _BODY_LINKS and hasattr(item.geometry, "halfSide"):
-            local = item.placement.translation - robot.model.frames[item.parentFrame].placement.translation
-            home = robot.placement(robot.configuration({}), link)
-            found.append((home[:3, :3] @ local + home[:3, 3], np.asarray(item.geometry.halfSide)))
+        if link not in humanoid.file.collision.torso or robot.moving_joint(link) not in moved_by:
+            continue
+        shape = robot.model.frames[item.parentFrame].placement.inverse() * item.placement
+        home = robot.placement(robot.configuration({}), link)
+        middle = home[:3, :3] @ shape.translation + home[:3, 3]
+        found.append((middle, np.abs(home[:3, :3] @ shape.rotation) @ _half_sides(item.geometry)))
     return found
+
+
+def _half_sides(shape: Any) -> Array:
+    """Half the sides of the box round a shape of Coal's, which knows no type of its own. Shape (3,) [m]."""
+    if hasattr(shape, "halfSide"):
+        return np.asarray(shape.halfSide)
+    half = getattr(shape, "halfLength", shape.radius)
+    return np.array([shape.radius, shape.radius, half])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Where a motion of TEO's arms would touch TEO, and the price of it."""
+"""Where a motion of a robot's arms would touch the robot, and the price of it."""
 
 from __future__ import annotations
 
@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.clearance import Clearance, Contact
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import mirrored
-from teo_sign_capture.retarget.arm_kinematics import WRIST, ArmKinematics
-from teo_sign_capture.retarget.arm_residuals import JOINTS, Quadratic
+from teo_sign_capture.retarget.arm_bounds import Side, mirrored, mirrored_hand
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_residuals import Quadratic
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
 # [m] Parts that come nearer than this are pushed apart.
@@ -32,9 +31,6 @@ _PRICE = 200.0
 _TIP = np.array([0.12, 0.0, 0.0])
 # [m] From its knuckle to its tip.
 _FINGER = 0.10
-
-_ARM = {"right": RIGHT_ARM, "left": LEFT_ARM}
-_HAND = {"right": RIGHT_HAND, "left": LEFT_HAND}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -102,13 +98,13 @@ def between(rows: Array, frames: NDArray[np.intp], shares: Array) -> Array:
 
 
 class CollisionModel:
-    """All joints of TEO over a motion of the arms."""
+    """All joints of a robot over a motion of the arms."""
 
     def __init__(
         self,
         robot: Robot,
         chain: ArmKinematics,
-        sides: tuple[str, ...],
+        sides: tuple[Side, ...],
         hands: tuple[Array, ...],
         others: dict[str, Array],
     ) -> None:
@@ -118,7 +114,7 @@ class CollisionModel:
             robot: The robot.
             chain: Its arm.
             sides: Of the arms that take part, in the order of their joints.
-            hands: Axes of their hands [rad]. Shapes (T, 6).
+            hands: Axes of their hands, as right ones [rad]. Shapes (T, axes).
             others: Positions of other joints by name [rad]. Shapes (T,).
         """
         self._robot = robot
@@ -126,7 +122,7 @@ class CollisionModel:
         self._sides = sides
         self._hands = hands
         self._others = others
-        self._home_trunk = robot.placement(robot.configuration({}), "FrontalTrunk_link")
+        self._home_trunk = self._trunk(robot.configuration({}))
 
     def pose(self, frame: int, arms: Array, share: float = 0.0) -> dict[str, float]:
         """All joints by name [rad].
@@ -137,19 +133,26 @@ class CollisionModel:
             share: Of the way from the frame to the next that is behind.
         """
         pose = {name: _on_way(values, frame, share).item() for name, values in self._others.items()}
+        humanoid, joints = self._robot.humanoid, self._chain.count
         for index, (side, hand) in enumerate(zip(self._sides, self._hands, strict=True)):
-            arm = arms[JOINTS * index : JOINTS * (index + 1)]
-            pose |= zip(_ARM[side], (mirrored(arm) if side == "left" else arm).tolist(), strict=True)
-            pose |= zip(_HAND[side], _on_way(hand, frame, share).tolist(), strict=True)
+            arm, axes = arms[joints * index : joints * (index + 1)], _on_way(hand, frame, share)
+            if side == "left":
+                arm, axes = mirrored(humanoid, arm), mirrored_hand(humanoid, axes)
+            pose |= zip(humanoid.arm(side), arm.tolist(), strict=True)
+            pose |= zip(humanoid.hand(side), axes.tolist(), strict=True)
         return pose
 
     def ways(self, arms: Array) -> Array:
         """How far the hands move from each frame to the next, added up [m]; arms as in `terms`."""
         total = np.zeros(len(arms) - 1)
         for index, hand in enumerate(self._hands):
-            poses = self._chain.poses(arms[:, JOINTS * index : JOINTS * (index + 1)])
+            joints = self._chain.count
+            poses = self._chain.poses(arms[:, joints * index : joints * (index + 1)])
             tips = poses.points(np.broadcast_to(_TIP, poses.place.shape))
-            moved = [np.linalg.norm(np.diff(one, axis=0), axis=1) for one in (tips, poses.origins[:, WRIST])]
+            moved = [
+                np.linalg.norm(np.diff(one, axis=0), axis=1)
+                for one in (tips, poses.origins[:, self._chain.wrist])
+            ]
             bent = _FINGER * np.abs(np.diff(hand, axis=0)).max(axis=1)
             total += np.maximum(*moved) + bent
         return total
@@ -182,7 +185,7 @@ class CollisionModel:
             q = self._robot.configuration(self.pose(frame, looked[index], share))
             near = self._robot.contacts(q, within)
             if near:
-                home = self._home_trunk @ np.linalg.inv(self._robot.placement(q, "FrontalTrunk_link"))
+                home = self._home_trunk @ np.linalg.inv(self._trunk(q))
                 homes += [home] * len(near)
                 found += [(index, contact) for contact in near]
         where = np.array([index for index, _ in found], dtype=np.intp)
@@ -212,26 +215,22 @@ class CollisionModel:
         """How points of links move along normals with the arms' joints [m/rad]. Shape (k, m)."""
         slopes = np.zeros_like(positions)
         for index, side in enumerate(self._sides):
-            own = slice(JOINTS * index, JOINTS * (index + 1))
+            joints = self._chain.count
+            own = slice(joints * index, joints * (index + 1))
             flip = MIRROR if side == "left" else np.ones(3)
             poses = self._chain.poses(positions[:, own])
             moving = np.einsum("ki,kij->kj", normals * flip, poses.point_jacobian(points * flip))
-            carried = np.array([_carried(link, side) for link in links])
-            slopes[:, own] = moving * (np.arange(JOINTS) < carried[:, None])
+            arm = self._robot.humanoid.arm(side)
+            carried = np.array([self._robot.carried_by(link, arm) for link in links])
+            slopes[:, own] = moving * (np.arange(joints) < carried[:, None])
         return slopes
+
+    def _trunk(self, q: Array) -> Array:
+        """Pose of the part of the trunk that carries the arms. Shape (4, 4)."""
+        last = self._robot.humanoid.trunk[-1:]
+        return self._robot.joint_placements(q, last)[0] if last else np.eye(4)
 
 
 def _on_way(values: Array, frame: int, share: float) -> Array:
     first: Array = np.asarray(values[frame])
     return first if share == 0.0 else first + share * (values[frame + 1] - first)
-
-
-def _carried(link: str, side: str) -> int:
-    """How many joints of the arm of a side carry a link."""
-    name = side.capitalize()
-    if name not in link:
-        return 0
-    joint = link.removesuffix("_link")
-    if joint in _ARM[side]:
-        return _ARM[side].index(joint) + 1
-    return JOINTS if "Hand" in link or "Finger" in link else 0

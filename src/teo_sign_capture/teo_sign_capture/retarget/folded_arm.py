@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Places that are nearer to TEO's own shoulder than its elbow folds.
+"""Places that are nearer to a robot's own shoulder than its elbow folds.
 
 A person's elbow closes until the hand is at the shoulder, TEO's bends by 100 deg: its wrist stays 35 cm away.
 A hand that belongs nearer gains nothing by being turned towards a place that it does not reach. Asked for is
@@ -16,8 +16,7 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.arm_bounds import arm_bounds
-from teo_sign_capture.retarget.arm_kinematics import ELBOW, WRIST, ArmKinematics
-from teo_sign_capture.retarget.arm_residuals import JOINTS
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.hand_goals import HandGoals
 
 
@@ -32,10 +31,10 @@ def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
         The same with other places: a wrist that carries the hand as it is wanted is as far from the shoulder
         as that of the folded arm, or farther.
     """
-    folded = np.zeros((1, JOINTS))
-    folded[0, ELBOW] = arm_bounds("both")[0][ELBOW]
+    folded = np.zeros((1, chain.count))
+    folded[0, chain.elbow] = arm_bounds(chain.humanoid, "both")[0 if chain.opens > 0.0 else 1][chain.elbow]
     pose = chain.poses(folded)
-    wrist = pose.origins[0, WRIST]
+    wrist = pose.origins[0, chain.wrist]
     least = np.linalg.norm(wrist - chain.shoulder)
     in_palm = pose.rotation[0].T @ (wrist - pose.place[0])
     turns = np.stack([goals.fingers, np.cross(goals.palm, goals.fingers), goals.palm], axis=2)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A person's motion on TEO as if nothing could touch: what is wanted, and the arms that come nearest."""
+"""A person's motion on a robot as if nothing could touch: what is wanted, and the arms that come nearest."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import dextra_table
+from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Bounds, Side, arm_bounds
+from teo_sign_capture.retarget.arm_bounds import Bounds, Side, arm_bounds, search_starts
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
-from teo_sign_capture.retarget.arm_residuals import JOINTS, ArmProblem
+from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.folded_arm import before_folded_arm
 from teo_sign_capture.retarget.hand_goals import HandGoals, hand_goals, pair_goals
 from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head
-from teo_sign_capture.signing_space.hand_points import MIRROR, teo_hand_points
+from teo_sign_capture.signing_space.hand_points import MIRROR, robot_hand_points
 from teo_sign_capture.tracks.body_axes import filled
 from teo_sign_capture.tracks.head_pose import head_pose
 from teo_sign_capture.tracks.person import Person
@@ -49,7 +49,7 @@ class FreeMotion:
         goals: What is wanted of the hand of each side.
         problem: What is wanted of the arms, as far as they have room.
         bounds: Lower and upper bounds of each side's arm [rad].
-        arms: The arms that come nearest, one after the other [rad]. Shape (T, 6 or 12).
+        arms: The arms that come nearest, one after the other [rad]. Shape (T, j or 2 j).
     """
 
     sides: tuple[Side, ...]
@@ -65,8 +65,8 @@ class FreeMotion:
 
     def poses(self, side: Side, arms: Array) -> ArmPoses:
         """Where a side's hand is with arms as in `arms`."""
-        at = JOINTS * self.sides.index(side)
-        return self.chain.poses(arms[:, at : at + JOINTS])
+        at = self.chain.count * self.sides.index(side)
+        return self.chain.poses(arms[:, at : at + self.chain.count])
 
 
 def free_motion(robot: Robot, track: SkeletonTrack, *, handedness: Handedness, person: Person) -> FreeMotion:
@@ -82,7 +82,7 @@ def free_motion(robot: Robot, track: SkeletonTrack, *, handedness: Handedness, p
         LutError: "no_arm" or "no_hand" if what is needed was never seen.
     """
     sides = _SIDES[handedness]
-    chain, table = ArmKinematics(robot), dextra_table(robot)
+    chain, table = ArmKinematics(robot), hand_table(robot)
     hands = {side: _hand_keypoints(track, side) for side in sides}
     limbs = {side: _arm_keypoints(track, side) for side in sides}
     head = follow_head(robot, head_pose(track, person.head_shape), person)
@@ -91,14 +91,14 @@ def free_motion(robot: Robot, track: SkeletonTrack, *, handedness: Handedness, p
         side: follow_hand(table, track.times, hand if side == "right" else hand * MIRROR, person.straight)
         for side, hand in hands.items()
     }
-    points = {side: teo_hand_points(table, shape.axes) for side, shape in shapes.items()}
+    points = {side: robot_hand_points(table, shape.axes) for side, shape in shapes.items()}
     goals = {side: hand_goals(body, head, side, hands[side], limbs[side], points[side]) for side in sides}
     pair = None
     if handedness == "both":
         both = ((of["right"], of["left"]) for of in (hands, limbs, points))
         pair = pair_goals(body, track.times, *both)
     problem = ArmProblem(chain, tuple(before_folded_arm(chain, goals[side]) for side in sides), pair)
-    bounds = [arm_bounds(side) for side in sides]
+    bounds = [arm_bounds(robot.humanoid, side) for side in sides]
     return FreeMotion(
         sides=sides,
         chain=chain,
@@ -109,7 +109,7 @@ def free_motion(robot: Robot, track: SkeletonTrack, *, handedness: Handedness, p
         goals=goals,
         problem=problem,
         bounds=bounds,
-        arms=solve_arms(problem, track.times, bounds),
+        arms=solve_arms(problem, track.times, bounds, search_starts(robot.humanoid)),
     )
 
 

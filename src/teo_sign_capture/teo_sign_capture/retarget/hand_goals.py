@@ -108,7 +108,7 @@ def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Arr
         side: "right" or "left".
         hand: The person's 21 keypoints, none NaN, in the axes of the track [m]. Shape (T, 21, 3).
         arm: The person's shoulder, elbow and wrist, none NaN [m]. Shape (T, 3, 3).
-        teo: `teo_hand_points` of the hand. Shape (T, COUNT, 3).
+        teo: `robot_hand_points` of the hand. Shape (T, COUNT, 3).
     """
     points = person_hand_points(hand)
     part, contact = _part_that_counts(body.distance(points, head))

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A person's fingers and thumb over time on TEO's hand.
+"""A person's fingers and thumb over time on a robot's hand.
 
-TEO's finger has one motor for three joints that bend alike. The flexion sought is the one with which the last
-phalanx lies, in the plane in which the finger bends, most like the person's: both its ends, on phalanges as
-long as TEO's.
+A robot's finger has one motor for all its joints. The flexion sought is the one with which the last phalanx
+lies, in the plane in which the finger bends, most like the person's: both its ends, on phalanges as long as
+the robot's.
 
-TEO's thumb has an abductor and one motor for both its joints. Its tip and joint are sought relative to the
+Its thumb has an abductor and one motor for both its joints. Its tip and joint are sought relative to the
 knuckle of the index, in finger lengths; its tip as far from the other tips as the person's where they nearly
 touch; and outside of fingers and palm. The same tip can be nearly reached from several sides, so that what
 is best frame by frame jumps: the cheapest path through time is taken (Viterbi).
@@ -22,27 +22,21 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import (
-    FINGER_LENGTH,
-    FINGER_RADIUS,
-    PALM_FRONT,
-    PALM_HALF_WIDTH,
-    PALM_TO,
-    PHALANGES,
-    THUMB_RADIUS,
-    DextraTable,
-)
-from teo_sign_capture.signing_space.hand_points import KNUCKLES
+from teo_description.hand_geometry import HandGeometry, HandTable
+from teo_sign_capture.signing_space.hand_points import KNUCKLES, finger_rows
 from teo_sign_capture.tracks.body_axes import smoothed
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
 from teo_sign_capture.viterbi import cheapest_path
 
+# Joints of a person's finger.
+_FINGER_JOINTS = 3
+
 
 class HandMotion(NamedTuple):
-    """A hand of TEO over time.
+    """A hand of a robot over time.
 
     Attributes:
-        axes: Of `RIGHT_HAND` [rad]; a left hand's are the same numbers. Shape (T, 6).
+        axes: Of the right hand [rad]; a left hand as the right one that it mirrors. Shape (T, axes).
         error: Mean over the fingers of the difference of the whole bend, one joint's share [rad]. Shape (T,).
     """
 
@@ -50,11 +44,11 @@ class HandMotion(NamedTuple):
     error: Array
 
 
-def follow_hand(table: DextraTable, times: Array, hand: Array, straight: Array) -> HandMotion:
-    """Find TEO's hand in each frame.
+def follow_hand(table: HandTable, times: Array, hand: Array, straight: Array) -> HandMotion:
+    """Find the robot's hand in each frame.
 
     Args:
-        table: TEO's hand.
+        table: The robot's hand.
         times: Of the frames [s]. Shape (T,).
         hand: 21 keypoints of a right hand, or of a left one in a mirror, none NaN [m]. Shape (T, 21, 3).
         straight: `Person.straight` [rad]. Shape (4, 3).
@@ -63,24 +57,56 @@ def follow_hand(table: DextraTable, times: Array, hand: Array, straight: Array) 
     bends = finger_bends(local) - straight
     fingers = finger_flexions(table, bends)
     bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
-    scaled = local * (FINGER_LENGTH / float(np.median(bones)))
-    thumb = follow_thumb(table, times, fingers, scaled - scaled[:, KNUCKLES[0], None])
-    error = np.abs(bends.sum(axis=2) / 3.0 - fingers).mean(axis=1)
+    scaled = local * (table.hand.finger_length / float(np.median(bones)))
+    first = KNUCKLES[finger_rows(table.hand)[0]]
+    thumb = follow_thumb(table, times, fingers, scaled - scaled[:, first, None])
+    rows = finger_rows(table.hand)
+    error = np.abs(bends[:, rows].sum(axis=2) - whole_bends(table, fingers)).mean(axis=1) / 3.0
     return HandMotion(np.concatenate([thumb, fingers], axis=1), error)
 
 
-def finger_flexions(table: DextraTable, bends: Array) -> Array:
-    """Flexion of each of TEO's fingers that looks most like a person's [rad]. (T, 4, 3) gives (T, 4)."""
-    total = np.cumsum(bends, axis=2)
-    steps = PHALANGES[:, None] * np.stack([np.cos(total), np.sin(total)], axis=-1)
+def finger_flexions(table: HandTable, bends: Array) -> Array:
+    """Flexion of each of the robot's fingers that looks most like a person's [rad].
+
+    Args:
+        table: The robot's hand.
+        bends: Of the joints of a person's four fingers [rad]. Shape (T, 4, 3).
+
+    Returns:
+        Shape (T, fingers).
+    """
+    total = np.cumsum(bends[:, finger_rows(table.hand)], axis=2)
+    steps = table.hand.phalanges[:, :, None] * np.stack([np.cos(total), np.sin(total)], axis=-1)
     wanted = np.cumsum(steps, axis=2)[:, :, 1:]
-    found = np.empty(bends.shape[:2])
-    for finger in range(4):
+    count = len(table.hand.fingers)
+    found = np.empty((len(bends), count))
+    for finger in range(count):
         points = table.fingers[:, finger]
         reached = (points[:, 2:] - points[:, :1])[..., (0, 2)]
         cost = ((wanted[:, finger, None] - reached) ** 2).sum(axis=(2, 3))
         found[:, finger] = _lowest(table.flexions, cost)
     return found
+
+
+def whole_bends(table: HandTable, fingers: Array) -> Array:
+    """By how much fingers are bent from the knuckle to the tip, all joints added [rad].
+
+    Args:
+        table: The robot's hand.
+        fingers: Flexions [rad]. Shape (T, fingers).
+    """
+    last = table.fingers[:, :, 3] - table.fingers[:, :, 2]
+    whole = np.unwrap(np.arctan2(last[..., 2], last[..., 0]), axis=0)
+    bends = [np.interp(column, table.flexions, row) for column, row in zip(fingers.T, whole.T, strict=True)]
+    return np.stack(bends, axis=1)
+
+
+def axis_shares(table: HandTable) -> Array:
+    """What a finger's axis turns by for each of a person's three joints that bends by 1. Shape (fingers,)."""
+    ends = np.repeat(table.flexions[[0, -1], None], len(table.hand.fingers), axis=1)
+    whole = np.diff(whole_bends(table, ends), axis=0)[0]
+    shares: Array = np.round(_FINGER_JOINTS * (table.flexions[-1] - table.flexions[0]) / whole, 6)
+    return shares
 
 
 def _lowest(grid: Array, cost: Array) -> Array:
@@ -102,10 +128,8 @@ _FINGER_TIPS = (8, 12, 16, 20)
 # Weights of squares: of a metre at the thumb's joint (1 at its tip), at the distance to a tip that it
 # touches, inside of a finger or the palm; of a radian of way from frame to frame: 6 deg cost as much as 2 mm.
 _JOINT_WEIGHT, _TOUCH_WEIGHT, _INSIDE_WEIGHT, _WAY_WEIGHT = 0.3, 3.0, 60.0, 4e-4
-# [m] Tips farther apart than this, on TEO's scale, are not meant to touch.
+# [m] Tips farther apart than this, on the robot's scale, are not meant to touch.
 _NEAR = 0.045
-# [m] Distance of the axes of thumb and finger when they touch.
-_TOUCH = FINGER_RADIUS + THUMB_RADIUS
 # [m] A gap smaller than this is a contact: two keypoints are off by 3 mm each.
 _SURELY_APART = 0.006
 # Thumbs looked at closely in each frame: those whose tip is best.
@@ -116,31 +140,39 @@ _EVERY = 2
 _TREMBLE = 0.04
 
 
-def thumb_contacts(gaps: Array) -> tuple[Array, Array]:
-    """What gaps between a person's thumb and fingers ask of TEO's thumb.
+def touching_axes(hand: HandGeometry) -> float:
+    """Distance of the axes of thumb and finger when they touch [m]."""
+    return float(hand.finger_radii[0] + hand.thumb_radii[-1])
+
+
+def thumb_contacts(hand: HandGeometry, gaps: Array) -> tuple[Array, Array]:
+    """What gaps between a person's thumb and fingers ask of a robot's thumb.
 
     Args:
-        gaps: Distances of the thumb's tip from the four fingers', on TEO's scale [m]. Shape (..., 4).
+        hand: The robot's hand.
+        gaps: Distances of the thumb's tip from the fingers', on the robot's scale [m]. Shape (..., f).
 
     Returns:
-        How much the thumb is at each finger, 1 in all at most, and how far from its tip TEO's should be [m].
-        Shapes (..., 4).
+        How much the thumb is at each finger, 1 in all at most, and how far from its tip the robot's should be
+        [m]. Shapes (..., f).
     """
     nearness = np.clip(1.0 - gaps / _NEAR, 0.0, 1.0)
     # Several fingers at the thumb share the weight of one: else D's three would be bent into a fist to
     # reach it.
     nearness /= np.maximum(nearness.sum(axis=-1, keepdims=True), 1.0)
-    return nearness, np.where(gaps < _TOUCH + _SURELY_APART, _TOUCH, gaps)
+    touch = touching_axes(hand)
+    return nearness, np.where(gaps < touch + _SURELY_APART, touch, gaps)
 
 
-def follow_thumb(table: DextraTable, times: Array, fingers: Array, person: Array) -> Array:
-    """Find abductor and flexion of TEO's thumb in each frame.
+def follow_thumb(table: HandTable, times: Array, fingers: Array, person: Array) -> Array:
+    """Find abductor and flexion of the robot's thumb in each frame.
 
     Args:
-        table: TEO's hand.
+        table: The robot's hand.
         times: [s]. Shape (T,).
-        fingers: Flexions of TEO's fingers [rad]. Shape (T, 4).
-        person: The person's 21 keypoints in palm axes from the index knuckle, in TEO's size [m].
+        fingers: Flexions of the robot's fingers [rad]. Shape (T, fingers).
+        person: The person's 21 keypoints in palm axes from the knuckle of the first of these fingers, in the
+            robot's size [m].
             Shape (T, 21, 3).
 
     Returns:
@@ -154,7 +186,7 @@ def follow_thumb(table: DextraTable, times: Array, fingers: Array, person: Array
     rough = _apart(person[:, _TIP] + knuckle, grid[:, 2])
     rough += _JOINT_WEIGHT * _apart(person[:, _JOINT] + knuckle, grid[:, 1])
     chosen = np.argpartition(rough, _CANDIDATES, axis=1)[:, :_CANDIDATES]
-    cost = np.take_along_axis(rough, chosen, axis=1) + _meeting(grid[chosen], points, person)
+    cost = np.take_along_axis(rough, chosen, axis=1) + _meeting(table.hand, grid[chosen], points, person)
     path = cheapest_path(cost, angles[chosen], _WAY_WEIGHT)
     return smoothed(times, angles[chosen[np.arange(len(path)), path]], _TREMBLE)
 
@@ -166,19 +198,22 @@ def _apart(wanted: Array, reached: Array) -> Array:
     return apart
 
 
-def _meeting(thumbs: Array, fingers: Array, person: Array) -> Array:
+def _meeting(hand: HandGeometry, thumbs: Array, fingers: Array, person: Array) -> Array:
     """What thumbs cost that do not meet the fingers as the person's does, or go into them.
 
     Args:
+        hand: The robot's.
         thumbs: Knuckle, joint and tip of c candidates [m]. Shape (T, c, 3, 3).
-        fingers: Shape (T, 4, 4, 3).
+        fingers: Shape (T, fingers, 4, 3).
         person: Shape (T, 21, 3).
 
     Returns:
         Shape (T, c).
     """
-    gaps = np.linalg.norm(person[:, _FINGER_TIPS] - person[:, _TIP, None], axis=2)
-    nearness, wanted = thumb_contacts(gaps)
+    tips = [_FINGER_TIPS[row] for row in finger_rows(hand)]
+    gaps = np.linalg.norm(person[:, tips] - person[:, _TIP, None], axis=2)
+    nearness, wanted = thumb_contacts(hand, gaps)
+    touch, box = touching_axes(hand), hand.palm_box
     reached = np.linalg.norm(thumbs[:, :, None, 2] - fingers[:, None, :, 3], axis=3)
     touching = (nearness[:, None] * (reached - wanted[:, None]) ** 2).sum(axis=2)
     shares = np.array([0.3, 0.7, 1.0])[:, None]
@@ -190,15 +225,15 @@ def _meeting(thumbs: Array, fingers: Array, person: Array) -> Array:
         axis=2,
     )
     inside = np.zeros(thumbs.shape[:2])
-    for finger in range(4):
+    for finger in range(fingers.shape[1]):
         for part in range(3):
             start, end = fingers[:, None, None, finger, part], fingers[:, None, None, finger, part + 1]
             bone = end - start
             along = np.clip(((probes - start) * bone).sum(axis=3) / (bone**2).sum(axis=3), 0.0, 1.0)
             away = np.linalg.norm(probes - start - along[..., None] * bone, axis=3)
-            inside += (np.maximum(_TOUCH - away, 0.0) ** 2).sum(axis=2)
-    over_palm = (probes[..., 0] < PALM_TO) & (np.abs(probes[..., 1]) < PALM_HALF_WIDTH)
-    sunk = np.where(over_palm, np.maximum(PALM_FRONT - probes[..., 2], 0.0), 0.0)
+            inside += (np.maximum(touch - away, 0.0) ** 2).sum(axis=2)
+    over_palm = (probes[..., 0] < box.end) & (np.abs(probes[..., 1]) < box.half_width)
+    sunk = np.where(over_palm, np.maximum(box.front - probes[..., 2], 0.0), 0.0)
     inside += (sunk**2).sum(axis=2)
     cost: Array = _TOUCH_WEIGHT * touching + _INSIDE_WEIGHT * inside
     return cost

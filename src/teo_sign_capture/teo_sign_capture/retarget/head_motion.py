@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""TEO's head and trunk following a person's."""
+"""A robot's head and trunk following a person's."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-from teo_description import HEAD, TRUNK, joint_limits
 from teo_description.robot import Robot
+from teo_description.schema.body import Turning
+from teo_sign_capture.signing_space.places import find_place
 from teo_sign_capture.tracks.head_pose import HeadPose
 from teo_sign_capture.tracks.person import Person
 
@@ -23,14 +24,14 @@ _SEEN = 0.5
 
 
 class HeadMotion(NamedTuple):
-    """A person's head and TEO's over time.
+    """A person's head and a robot's over time.
 
     Attributes:
         turns: The person's head, turned from straight. Shape (T, 3, 3).
         places: The middle of the person's head [m]. Shape (T, 3).
-        robot_turns: TEO's head, turned from home against the trunk. Shape (T, 3, 3).
+        robot_turns: The robot's head, turned from home against the trunk. Shape (T, 3, 3).
         pivot: What it turns about, in ``base_link`` [m]. Shape (3,).
-        axes: TEO's `HEAD` [rad]. Shape (T, 2).
+        axes: Of the joints of the robot's head [rad]. Shape (T, k).
         moves: Whether it moves.
         error: Angle that is left between both heads [rad]. Shape (T,).
     """
@@ -45,23 +46,32 @@ class HeadMotion(NamedTuple):
 
 
 def follow_head(robot: Robot, head: HeadPose, person: Person) -> HeadMotion:
-    """Let TEO's head follow, as far as its two joints go; it cannot tilt to the side.
+    """Let the robot's head follow, as far as its joints go.
 
     A head that is not seen in half of the frames takes no part.
     """
     places = np.where(np.isfinite(head.places), head.places, person.head)
     axes, turns, moves, error = _followed(
-        Rotation.from_matrix(head.turns), HEAD, taking_part=float(head.seen.mean()) >= _SEEN
+        robot,
+        Rotation.from_matrix(head.turns),
+        robot.humanoid.file.groups.head,
+        taking_part=float(head.seen.mean()) >= _SEEN,
     )
-    pivot = robot.placement(robot.configuration({}), f"{HEAD[1]}_link")[:3, 3]
+    last = robot.humanoid.head[-1:]
+    # A head that does not move turns about its neck as well as about anything.
+    pivot = (
+        robot.joint_placements(robot.configuration({}), last)[0, :3, 3]
+        if last
+        else find_place(robot.humanoid, "throat").point
+    )
     return HeadMotion(head.turns, places, turns.as_matrix(), pivot, axes, moves, error)
 
 
 class TrunkMotion(NamedTuple):
-    """TEO's trunk over time.
+    """A robot's trunk over time.
 
     Attributes:
-        axes: TEO's `TRUNK` [rad]. Shape (T, 2).
+        axes: Of the joints of the robot's trunk [rad]. Shape (T, k).
         moves: Whether it moves.
         error: Angle that is left to the person's trunk [rad]. Shape (T,).
     """
@@ -71,33 +81,43 @@ class TrunkMotion(NamedTuple):
     error: Array
 
 
-def follow_trunk(trunk: Array) -> TrunkMotion:
-    """Let TEO's trunk follow, as far as its two joints go; it cannot lean to the side.
+def follow_trunk(robot: Robot, trunk: Array) -> TrunkMotion:
+    """Let the robot's trunk follow, as far as its joints go.
 
     Args:
+        robot: The robot.
         trunk: `SkeletonTrack.trunk`, zeros where it is not known [rad]. Shape (T, 3).
     """
-    axes, _, moves, error = _followed(Rotation.from_rotvec(trunk), TRUNK)
+    axes, _, moves, error = _followed(robot, Rotation.from_rotvec(trunk), robot.humanoid.file.groups.trunk)
     return TrunkMotion(axes, moves, error)
 
 
+# The axes about which joints turn, as Euler angles are written about moving axes.
+_LETTERS = {"yaw": "Z", "pitch": "Y", "roll": "X"}
+
+
 def _followed(
-    person: Rotation, joints: tuple[str, ...], *, taking_part: bool = True
+    robot: Robot, person: Rotation, joints: Turning, *, taking_part: bool = True
 ) -> tuple[Array, Rotation, bool, Array]:
-    """Two joints that yaw and pitch, their turn, whether they move, and the angle left to the person's.
+    """Joints that turn, their turn, whether they move, and the angle left to the person's.
 
     Args:
+        robot: The robot.
         person: T turns of the person's.
-        joints: `HEAD` or `TRUNK`.
+        joints: By what they do, yaw, pitch or roll; the first carries the others.
         taking_part: Whether they may move at all.
 
     Returns:
-        Positions of the joints [rad], shape (T, 2), T turns, whether any moves, and angles [rad], shape (T,).
+        Positions of the joints [rad], shape (T, k), T turns, whether any moves, and angles [rad], shape (T,).
     """
-    yaw, pitch, _ = person.as_euler("ZYX").T
-    wanted = np.stack([yaw, pitch], axis=1)
-    limits = joint_limits(joints)
-    moves = taking_part and bool(np.abs(wanted).max() >= _MOVES)
-    axes = np.clip(wanted, limits.lower, limits.upper) if moves else np.zeros_like(wanted)
-    turns = Rotation.from_euler("ZY", axes)
+    names = tuple(joints.values())
+    order = "".join(_LETTERS[way] for way in joints)
+    rest = "".join(letter for letter in _LETTERS.values() if letter not in order)
+    wanted = person.as_euler(order + rest)[:, : len(order)]
+    # URDFs have joints that turn the other way.
+    signs = np.array([robot.joint_axis(name).sum() for name in names])
+    limits = robot.humanoid.limits(names)
+    moves = taking_part and bool(np.abs(wanted).max(initial=0.0) >= _MOVES)
+    axes = np.clip(signs * wanted, limits.lower, limits.upper) if moves else np.zeros_like(wanted)
+    turns = Rotation.from_euler(order, signs * axes) if order else Rotation.identity(len(person))
     return axes, turns, moves, (turns.inv() * person).magnitude()

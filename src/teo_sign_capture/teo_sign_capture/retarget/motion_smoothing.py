@@ -17,7 +17,7 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from teo_common.arrays import Array
-from teo_description import joint_limits
+from teo_description.humanoid import Humanoid
 
 # [rad] Arms, head, trunk: with all joints of an arm at its edge the hand is 2 cm off.
 BODY_TUBE = np.radians(2.0)
@@ -31,10 +31,13 @@ FINGER_TUBE = np.radians(8.0)
 _TOLERANCE = 1e-12
 
 
-def smoothest_motion(times: Array, joints: tuple[str, ...], positions: Array, *, share: float = 1.0) -> Array:
+def smoothest_motion(
+    humanoid: Humanoid, times: Array, joints: tuple[str, ...], positions: Array, *, share: float = 1.0
+) -> Array:
     """Find the motion of least acceleration in the tube, within the joints' limits.
 
     Args:
+        humanoid: The robot.
         times: [s], strictly increasing. Shape (n,).
         joints: Names of the m joints.
         positions: [rad]. Shape (n, m).
@@ -46,8 +49,8 @@ def smoothest_motion(times: Array, joints: tuple[str, ...], positions: Array, *,
     if len(times) < 3 or share <= 0.0:
         return positions.copy()
     bending = _second_differences(times)
-    limits = joint_limits(joints)
-    radii = share * tube_radii(joints)
+    limits = humanoid.limits(joints)
+    radii = share * tube_radii(humanoid, joints)
     lower = np.maximum(positions - radii, np.minimum(limits.lower, positions))
     upper = np.minimum(positions + radii, np.maximum(limits.upper, positions))
     gentle = positions.copy()
@@ -66,14 +69,9 @@ def smoothest_motion(times: Array, joints: tuple[str, ...], positions: Array, *,
     return gentle
 
 
-def tube_radii(joints: tuple[str, ...]) -> Array:
+def tube_radii(humanoid: Humanoid, joints: tuple[str, ...]) -> Array:
     """Radius of each joint's tube [rad]. Shape (m,)."""
-    return np.array([FINGER_TUBE if is_finger(joint) else BODY_TUBE for joint in joints])
-
-
-def is_finger(joint: str) -> bool:
-    """Whether a joint is an axis of a hand."""
-    return "Hand" in joint or "Finger" in joint
+    return np.array([BODY_TUBE if joint in humanoid.body_joints else FINGER_TUBE for joint in joints])
 
 
 def _second_differences(times: Array) -> Array:

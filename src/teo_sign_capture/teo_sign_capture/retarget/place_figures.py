@@ -15,7 +15,13 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.signing_space.major_place import Flags, Zones, same_zone, wrong_place
+from teo_sign_capture.signing_space.major_place import (
+    Flags,
+    Zones,
+    same_zone,
+    same_zone_of_middles,
+    wrong_place,
+)
 from teo_sign_capture.signing_space.places import find_place
 from teo_sign_capture.tracks.person import Person
 
@@ -41,11 +47,13 @@ class PlaceFigures(NamedTuple):
     """How the places of one hand compare.
 
     Attributes:
-        same: Whether both hands are in one zone. Shape (T,).
+        same: Whether both hands are in one zone, at least in part. Shape (T,).
+        middles_same: Whether their middles are. Shape (T,).
         wrong: Whether who watches reads another place. Shape (T,).
     """
 
     same: Flags
+    middles_same: Flags
     wrong: Flags
 
 
@@ -68,7 +76,11 @@ def place_figures(
     # On the face is judged where the face is: a head that bows takes it along.
     shown = shown._replace(from_face=zones.find((points - moved) * flip).from_face)
     found = own.find(teo)
-    return PlaceFigures(same=same_zone(shown, found), wrong=wrong_place(shown, found))
+    return PlaceFigures(
+        same=same_zone(shown, found),
+        middles_same=same_zone_of_middles(shown, found),
+        wrong=wrong_place(shown, found),
+    )
 
 
 def _zones_of_person(person: Person) -> Zones:
@@ -88,12 +100,13 @@ def _zones_of_person(person: Person) -> Zones:
 
 def _zones_of_teo(body: BodyMap, person: Person) -> Zones:
     """TEO's own heights; sides as wide as its space is, for its shoulders are too far apart for its face."""
-    face = [find_place(name).point for name in _FACE]
-    chin, crown, chest, belly = (find_place(name).point[2] for name in ("chin", "head_top", "chest", "belly"))
+    face = [find_place(body.humanoid, name).point for name in _FACE]
+    names = ("chin", "head_top", "chest", "belly")
+    chin, crown, chest, belly = (find_place(body.humanoid, name).point[2] for name in names)
     return Zones(
         heights=np.array([(1.0 - _WAIST) * body.shoulder_height, (chest + belly) / 2.0, chin, crown]),
         sides=body.scale[1] * person.shoulder * np.array([-_OUTSIDE, -_MIDDLE, _MIDDLE]),
-        face=np.array([*face, find_place("eye").point * MIRROR]),
+        face=np.array([*face, find_place(body.humanoid, "eye").point * MIRROR]),
         near=_NEAR_TEO,
         breadth=_BREADTH_TEO,
         behind=0.0,

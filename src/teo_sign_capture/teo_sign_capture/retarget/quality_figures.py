@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import joint_limits
+from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
 
 # Poses from one knot to the next at which the clearance is measured.
@@ -18,7 +18,7 @@ _SAMPLES = 5
 
 
 def least_clearance(robot: Robot, joints: tuple[str, ...], knots: Sequence[Array] | Array) -> float:
-    """Smallest distance between parts of TEO over a motion in straight lines between its knots [m].
+    """Smallest distance between parts of a robot over a motion in straight lines between its knots [m].
 
     Args:
         robot: The robot; joints not named are at home.
@@ -38,12 +38,12 @@ def clearance_mm(robot: Robot, joints: tuple[str, ...], knots: Array) -> float:
     return round(1000.0 * least_clearance(robot, joints, knots), 1)
 
 
-def limit_margin_deg(joints: tuple[str, ...], knots: Array) -> float:
+def limit_margin_deg(humanoid: Humanoid, joints: tuple[str, ...], knots: Array) -> float:
     """Smallest distance of arm, head and trunk joints from their limits [deg].
 
     Fingers do not count: a straight one is at its limit by nature.
     """
-    body = [index for index, joint in enumerate(joints) if "Finger" not in joint and "Hand" not in joint]
-    limits = joint_limits(joints)
+    body = [index for index, joint in enumerate(joints) if joint in humanoid.body_joints]
+    limits = humanoid.limits(joints)
     margins = np.minimum(knots - limits.lower, limits.upper - knots)[:, body]
     return round(float(np.degrees(margins.min())), 1)

@@ -9,16 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
+from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.retarget.arm_bounds import Side, mirrored, mirrored_hand
 from teo_sign_capture.retarget.arm_kinematics import angles_between
-from teo_sign_capture.retarget.arm_residuals import JOINTS
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import CollisionModel
 from teo_sign_capture.retarget.free_motion import FreeMotion, free_motion
 from teo_sign_capture.retarget.hand_goals import point_that_counts
-from teo_sign_capture.retarget.hand_motion import HandMotion
 from teo_sign_capture.retarget.head_motion import follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
 from teo_sign_capture.tracks.person import Person, measure_person
@@ -26,7 +24,6 @@ from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.sign_schema import Handedness
 
 _COLUMN = {"right": 0, "left": 1}
-_JOINTS = {"right": RIGHT_ARM + RIGHT_HAND, "left": LEFT_ARM + LEFT_HAND}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,6 +42,7 @@ class RobotMotion:
         finger_error: Angle between the ways from wrist to knuckles [rad].
         flexion_error: Mean over the four fingers of the difference of bends, of one joint's share [rad].
         same_zone: 1 where the hand is in the zone of the person's (`signing_space.major_place`), or 0.
+        same_zone_of_middle: The same by the middles of both hands, as if they had no breadth.
         wrong_place: 1 where who watches reads another place than the person's, or 0.
         head_error: Angle by which the head falls short of the person's. Shape (T,) [rad].
         trunk_error: The same of the trunk. Shape (T,) [rad].
@@ -60,6 +58,7 @@ class RobotMotion:
     finger_error: Array
     flexion_error: Array
     same_zone: Array
+    same_zone_of_middle: Array
     wrong_place: Array
     head_error: Array
     trunk_error: Array
@@ -84,18 +83,21 @@ def retarget_motion(
     """
     person = person or measure_person(track)
     free = free_motion(robot, track, handedness=handedness, person=person)
-    trunk = follow_trunk(np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk)
+    humanoid = robot.humanoid
+    trunk = follow_trunk(robot, np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk)
     others: dict[str, Array] = {}
     if free.head.moves:
-        others |= dict(zip(HEAD, free.head.axes.T, strict=True))
+        others |= dict(zip(humanoid.head, free.head.axes.T, strict=True))
     if trunk.moves:
-        others |= dict(zip(TRUNK, trunk.axes.T, strict=True))
+        others |= dict(zip(humanoid.trunk, trunk.axes.T, strict=True))
     fingers = tuple(free.shapes[side].axes for side in free.sides)
     collisions = CollisionModel(robot, free.chain, free.sides, fingers, others)
     arms, clearance = clear_arms(free.problem, collisions, track, free.bounds, free.arms)
-    joints = tuple(joint for side in free.sides for joint in _JOINTS[side]) + tuple(others)
+    joints = tuple(joint for side in free.sides for joint in humanoid.arm(side) + humanoid.hand(side))
+    joints += tuple(others)
+    count = free.chain.count
     parts = [
-        _limb(side, arms[:, JOINTS * at : JOINTS * (at + 1)], free.shapes[side])
+        _limb(humanoid, side, arms[:, count * at : count * (at + 1)], free.shapes[side].axes)
         for at, side in enumerate(free.sides)
     ]
     return RobotMotion(
@@ -109,10 +111,10 @@ def retarget_motion(
     )
 
 
-def _limb(side: str, arm: Array, hand: HandMotion) -> Array:
+def _limb(humanoid: Humanoid, side: Side, arm: Array, hand: Array) -> Array:
     if side == "left":
-        arm = mirrored(arm)
-    return np.concatenate([arm, hand.axes], axis=1)
+        arm, hand = mirrored(humanoid, arm), mirrored_hand(humanoid, hand)
+    return np.concatenate([arm, hand], axis=1)
 
 
 def _hand_figures(free: FreeMotion, person: Person, arms: Array) -> dict[str, Array]:
@@ -124,6 +126,7 @@ def _hand_figures(free: FreeMotion, person: Person, arms: Array) -> dict[str, Ar
         "flexion_error",
         "contact",
         "same_zone",
+        "same_zone_of_middle",
         "wrong_place",
     )
     found = {name: np.full((len(arms), 2), np.nan) for name in names}
@@ -138,5 +141,6 @@ def _hand_figures(free: FreeMotion, person: Person, arms: Array) -> dict[str, Ar
         meant = point_that_counts(free.body, free.head, free.keypoints[side])
         places = place_figures(free.body, person, meant, free.head.places - person.head, hand, side)
         found["same_zone"][:, column] = places.same
+        found["same_zone_of_middle"][:, column] = places.middles_same
         found["wrong_place"][:, column] = places.wrong
     return found

@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Points of a hand that can be where a sign is made: a person's, and what they are on TEO's hand."""
+"""Points of a hand that can be where a sign is made: a person's, and what they are on a robot's hand."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_geometry import DextraTable
+from teo_description.hand_geometry import HandGeometry, HandTable
+from teo_description.schema.hand import FINGERS
 
 WRIST, KNUCKLES = 0, (5, 9, 13, 17)
 _MIDDLES, _TIPS = (6, 10, 14, 18), (8, 12, 16, 20)
@@ -26,10 +27,6 @@ COUNT = 2 + 3 * 4 + 2
 # The middle of the palm lies so far from the wrist to the knuckles, as on TEO.
 _PALM_SHARE = 0.55
 
-# In the axes of TEO's palm [m]: the middle of the palm's box, whose face carries the frame, and the plate on
-# which the hand is mounted. The wrist's joint is 9 cm farther up the arm, where no hand of a person is.
-_TEO_PALM, _TEO_HEEL = (0.0, 0.0, -0.018), (-0.07, 0.01, -0.016)
-
 
 def person_hand_points(hand: Array) -> Array:
     """The points of a person's hand.
@@ -46,18 +43,26 @@ def person_hand_points(hand: Array) -> Array:
     return np.concatenate([palm, hand[:, rows]], axis=1)
 
 
-def teo_hand_points(table: DextraTable, axes: Array) -> Array:
-    """The same points of TEO's right hand, in the axes of its palm.
+def finger_rows(hand: HandGeometry) -> list[int]:
+    """Which of a person's four fingers a hand has, index 0."""
+    return [FINGERS.index(name) for name in hand.fingers]
+
+
+def robot_hand_points(table: HandTable, axes: Array) -> Array:
+    """The same points of a robot's right hand, in the axes of its palm.
+
+    Where it lacks a finger, those of the finger beside it.
 
     Args:
         table: The hand.
-        axes: Of `RIGHT_HAND` [rad]. Shape (T, 6).
+        axes: Of `HandGeometry.joints` [rad]. Shape (T, axes).
 
     Returns:
         Shape (T, COUNT, 3).
     """
-    count = len(axes)
-    fixed = np.broadcast_to(np.array([_TEO_PALM, _TEO_HEEL]), (count, 2, 3))
-    fingers = table.finger_points(axes[:, 2:])
+    count, rows = len(axes), finger_rows(table.hand)
+    fixed = np.broadcast_to(np.array([table.hand.palm_middle, table.hand.heel]), (count, 2, 3))
+    nearest = [int(np.argmin(np.abs(np.array(rows) - finger))) for finger in range(len(FINGERS))]
+    fingers = table.finger_points(axes[:, 2:])[:, nearest]
     thumb = table.thumb_points(axes[:, 0], axes[:, 1])
     return np.concatenate([fixed, fingers[:, :, 0], fingers[:, :, 1], fingers[:, :, 3], thumb[:, 1:]], axis=1)

@@ -94,6 +94,11 @@ def same_zone(first: MajorPlaces, second: MajorPlaces) -> Flags:
     return _meet(first.heights, second.heights) & _meet(first.sides, second.sides)
 
 
+def same_zone_of_middles(first: MajorPlaces, second: MajorPlaces) -> Flags:
+    """In which moments the middles of both are in one zone, breadths left aside. Shape (T,)."""
+    return np.asarray((first.height == second.height) & (first.side == second.side))
+
+
 def wrong_place(first: MajorPlaces, second: MajorPlaces) -> Flags:
     """In which moments who watches reads another place: more than one zone away, face, air or back confused.
 

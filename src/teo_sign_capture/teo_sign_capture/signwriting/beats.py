@@ -12,7 +12,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_sign_capture.notation.score_schema import Part
 from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
-from teo_sign_capture.signing_space.places import find_place, split_place
+from teo_sign_capture.signing_space.places import split_place, written_place
 from teo_sign_capture.signwriting.errors import UnreadableError
 from teo_sign_capture.signwriting.hands import WrittenHand
 from teo_sign_capture.signwriting.handshapes import closed, opened
@@ -76,7 +76,7 @@ class Spot:
             return float(np.linalg.norm(self.offset - other.offset))
         if OTHER_HAND & {self.name, other.name}:
             return APPROACH
-        between = 100.0 * (find_place(self.name).point - find_place(other.name).point)
+        between = 100.0 * (written_place(self.name).point - written_place(other.name).point)
         return float(np.linalg.norm(between + self.offset - other.offset))
 
 

@@ -161,7 +161,7 @@ def run_import(
 def import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
     """Import one sign, in whatever process this is."""
     if job.gloss is None:
-        return _refused(job, "unknown_term", f"expected a Spanish word, got {job.entry.term!r}")
+        return _refused(job, "unknown_term", f"expected a known word, got {job.entry.term!r}")
     try:
         kept = _kept(job.gloss, settings)
         if kept:

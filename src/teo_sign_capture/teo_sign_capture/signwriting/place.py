@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_capture.signing_space.places import find_place
+from teo_sign_capture.signing_space.places import written_place
 from teo_sign_capture.signwriting import symbol_groups as groups
 from teo_sign_capture.signwriting.hands import WrittenHand
 from teo_sign_capture.signwriting.orientation import drawn_tip
@@ -92,7 +92,7 @@ def is_before_head(hand: WrittenHand, landmarks: Landmarks) -> bool:
 
 # Where TEO's places are beside the middle, for the mirror [cm].
 def _across(name: str) -> float:
-    return 200.0 * -float(find_place(name).point[1])
+    return 200.0 * -float(written_place(name).point[1])
 
 
 def _sided(name: str, out: float, off: str) -> str:
@@ -222,8 +222,8 @@ def air_words(point: Array) -> str:
     Args:
         point: In the axes of a hand's score [m]. Shape (3,).
     """
-    name = min(_AIR, key=lambda each: float(np.linalg.norm(find_place(each).point - point)))
-    return f"{name} {displacement_words(100.0 * (point - find_place(name).point))}".strip()
+    name = min(_AIR, key=lambda each: float(np.linalg.norm(written_place(each).point - point)))
+    return f"{name} {displacement_words(100.0 * (point - written_place(name).point))}".strip()
 
 
 def tip_is_nearer(hand: WrittenHand, point: Array) -> bool:

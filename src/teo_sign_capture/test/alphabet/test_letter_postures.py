@@ -13,18 +13,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_description.hand_geometry import FINGERS, PHALANGES, DextraHand, segment_distances
+from teo_description.hand_geometry import HandGeometry, segment_distances
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.face_visibility import shift_off_face
 from teo_sign_capture.alphabet.spelling_arm import fit_arm, spelling_bounds
-from teo_sign_capture.alphabet.spelling_hand import fit_dextra
+from teo_sign_capture.alphabet.spelling_hand import fit_robot_hand
 from teo_sign_capture.alphabet.stroke import find_stroke
 from teo_sign_capture.cli.capture_table import letters_main
 from teo_sign_capture.recordings.letter_clips import DEPTH_SCALE, LetterClip, load_letter_clips
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, measure_signer, palm_axes
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.look_up_table import Lut, LutError
 
 
@@ -35,7 +37,7 @@ def robot() -> Robot:
 
 @cache
 def clips() -> dict[str, LetterClip]:
-    return load_letter_clips()
+    return load_letter_clips(load_language(DEFAULT_LANGUAGE))
 
 
 @cache
@@ -101,18 +103,21 @@ def test_missing_recordings_are_told_with_what_to_install(monkeypatch: pytest.Mo
 
     monkeypatch.setattr("importlib.resources.files", missing)
     with pytest.raises(LutError, match="pip install spoken-to-signed") as caught:
-        load_letter_clips()
+        load_letter_clips(load_language(DEFAULT_LANGUAGE))
     assert caught.value.code == "no_clips"
 
 
 def test_a_damaged_recording_is_refused_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = tmp_path / "assets" / "fingerspelling_lexicon"
     folder.mkdir(parents=True)
-    (folder / "index.csv").write_text("path,signed_language,words\nx.pose,ssp,A\n", "utf-8")
-    (folder / "x.pose").write_bytes(b"\x00" * 40)
+    language = load_language(DEFAULT_LANGUAGE)
+    rows = [f"ssp/x.pose,ssp,{letter}" for letter in language.alphabet.letters]
+    (folder / "index.csv").write_text("\n".join(["path,signed_language,words", *rows]), "utf-8")
+    (folder / "ssp").mkdir()
+    (folder / "ssp" / "x.pose").write_bytes(b"\x00" * 40)
     monkeypatch.setattr("importlib.resources.files", lambda _: tmp_path)
     with pytest.raises(LutError, match=r"x\.pose") as caught:
-        load_letter_clips()
+        load_letter_clips(language)
     assert caught.value.code == "bad_clip"
 
 
@@ -177,10 +182,9 @@ def test_only_letters_that_turn_have_several_holds() -> None:
 
 
 def test_phalanges_are_those_of_the_robot(robot: Robot) -> None:
-    fingers = DextraHand(robot).points(joint_limits(RIGHT_HAND).lower).fingers
-    assert len(fingers) == len(FINGERS)
+    fingers = HandGeometry(robot).points(joint_limits(RIGHT_HAND).lower).fingers
     lengths = np.linalg.norm(np.diff(fingers, axis=1), axis=2)
-    np.testing.assert_allclose(lengths, np.tile(PHALANGES, (4, 1)), atol=1e-6)
+    np.testing.assert_allclose(lengths, np.tile([0.035, 0.025, 0.027], (4, 1)), atol=1e-6)  # the Dextra's
 
 
 def test_points_of_the_hand_do_not_depend_on_the_arm(robot: Robot) -> None:
@@ -189,7 +193,7 @@ def test_points_of_the_hand_do_not_depend_on_the_arm(robot: Robot) -> None:
     hand = joint_limits(RIGHT_HAND).lower.copy()
     hand[2] = 0.6
     expected = palm[:3, :3].T @ (tip - palm[:3, 3])
-    np.testing.assert_allclose(DextraHand(robot).points(hand).fingers[0, 3], expected, atol=1e-9)
+    np.testing.assert_allclose(HandGeometry(robot).points(hand).fingers[0, 3], expected, atol=1e-9)
 
 
 @given(numbers=st.lists(st.floats(-1.0, 1.0), min_size=12, max_size=12))
@@ -222,14 +226,14 @@ BESIDE = np.array([[-0.4, -0.3, 0.1], [0.0, -0.35, 0.1], [0.3, -0.35, 0.1]])
 
 def test_fingers_that_bend_like_teos_are_taken_over_as_they_are(robot: Robot) -> None:
     bends = [[25.0] * 3, [30.0] * 3, [45.0] * 3, [70.0] * 3]
-    fit = fit_dextra(robot, posed(bends, PALM_OUT, BESIDE), PALM_OUT)
+    fit = fit_robot_hand(robot, posed(bends, PALM_OUT, BESIDE), PALM_OUT)
     assert np.degrees(fit.positions[2:]) == pytest.approx([25, 30, 45, 70], abs=2.0)
     assert fit.fingertip_error < 0.002
 
 
 def test_a_fist_is_a_fist_and_a_flat_hand_flat(robot: Robot) -> None:
-    fist = fit_dextra(robot, posed([[80.0, 100.0, 70.0]] * 4, PALM_OUT, BESIDE), PALM_OUT)
-    flat = fit_dextra(robot, posed([[0.0, 0.0, 0.0]] * 4, PALM_OUT, BESIDE), PALM_OUT)
+    fist = fit_robot_hand(robot, posed([[80.0, 100.0, 70.0]] * 4, PALM_OUT, BESIDE), PALM_OUT)
+    flat = fit_robot_hand(robot, posed([[0.0, 0.0, 0.0]] * 4, PALM_OUT, BESIDE), PALM_OUT)
     assert (np.degrees(fist.positions[2:]) > 75.0).all()
     assert np.degrees(flat.positions[2:]) == pytest.approx([7.0] * 4, abs=0.5)
 
@@ -240,7 +244,7 @@ def test_a_fist_is_a_fist_and_a_flat_hand_flat(robot: Robot) -> None:
 @given(share=st.lists(st.floats(0.1, 0.9), min_size=6, max_size=6))
 def test_a_palm_that_teo_can_hold_is_found_or_bettered(share: list[float]) -> None:
     robot = Robot.load()
-    lower, upper = spelling_bounds()
+    lower, upper = spelling_bounds(ArmKinematics(robot))
     arm = lower + np.array(share) * (upper - lower)
     wanted = robot.placement(
         robot.configuration(dict(zip(RIGHT_ARM, arm.tolist(), strict=True))), "right_palm"

@@ -11,19 +11,21 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_description.hand_geometry import DextraHand, thumb_clearances
+from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import SPELLING_POSES
 from teo_sign_capture.alphabet.face_visibility import shift_off_face
-from teo_sign_capture.alphabet.letters import JOINTS, capture_letter, read_alphabet
+from teo_sign_capture.alphabet.letters import capture_letter, read_alphabet
 from teo_sign_capture.alphabet.stroke import find_stroke, palm_centres
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory
 
+JOINTS = RIGHT_ARM + RIGHT_HAND
 TABLE = default_lut_directory()
 HANDSHAPES = Path(__file__).parents[1] / "data" / "lse_letter_handshapes.json"
 
@@ -91,7 +93,7 @@ def test_fingers_are_extended_bent_and_folded_as_in_the_alphabet(letter: str) ->
 
 
 def test_folded_fingers_are_shorter_to_the_eye_than_extended_ones(robot: Robot) -> None:
-    hand = DextraHand(robot)
+    hand = HandGeometry(robot)
     for letter, states in FINGERS.items():
         points = hand.points(letters()[letter].knots[0, 6:]).fingers
         reach = np.linalg.norm(points[:, 3] - points[:, 0], axis=1)
@@ -194,10 +196,10 @@ def test_letters_keep_clear_of_the_body_and_of_the_limits() -> None:
 
 
 def test_thumb_and_fingers_keep_apart_where_a_letter_is_held(robot: Robot) -> None:
-    hand = DextraHand(robot)
+    hand = HandGeometry(robot)
     for letter, sign in letters().items():
         for knot in (sign.knots[0], sign.knots[-1]):
-            assert thumb_clearances(hand.points(knot[6:])).min() > -0.004, letter
+            assert hand.thumb_clearances(hand.points(knot[6:])).min() > -0.004, letter
 
 
 def test_no_letter_hides_the_face(robot: Robot) -> None:
@@ -216,7 +218,7 @@ def test_elbows_hang_and_bend_as_a_persons_do(robot: Robot) -> None:
 
 @pytest.mark.parametrize("letter", ["G", "J", "LL", "Z"])
 def test_the_hand_goes_the_way_it_went_in_the_recording(robot: Robot, letter: str) -> None:
-    sign, clip = letters()[letter], load_letter_clips()[letter]
+    sign, clip = letters()[letter], load_letter_clips(load_language(DEFAULT_LANGUAGE))[letter]
     stroke = find_stroke(clip)
     recorded = palm_centres(clip.hand)[stroke.first : stroke.last + 1]
     moments = np.arange(len(recorded)) / clip.rate
@@ -242,7 +244,7 @@ def test_the_little_finger_of_y_bends_twice_or_more() -> None:
 
 @pytest.mark.parametrize("letter", ["A", "M", "V", "X"])
 def test_capturing_again_gives_the_same_letter(robot: Robot, letter: str) -> None:
-    alphabet = read_alphabet(robot, load_letter_clips())
+    alphabet = read_alphabet(robot, load_language(DEFAULT_LANGUAGE))
     again, kept = capture_letter(robot, alphabet, letter), letters()[letter]
     assert again.times.tolist() == kept.times.tolist()
     # Other processors add in another order; the search may stop a little elsewhere.

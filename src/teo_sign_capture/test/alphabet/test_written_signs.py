@@ -8,8 +8,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
 from teo_sign_capture.alphabet.demonstration import demonstrated_signs, flexions
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory

@@ -12,6 +12,7 @@ import pytest
 from made_bags import OUT, SIGN, signing, write_bag
 from typer.testing import CliRunner, Result
 
+from teo_description.humanoid import load_humanoid
 from teo_lut_executor.cli.lut import app
 from teo_signs.look_up_table import Lut
 
@@ -39,6 +40,28 @@ def test_a_capture_says_what_it_made_and_how_well(bag: Path, tmp_path: Path) -> 
     assert again.exit_code == 1
     assert again.output.startswith("exists: SIGNO.json")
     assert run("record", "--gloss", "SIGNO", "--lut", table).output.startswith("exists: SIGNO.json")
+
+
+def test_a_sign_is_captured_for_another_robot(bag: Path, tmp_path: Path) -> None:
+    result = run(
+        "capture",
+        bag,
+        "--gloss",
+        "SIGNO",
+        "--robot",
+        "gr1t2",
+        "--lut",
+        tmp_path,
+        "--no-draw",
+        "--hands",
+        "right",
+    )
+    assert result.exit_code == 0, result.output
+    sign = Lut.open(tmp_path, robot="gr1t2")["SIGNO"]
+    humanoid = load_humanoid("gr1t2")
+    assert set(humanoid.arm("right")) <= set(sign.joints) <= set(humanoid.commanded_joints)
+    assert sign.quality["palm_error_p95_deg"] < 30.0
+    assert "unknown_robot" in run("capture", bag, "--gloss", "SIGNO", "--robot", "nobody").output
 
 
 def test_several_signs_are_listed_and_what_is_suggested_works(tmp_path: Path) -> None:

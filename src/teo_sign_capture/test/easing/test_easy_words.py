@@ -10,16 +10,18 @@ import numpy as np
 import pytest
 from nearest_parts import touching
 from scipy.spatial.transform import Rotation
+from teo_names import COMMANDED_JOINTS
 
 from teo_common.arrays import Array
-from teo_description import COMMANDED_JOINTS
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_motion.sentence.rest_posture import REST
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sign_capture.easing.easy_words import EasyWords, neighbours
 from teo_sign_capture.easing.word_tolerance import WordTolerance
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
+
+REST = load_humanoid().ready
 
 _FINGERS = ("Thumb", "Index", "Middle", "Ring", "Pinky")
 FACE = np.array([0.0, 0.0, 0.715])  # the middle of it, upright [m]
@@ -103,8 +105,8 @@ def test_an_easy_posture_takes_less_time_from_and_to_its_neighbours(
 ) -> None:
     limits = MotionLimits.of_robot()
     sign = lut[gloss]
-    before, after = neighbours(lut, -1), neighbours(lut, 0)
-    knots = EasyWords(limits, before, after).eased(WordTolerance(robot, sign), lambda _: True)
+    before, after = neighbours(robot.humanoid, lut, -1), neighbours(robot.humanoid, lut, 0)
+    knots = EasyWords(robot.humanoid, limits, before, after).eased(WordTolerance(robot, sign), lambda _: True)
     assert knots is not None
     assert_shows_the_same(robot, sign, knots)
     columns = [COMMANDED_JOINTS.index(joint) for joint in sign.joints]
@@ -125,6 +127,6 @@ def test_an_easy_posture_takes_less_time_from_and_to_its_neighbours(
 
 
 def test_neighbours_are_rest_words_and_letters(lut: Lut) -> None:
-    found = neighbours(lut, 0)
+    found = neighbours(load_humanoid(), lut, 0)
     assert found.weights.sum() == pytest.approx(1.0)
     assert (found.postures == REST).all(axis=1).sum() == 1

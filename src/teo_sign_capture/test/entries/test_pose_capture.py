@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 
@@ -32,7 +33,7 @@ def handshape(robot: Robot, sign: Sign) -> np.ndarray:
 
 @pytest.mark.parametrize("letter", ["T"])
 def test_an_imported_letter_looks_like_the_tables_letter(tmp_path: Path, letter: str) -> None:
-    clip = CLIPS / load_letter_clips()[letter].file
+    clip = CLIPS / load_letter_clips(load_language(DEFAULT_LANGUAGE))[letter].file
     arguments = ["import", clip, "--gloss", letter, "--kind", "letter", "--lut", tmp_path]
     words = [str(word) for word in (*arguments, "--licence", "MIT", "--recorded", "2019-01-31")]
     result = CliRunner(env={"COLUMNS": "200"}).invoke(app, words)

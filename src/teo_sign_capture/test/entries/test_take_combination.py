@@ -8,9 +8,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
 from teo_common.arrays import Array
-from teo_description import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_description.robot import Robot
 from teo_sign_capture.entries.take_combination import combine
 from teo_sign_capture.retarget.robot_motion import RobotMotion
@@ -50,6 +50,7 @@ def motion(
         place_error=errors,
         contact=errors,
         same_zone=errors,
+        same_zone_of_middle=errors,
         wrong_place=errors,
         palm_error=errors,
         finger_error=errors,

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from teo_names import joint_limits
 
-from teo_description import joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.notation.inflection import BODY_PLACES
 from teo_sign_capture.notation.score_file import read_score

@@ -272,7 +272,7 @@ def test_every_handshape_has_a_persons_hand(tmp_path: Path, name: str) -> None:
     performed = performance(score({"right": {**FLAT, "shape": name}}))
     motion = played(performed, tmp_path)
     hand = truth(motion, performed.start, "woman_small")["right"]
-    robot = np.degrees(handshapes.handshape(name))[2:]
+    robot = np.degrees(handshapes.written_shape(name))[2:]
     bends = []
     for base in (5, 9, 13, 17):
         bones = [b - a for a, b in pairwise(hand[[0, *range(base, base + 4)]])]

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from teo_names import LEFT_ARM, RIGHT_ARM, joint_limits
 
-from teo_description import LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_description.robot import Robot
 from teo_sign_capture.notation.score_file import default_scores_directory, read_score, read_scores
 from teo_sign_capture.notation.score_retarget import score_sign
@@ -59,12 +59,12 @@ def palm(robot: Robot, sign: Sign, knot: int, side: str = "right") -> np.ndarray
 def test_places_of_the_face_are_on_the_surface_that_hands_stop_at(robot: Robot) -> None:
     boxes = body_boxes(robot)
     for name in ("forehead", "temple", "eye", "nose", "ear", "cheek", "mouth", "mouth_corner", "chin"):
-        point = find_place(name).point
+        point = find_place(robot.humanoid, name).point
         # How far outside each box, its sides counted from within: 0 on the surface.
         outside = [float((np.abs(point - middle) - half).max()) for middle, half in boxes]
         assert abs(min(outside, key=abs)) < 0.001, name
     for name in set(NAMES) - set(OTHER_HAND):
-        point = find_place(name).point
+        point = find_place(robot.humanoid, name).point
         assert all((np.abs(point - middle) - half).max() > -0.001 for middle, half in boxes), name
 
 
@@ -72,7 +72,7 @@ def test_a_hand_goes_where_the_score_says_and_stays(robot: Robot, tmp_path: Path
     sign = made(robot, tmp_path, GOOD)
     first, last = palm(robot, sign, 0), palm(robot, sign, -1)
     # Place and orientation are traded against each other in the air: a few centimetres.
-    np.testing.assert_allclose(first[:3, 3], find_place("space").point, atol=0.06)
+    np.testing.assert_allclose(first[:3, 3], find_place(robot.humanoid, "space").point, atol=0.06)
     np.testing.assert_allclose(last[:3, 3] - first[:3, 3], [0.0, 0.0, 0.10], atol=0.06)
     # "in" is to the robot's left, REP-103's +y; the third axis of the palm's frame looks out of the palm.
     assert np.degrees(np.arccos(first[:3, 2] @ [0.0, 1.0, 0.0])) < 15.0

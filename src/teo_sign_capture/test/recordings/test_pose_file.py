@@ -26,6 +26,7 @@ from teo_lut_executor.cli.lut import app
 from teo_sign_capture.recordings import pose_file
 from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 
 # MediaPipe's names, as its documentation gives them.
@@ -303,7 +304,7 @@ def test_noise_is_no_pose_file(tmp_path: Path) -> None:
 
 
 def test_the_clips_of_the_alphabet_are_read_as_the_letters_are() -> None:
-    letter = load_letter_clips()["L"]
+    letter = load_letter_clips(load_language(DEFAULT_LANGUAGE))["L"]
     folder = Path(str(resources.files("spoken_to_signed"))) / "assets" / "fingerspelling_lexicon" / "ssp"
     clip = read_pose_file(folder / letter.file)
     assert clip.rate == letter.rate

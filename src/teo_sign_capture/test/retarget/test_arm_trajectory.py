@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import arm_bounds
+from teo_sign_capture.retarget.arm_bounds import arm_bounds, search_starts
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import refine_arms, solve_arms
@@ -16,7 +17,8 @@ from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 
 TIMES = np.arange(40) / 30.0
-BOUNDS = [arm_bounds("right"), arm_bounds("left")]
+BOUNDS = [arm_bounds(load_humanoid(), "right"), arm_bounds(load_humanoid(), "left")]
+STARTS = search_starts(load_humanoid())
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +52,7 @@ ARMS = swing([-50, -15, 10, -80, 20, 0], [-72, 5, 20, -60, 45, 8])
 
 
 def test_a_motion_that_an_arm_has_made_is_found_again(chain):
-    found = solve_arms(ArmProblem(chain, (goals_of(chain, ARMS),), None), TIMES, BOUNDS[:1])
+    found = solve_arms(ArmProblem(chain, (goals_of(chain, ARMS),), None), TIMES, BOUNDS[:1], STARTS)
     reached, wanted = chain.poses(found), chain.poses(ARMS)
     assert 1000.0 * np.linalg.norm(reached.place - wanted.place, axis=1).max() < 8.0
     assert np.degrees(np.abs(found - ARMS)).max() < 6.0
@@ -58,7 +60,7 @@ def test_a_motion_that_an_arm_has_made_is_found_again(chain):
 
 def test_no_frame_by_frame_search_finds_anything_clearly_better(chain):
     problem = ArmProblem(chain, (goals_of(chain, ARMS, shift=(-0.15, 0.1, -0.2), contact=0.0),), None)
-    found = solve_arms(problem, TIMES, BOUNDS[:1])
+    found = solve_arms(problem, TIMES, BOUNDS[:1], STARTS)
     limits = list(zip(*BOUNDS[0], strict=True))
     cost = 0.0
     for frame in range(len(TIMES)):
@@ -78,7 +80,7 @@ def test_no_frame_by_frame_search_finds_anything_clearly_better(chain):
 
 def test_bounds_are_kept_where_a_hand_is_out_of_reach(chain):
     problem = ArmProblem(chain, (goals_of(chain, ARMS, shift=(0.0, 0.6, 0.8)),), None)
-    found = solve_arms(problem, TIMES, BOUNDS[:1])
+    found = solve_arms(problem, TIMES, BOUNDS[:1], STARTS)
     lower, upper = BOUNDS[0]
     assert (found >= lower - 1e-12).all()
     assert (found <= upper + 1e-12).all()
@@ -92,7 +94,7 @@ def test_hands_that_belong_together_stay_together(chain):
     way = np.tile((0.0, -0.05, 0.02), (len(TIMES), 1))
     pair = PairGoals(right=right.local, left=left.local, way=way, nearness=np.ones(len(TIMES)), order=way)
     apart, together = (
-        solve_arms(ArmProblem(chain, (right, left), one), TIMES, BOUNDS) for one in (None, pair)
+        solve_arms(ArmProblem(chain, (right, left), one), TIMES, BOUNDS, STARTS) for one in (None, pair)
     )
 
     def misses(arms):
@@ -121,7 +123,7 @@ def test_what_counts_for_nothing_is_passed_on_the_straight_way(chain):
     problem = ArmProblem(chain, (goals_of(chain, ARMS),), None)
     shares = np.ones(len(TIMES))
     shares[15:25] = 0.0
-    start = solve_arms(problem, TIMES, BOUNDS[:1])
+    start = solve_arms(problem, TIMES, BOUNDS[:1], STARTS)
     found = refine_arms(problem, TIMES, BOUNDS[:1], start, shares=shares)
     between = found[14:26]
     straight = np.linspace(between[0], between[-1], 12)
@@ -130,7 +132,7 @@ def test_what_counts_for_nothing_is_passed_on_the_straight_way(chain):
 
 def test_a_single_frame_is_solved(chain):
     problem = ArmProblem(chain, (goals_of(chain, ARMS[:1]),), None)
-    found = solve_arms(problem, TIMES[:1], BOUNDS[:1])
+    found = solve_arms(problem, TIMES[:1], BOUNDS[:1], STARTS)
     assert chain.poses(found).place == pytest.approx(chain.poses(ARMS[:1]).place, abs=0.01)
 
 
@@ -138,7 +140,7 @@ def test_a_fast_beat_keeps_its_height(chain):
     beat = np.radians(8.0) * np.sin(2.0 * np.pi * 3.0 * TIMES)
     arms = np.tile(np.radians([-50.0, -15.0, 10.0, -80.0, 20.0, 0.0]), (len(TIMES), 1))
     arms[:, 0] += beat
-    found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1])
+    found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1], STARTS)
     heights = [np.ptp(chain.poses(motion).place[10:30, 2]) for motion in (found, arms)]
     assert heights[0] > 0.9 * heights[1]
 
@@ -147,7 +149,7 @@ def test_an_arm_whose_goal_jumps_takes_some_frames_for_it(chain):
     arms = np.tile(ARMS[0], (len(TIMES), 1))
     arms[20:] = np.radians([-30.0, -10.0, -20.0, -80.0, 70.0, 10.0])
     jump = np.abs(np.diff(arms, axis=0)).max()
-    found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1])
+    found = solve_arms(ArmProblem(chain, (goals_of(chain, arms),), None), TIMES, BOUNDS[:1], STARTS)
     steps = np.degrees(np.abs(np.diff(found, axis=0))).max()
     assert np.degrees(jump) > 45.0
     assert steps < 20.0  # 15 deg are free, at 30 frames a second
@@ -157,7 +159,7 @@ def test_an_arm_whose_goal_jumps_takes_some_frames_for_it(chain):
 def test_touches_on_ways_are_pushed_apart_in_one_go(chain):
     """Two frames, a distance half way that grows with the first joint of either: both give half of it."""
     problem = ArmProblem(chain, (goals_of(chain, ARMS[:2]),), None)
-    start = solve_arms(problem, TIMES[:2], BOUNDS[:1])
+    start = solve_arms(problem, TIMES[:2], BOUNDS[:1], STARTS)
     terms = CollisionTerms(
         frames=np.array([0]),
         shares=np.array([0.5]),

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, track_of
 
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap, WorkspaceScaling, body_boxes, on_skin
@@ -39,7 +40,7 @@ def test_every_place_of_articulation_comes_to_lie_on_teos(robot, size):
     person, body = map_of(robot, someone(robot, size))
     boxes = body_boxes(robot)
     for name in ("forehead", "nose", "mouth", "chin", "chest", "belly", "ear", "shoulder"):
-        wanted = on_skin(boxes, name)
+        wanted = on_skin(robot.humanoid, boxes, name)
         found = body.place(person.places[name][None])[0]
         if name in ("forehead", "nose", "mouth", "chin", "chest", "belly"):
             wanted = wanted * (1.0, 0.0, 1.0)
@@ -97,6 +98,7 @@ def test_what_is_at_the_head_goes_with_it_and_what_is_far_does_not(robot):
 
 # TEO's [m].
 REACH, SHOULDER, HEIGHT = 0.705, 0.347, 0.498
+CROWN = find_place(load_humanoid(), "head_top").point[2] - HEIGHT
 SIZES = [(1.0, 1.0, 1.0), (0.8, 0.5, 0.9), (1.1, 0.6, 1.2)]
 
 
@@ -108,7 +110,7 @@ def person(request):
 
 @pytest.fixture
 def far(person):
-    return WorkspaceScaling(person, REACH, SHOULDER, HEIGHT)
+    return WorkspaceScaling(person, REACH, SHOULDER, HEIGHT, CROWN)
 
 
 def heights(far, values):
@@ -116,9 +118,8 @@ def heights(far, values):
 
 
 def test_crown_shoulders_and_waist_keep_their_heights_and_hanging_hands_hang(far, person):
-    crown = find_place("head_top").point[2] - HEIGHT
     found = heights(far, [person.places["head_top"][2], 0.0, -0.7 * person.trunk, -person.arm])
-    assert found == pytest.approx([crown, 0.0, -0.7 * HEIGHT, -REACH], abs=1e-9)
+    assert found == pytest.approx([CROWN, 0.0, -0.7 * HEIGHT, -REACH], abs=1e-9)
 
 
 def test_arms_stretched_out_stay_stretched_out(far, person):

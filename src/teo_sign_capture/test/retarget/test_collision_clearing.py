@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, track_of
 
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import arm_bounds
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
@@ -58,7 +59,7 @@ def wanted(robot):
 def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
     problem, model = wanted
     assert min(model.clearance(frame, ARMS[frame]).distance for frame in range(FRAMES)) < -0.02
-    arms, distances = clear_arms(problem, model, track, [arm_bounds("right")], ARMS)
+    arms, distances = clear_arms(problem, model, track, [arm_bounds(load_humanoid(), "right")], ARMS)
     assert distances.min() >= LEAST
     measured = [model.clearance(frame, arms[frame]).distance for frame in range(FRAMES)]
     assert distances == pytest.approx(np.array(measured), abs=2e-4)
@@ -70,7 +71,7 @@ def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
 def test_arms_that_touch_nothing_stay_as_they_are(wanted, track):
     problem, model = wanted
     free = np.tile(OFF, (FRAMES, 1))
-    arms, _ = clear_arms(problem, model, track, [arm_bounds("right")], free)
+    arms, _ = clear_arms(problem, model, track, [arm_bounds(load_humanoid(), "right")], free)
     assert arms is free
 
 

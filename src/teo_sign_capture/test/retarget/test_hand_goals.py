@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, track_of
 
-from teo_description.hand_geometry import DextraTable
+from teo_description.hand_geometry import HandTable
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.hand_goals import hand_goals, pair_goals
 from teo_sign_capture.retarget.head_motion import follow_head
-from teo_sign_capture.signing_space.hand_points import MIRROR, PALM, teo_hand_points
+from teo_sign_capture.signing_space.hand_points import MIRROR, PALM, robot_hand_points
 from teo_sign_capture.tracks.head_pose import head_pose
 from teo_sign_capture.tracks.person import measure_person
 
@@ -32,7 +32,7 @@ class Scene:
         self.body = BodyMap(robot, ArmKinematics(robot), person)
         self.head = follow_head(robot, head_pose(track, person.head_shape), person)
         straight = np.radians([[10.0, -60.0, 7.0, 7.0, 7.0, 7.0]])
-        self.teo = teo_hand_points(DextraTable(robot), straight)
+        self.teo = robot_hand_points(HandTable(robot), straight)
         self.chin = person.places["chin"]
         # A right hand pointing up, its palm to the person: along z, palm out along -x.
         hand = track.right_hand.positions[0] - track.right_hand.positions[0, 0]

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from robot_person import keypoints
 from scipy.spatial.transform import Rotation
+from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 
-from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_description.hand_geometry import DextraTable, HandPoints, dextra_table, thumb_clearances
+from teo_description.hand_geometry import HandPoints, HandTable, hand_table
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.hand_motion import follow_hand
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm, straight_bends
@@ -24,7 +24,7 @@ def robot():
 
 @pytest.fixture(scope="module")
 def table(robot):
-    return DextraTable(robot)
+    return HandTable(robot)
 
 
 def person_hand(bends, frames=10, length=0.09):
@@ -126,13 +126,13 @@ def test_a_thumb_on_the_index_touches_it_and_nothing_goes_through_anything(table
     fingers = table.finger_points(found.axes[:, 2:])[0]
     thumb = table.thumb_points(found.axes[:, 0], found.axes[:, 1])[0]
     assert np.linalg.norm(thumb[2] - fingers[0, 3]) < 0.03
-    assert thumb_clearances(HandPoints(fingers, thumb)).min() > -0.006
+    assert table.hand.thumb_clearances(HandPoints(fingers, thumb)).min() > -0.006
     limits = joint_limits(RIGHT_HAND)
     assert (found.axes >= limits.lower - 1e-9).all()
     assert (found.axes <= limits.upper + 1e-9).all()
 
 
 def test_the_table_of_a_robot_is_worked_out_once(robot, table):
-    assert dextra_table(robot) is dextra_table(robot)
-    assert dextra_table(robot).thumb == pytest.approx(table.thumb)
-    assert dextra_table(Robot.load()) is not dextra_table(robot)
+    assert hand_table(robot) is hand_table(robot)
+    assert hand_table(robot).thumb == pytest.approx(table.thumb)
+    assert hand_table(Robot.load()) is not hand_table(robot)

@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_common.arrays import Array
-from teo_description import RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_description.humanoid import load_humanoid
 from teo_sign_capture.retarget.motion_smoothing import BODY_TUBE, FINGER_TUBE, smoothest_motion, tube_radii
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
+TEO = load_humanoid()
 TIMES = np.arange(0.0, 1.5, 1.0 / 30.0)
 MIDDLE = (joint_limits(JOINTS).lower + joint_limits(JOINTS).upper) / 2.0
 
@@ -30,8 +32,8 @@ def test_no_frame_leaves_the_tube_or_the_limits(seed: int, share: float) -> None
     motion = np.clip(
         MIDDLE + np.cumsum(rng.normal(0.0, 0.2, (len(TIMES), 12)), axis=0), limits.lower, limits.upper
     )
-    gentle = smoothest_motion(TIMES, JOINTS, motion, share=share)
-    assert (np.abs(gentle - motion) <= share * tube_radii(JOINTS) + 1e-9).all()
+    gentle = smoothest_motion(TEO, TIMES, JOINTS, motion, share=share)
+    assert (np.abs(gentle - motion) <= share * tube_radii(TEO, JOINTS) + 1e-9).all()
     assert (gentle >= limits.lower - 1e-12).all()
     assert (gentle <= limits.upper + 1e-12).all()
 
@@ -41,13 +43,13 @@ def test_fingers_that_tremble_stand_still() -> None:
     noise = np.clip(rng.normal(0.0, np.radians(4.0), (len(TIMES), 12)), -FINGER_TUBE, FINGER_TUBE)
     motion = MIDDLE + noise * np.array([0.0] * 6 + [1.0] * 6)
     assert speed(motion)[6:].min() > np.radians(200.0)
-    assert speed(smoothest_motion(TIMES, JOINTS, motion)).max() < 1e-6
+    assert speed(smoothest_motion(TEO, TIMES, JOINTS, motion)).max() < 1e-6
 
 
 def test_a_fast_stroke_loses_no_more_than_the_radius() -> None:
     wave = np.sin(2.0 * np.pi * 3.0 * TIMES)[:, None]
     motion = MIDDLE + wave * np.array([0.4] * 6 + [0.6] * 6)
-    span = np.ptp(smoothest_motion(TIMES, JOINTS, motion), axis=0)
+    span = np.ptp(smoothest_motion(TEO, TIMES, JOINTS, motion), axis=0)
     assert (span[:6] >= 0.8 * np.abs(wave).max() - 2.0 * BODY_TUBE - 1e-9).all()
     assert (span[6:] >= 1.2 * np.abs(wave).max() - 2.0 * FINGER_TUBE - 1e-9).all()
 
@@ -56,8 +58,8 @@ def test_it_is_the_gentlest() -> None:
     """No small change within the tube has less acceleration."""
     rng = np.random.default_rng(2)
     motion = MIDDLE + np.outer(TIMES, np.full(12, 0.3)) + rng.normal(0.0, 0.02, (len(TIMES), 12))
-    gentle = smoothest_motion(TIMES, JOINTS, motion)
-    radii = tube_radii(JOINTS)
+    gentle = smoothest_motion(TEO, TIMES, JOINTS, motion)
+    radii = tube_radii(TEO, JOINTS)
 
     def bending(positions: Array) -> Array:
         return np.square(np.diff(positions, 2, axis=0)).sum(axis=0)
@@ -71,13 +73,13 @@ def test_it_is_the_gentlest() -> None:
 @pytest.mark.parametrize("count", [1, 2])
 def test_what_is_too_short_to_bend_stays(count: int) -> None:
     motion = np.tile(MIDDLE, (count, 1))
-    np.testing.assert_array_equal(smoothest_motion(TIMES[:count], JOINTS, motion), motion)
+    np.testing.assert_array_equal(smoothest_motion(TEO, TIMES[:count], JOINTS, motion), motion)
 
 
 def test_a_joint_on_its_limit_stays_on_it() -> None:
     motion = np.tile(joint_limits(JOINTS).lower, (len(TIMES), 1))
-    np.testing.assert_allclose(smoothest_motion(TIMES, JOINTS, motion), motion, atol=FINGER_TUBE)
-    assert (smoothest_motion(TIMES, JOINTS, motion) >= motion).all()
+    np.testing.assert_allclose(smoothest_motion(TEO, TIMES, JOINTS, motion), motion, atol=FINGER_TUBE)
+    assert (smoothest_motion(TEO, TIMES, JOINTS, motion) >= motion).all()
 
 
 @pytest.mark.filterwarnings("error")
@@ -89,6 +91,6 @@ def test_steps_and_limits_are_no_trouble_for_the_search() -> None:
     leaving = upper + np.minimum(0.0, np.round(np.cumsum(rng.normal(0.0, 0.05, (len(TIMES), 12)), axis=0), 2))
     for motion in (step, np.maximum(leaving, joint_limits(JOINTS).lower)):
         for share in (1.0, 0.5, 0.25, 0.16, 0.02):
-            gentle = smoothest_motion(TIMES, JOINTS, motion, share=share)
-            assert (np.abs(gentle - motion) <= share * tube_radii(JOINTS) + 1e-9).all()
+            gentle = smoothest_motion(TEO, TIMES, JOINTS, motion, share=share)
+            assert (np.abs(gentle - motion) <= share * tube_radii(TEO, JOINTS) + 1e-9).all()
             assert (gentle <= upper + 1e-12).all()

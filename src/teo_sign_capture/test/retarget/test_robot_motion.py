@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, mirrored_points, part, track_of
 from scipy.spatial.transform import Rotation
+from teo_names import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
-from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
+from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_bounds import mirrored
@@ -47,7 +48,10 @@ def played():
             np.radians([np.interp(TIMES, [0.0, 1.0, 2.0], knot) for knot in np.transpose(rows)]).T
             for rows in (knots[side], hands[side])
         )
-        columns += [np.stack([mirrored(row) for row in arm]) if side == "left" else arm, hand]
+        columns += [
+            np.stack([mirrored(load_humanoid(), row) for row in arm]) if side == "left" else arm,
+            hand,
+        ]
     return np.concatenate(columns, axis=1)
 
 
@@ -135,7 +139,7 @@ def test_a_person_in_a_mirror_gives_the_mirrored_motion(robot, points, both):
             for motion, names in ((found, joints), (both, others))
         )
         if joints == RIGHT_ARM:
-            theirs = np.stack([mirrored(row) for row in theirs])
+            theirs = np.stack([mirrored(load_humanoid(), row) for row in theirs])
         assert np.degrees(np.abs(ours - theirs)).max() < 3.0
 
 

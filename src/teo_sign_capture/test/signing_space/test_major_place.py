@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 
 from teo_common.arrays import Array
-from teo_sign_capture.signing_space.major_place import HEIGHTS, SIDES, Zones, same_zone, wrong_place
+from teo_sign_capture.signing_space.major_place import (
+    HEIGHTS,
+    SIDES,
+    Zones,
+    same_zone,
+    same_zone_of_middles,
+    wrong_place,
+)
 
 # A body of 0.2 m from the middle to the shoulder: waist, chest, chin, crown; right hands are at negative y.
 BODY = Zones(
@@ -75,4 +82,5 @@ def test_a_hand_that_lies_across_a_border_is_on_both_its_sides() -> None:
     above, below = (BODY.find(np.array([[0.3, 0.0, -0.16 + way]])) for way in (0.03, -0.03))
     farther = BODY.find(np.array([[0.3, 0.0, -0.16 - 0.06]]))
     assert same_zone(above, below).all()
+    assert not same_zone_of_middles(above, below).any()
     assert not same_zone(BODY.find(np.array([[0.3, 0.0, -0.16 + 0.05]])), farther).any()

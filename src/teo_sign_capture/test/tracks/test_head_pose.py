@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from robot_person import keypoints, track_of
 from scipy.spatial.transform import Rotation
+from teo_names import RIGHT_ARM
 
-from teo_description import RIGHT_ARM
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
 from teo_sign_capture.tracks.head_pose import head_pose, head_shape
@@ -163,12 +163,12 @@ def test_a_face_that_is_mostly_held_is_not_followed(robot):
     assert not follow_head(robot, pose, person).moves
 
 
-def test_a_trunk_follows_within_its_limits_and_reports_the_rest():
+def test_a_trunk_follows_within_its_limits_and_reports_the_rest(robot):
     lean = np.radians(np.array([0.0, 10.0, 30.0]))
     side = Rotation.from_euler("x", 12.0, degrees=True).as_rotvec()
     forward = [Rotation.from_euler("y", angle).as_rotvec() for angle in lean]
-    trunk = follow_trunk(np.array([*forward, side]))
+    trunk = follow_trunk(robot, np.array([*forward, side]))
     assert trunk.moves
     assert trunk.axes[:3, 1] == pytest.approx(lean)
     assert np.degrees(trunk.error) == pytest.approx([0.0, 0.0, 0.0, 12.0], abs=1e-6)
-    assert not follow_trunk(np.zeros((4, 3))).moves
+    assert not follow_trunk(robot, np.zeros((4, 3))).moves

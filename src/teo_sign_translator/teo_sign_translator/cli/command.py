@@ -7,23 +7,26 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 
-from teo_sign_translator.errors import TranslationError
+from teo_common.errors import CodedError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+LanguageOption = Annotated[str, typer.Option("--language", help="Sign language, by its ISO 639-3 code.")]
 
 
 def run_command(command: Callable[..., None]) -> None:
     """Run a command line; what it refuses is a sentence on standard error, and exit status 1."""
     try:
         typer.run(command)
-    except (TranslationError, OSError) as error:
-        code = f"{error.code}: " if isinstance(error, TranslationError) else ""
+    except (CodedError, OSError) as error:
+        code = f"{error.code}: " if isinstance(error, CodedError) else ""
         Console(stderr=True, highlight=False).print(f"{code}{error}", markup=False, soft_wrap=True)
         raise SystemExit(1) from None
 

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig, network_config
@@ -43,10 +44,11 @@ def run(
     """Train models on the same pairs; write a table (CSV, Markdown) and plots (PNG)."""
     console = Console()
     where = named_device(device)
-    read = partial(source_words, morphology=Morphology.load())
+    language = load_language(DEFAULT_LANGUAGE)
+    read = partial(source_words, morphology=Morphology.load(language.text))
     networks = {name: network_config(name) for name in model or ZOO}
     config = TrainingConfig(seed=seed, epochs=epochs)
-    data = load_training_data(corpus, read, pairs, seed)
+    data = load_training_data(corpus, read, pairs, seed, language)
     command = f"ros2 run teo_sign_translator compare --pairs {pairs} --epochs {epochs} --seed {seed}"
     trained = {
         name: train_model(name, network, config, data, read, out, command, console, where)

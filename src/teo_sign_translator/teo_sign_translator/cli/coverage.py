@@ -13,6 +13,8 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
+from teo_sign_languages import DEFAULT_LANGUAGE
+from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
 from teo_sign_translator.output.sign_coverage import Coverage, Showing, most_wanted, shown_words
@@ -51,9 +53,10 @@ def coverage(
     lut: Annotated[
         Path | None,
         typer.Option(
-            "--lut", help="Directory of the table; your own and, beneath it, the package's without it."
+            "--lut", help="Directory of the table; your own and, beneath it, the language's without it."
         ),
     ] = None,
+    language: LanguageOption = DEFAULT_LANGUAGE,
     least_standing: Annotated[
         str,
         typer.Option(help=f"Signs that are less well founded do not count, one of {', '.join(STANDINGS)}."),
@@ -72,7 +75,9 @@ def coverage(
     if (file is None) == (text is None):
         raise typer.BadParameter("expected either a file or --text")
     try:
-        tables = (lut,) if lut is not None else tuple(context.obj or ())
+        # `lut` tells where a language's signs are; by itself the command knows no table.
+        told = context.obj(language) if context.obj is not None else ()
+        tables = (lut,) if lut is not None else tuple(told)
         if not tables:
             raise TranslationError(
                 "invalid_data", "expected a table of signs, found none: name one with --lut"
@@ -83,7 +88,7 @@ def coverage(
             held, good = read_signs(table, STANDINGS[-1]), read_signs(table, least_standing)
             signs, guesses = (signs - held) | good, (guesses - good) | (held - good)
         lines = [text] if text is not None else _lines(file)
-        translator = Translator.load()
+        translator = Translator.load(language=language)
     except TranslationError as error:
         _fail(error)
     counted, sentences, refused = Coverage(), list[Sentence](), 0

@@ -17,7 +17,8 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
-from teo_sign_translator.cli.command import run_command
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
+from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
@@ -60,7 +61,7 @@ def outcomes(
     starts = range(0, len(pairs), _CHUNK)
     for start in track(starts, "translating", console=console, transient=True):
         some = pairs[start : start + _CHUNK]
-        translated = model.translate_all([read(pair.spanish) for pair in some], beam=beam)
+        translated = model.translate_all([read(pair.text) for pair in some], beam=beam)
         for pair, (best, *_) in zip(some, translated, strict=True):
             result.append(Outcome(pair, tuple(gloss.gloss for gloss in best.glosses), best.log_probability))
     return result
@@ -81,7 +82,7 @@ def run(
     model: Annotated[str, typer.Argument(help="Name of the model.")],
     corpus: Annotated[Path, typer.Argument(help="Corpus file, or folder that generate_corpus made.")],
     models: Annotated[
-        Path | None, typer.Option(help="Folder of the models; the package's by default.")
+        Path | None, typer.Option(help="Folder of the models; the language's by default.")
     ] = None,
     split: Annotated[
         list[str] | None, typer.Option(help="Split to measure on, repeatable; all but train by default.")
@@ -91,11 +92,13 @@ def run(
     seed: Annotated[int, typer.Option(help="Of that choice.")] = 2019,
     worst: Annotated[int, typer.Option(min=0, help="Wrong translations shown, the surest first.")] = 10,
     out: Annotated[Path | None, typer.Option(help="File for all wrong translations (TSV).")] = None,
+    language: LanguageOption = DEFAULT_LANGUAGE,
 ) -> None:
     """Print exact matches and BLEU (sacreBLEU over glosses, tokenisation "none") by split and by rule."""
     console = Console()
-    read = partial(source_words, morphology=Morphology.load())
-    loaded = load_sentence_model(model, models)
+    signed = load_language(language)
+    read = partial(source_words, morphology=Morphology.load(signed.text))
+    loaded = load_sentence_model(model, models or signed.models)
     splits = read_splits(corpus)
     wanted = split or [name for name in splits if name != "train"]
     unknown = [name for name in wanted if name not in splits]
@@ -111,15 +114,15 @@ def run(
     wrong = sorted((each for each in results if not each.right), key=lambda each: -each.log_probability)
     for each in wrong[:worst]:
         console.print(
-            f"{each.pair.spanish}\n  expected {' '.join(each.pair.glosses)}\n  got      "
+            f"{each.pair.text}\n  expected {' '.join(each.pair.glosses)}\n  got      "
             f"{' '.join(each.glosses)}  ({each.log_probability:.2f} nat, {each.pair.rule})",
             markup=False,
             highlight=False,
         )
     if out is not None:
-        lines = ["split\trule\tspanish\texpected\tgot\tlog_probability"]
+        lines = ["split\trule\ttext\texpected\tgot\tlog_probability"]
         lines += (
-            f"{each.pair.split}\t{each.pair.rule}\t{each.pair.spanish}\t{' '.join(each.pair.glosses)}\t"
+            f"{each.pair.split}\t{each.pair.rule}\t{each.pair.text}\t{' '.join(each.pair.glosses)}\t"
             f"{' '.join(each.glosses)}\t{each.log_probability:.3f}"
             for each in wrong
         )

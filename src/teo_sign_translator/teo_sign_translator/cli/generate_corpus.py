@@ -13,11 +13,11 @@ import typer
 from rich.console import Console
 from rich.progress import track
 
-from teo_sign_translator.cli.command import run_command
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
+from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.corpus.generator import Generator
 from teo_sign_translator.corpus.pairs_file import SPLITS, write_pairs
 from teo_sign_translator.corpus.paper_pairs import own_pairs
-from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 
 FILE_NAME = "pairs.tsv"
@@ -34,16 +34,18 @@ def run(
     hold_out_constructions: Annotated[
         bool, typer.Option(help="Keep the constructions of held_out.yaml for a split of their own.")
     ] = False,
+    language: LanguageOption = DEFAULT_LANGUAGE,
 ) -> None:
-    """Write sentence pairs of the grammar in data/grammar, and the paper's own, to DIR/pairs.tsv."""
+    """Write sentence pairs of a language's grammar, and those it must know by heart, to DIR/pairs.tsv."""
     console = Console(stderr=True)
     started = time.monotonic()
-    morphology = Morphology.load()
-    generator = Generator.load(data_file("grammar"), morphology)
+    text = load_language(language).text
+    morphology = Morphology.load(text)
+    generator = Generator.load(text / "grammar", morphology)
     own = list(own_pairs(morphology))
     unwanted = [line for path in leave_out or () for line in path.read_text(encoding="utf-8").splitlines()]
     # The grammar would translate some of the paper's sentences otherwise than the paper does.
-    unwanted += [pair.spanish for pair in own]
+    unwanted += [pair.text for pair in own]
     made = generator.pairs(pairs, seed, unwanted, hold_out_constructions=hold_out_constructions)
     every = chain(own, made)
     written = list(track(every, description="generating", total=pairs, console=console))

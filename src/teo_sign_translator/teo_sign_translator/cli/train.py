@@ -12,8 +12,8 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from teo_sign_translator.cli.command import run_command
-from teo_sign_translator.model_files import models_directory
+from teo_sign_languages import DEFAULT_LANGUAGE, load_language
+from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.config import POINTER, ZOO, TrainingConfig, network_config
 from teo_sign_translator.text.source_words import source_words
@@ -32,7 +32,7 @@ def run(
         Path, typer.Option(help="Folder that generate_corpus made; lstm256 needs none.")
     ] = Path("out/corpus"),
     out: Annotated[
-        Path | None, typer.Option(help="Folder for model and card; the package's models by default.")
+        Path | None, typer.Option(help="Folder for model and card; the language's models by default.")
     ] = None,
     seed: Annotated[int, typer.Option(help="Of weights, order, dropout and typing noise.")] = 2019,
     epochs: Annotated[
@@ -50,16 +50,19 @@ def run(
     device: Annotated[
         str | None, typer.Option(help="Such as cpu or cuda; an accelerator if there is one.")
     ] = None,
+    language: LanguageOption = DEFAULT_LANGUAGE,
 ) -> None:
     """Train a model and write its weights, with a card that says what made them and how good they are."""
     console = Console(stderr=True)
     chosen = {"epochs": epochs, "batch_size": batch_size, "learning_rate": learning_rate}
     given: dict[str, Any] = {option: value for option, value in chosen.items() if value is not None}
-    directory = out or models_directory()
+    signed = load_language(language)
+    directory = out or signed.models
     command = " ".join(
         ["ros2 run teo_sign_translator train", model]
         + [f"--{option.replace('_', '-')} {value}" for option, value in (given | {"seed": seed}).items()]
         + ([f"--pairs {pairs}"] if pairs else [])
+        + ([f"--language {language}"] if language != DEFAULT_LANGUAGE else [])
     )
     if model == PUBLISHED:
         published = dataclasses.replace(SHIPPED_CONFIG, seed=seed, **given)
@@ -70,9 +73,9 @@ def run(
     where = named_device(device)
     network = network_config(model)
     config = dataclasses.replace(TrainingConfig(seed=seed), **given)
-    read = partial(source_words, morphology=Morphology.load())
+    read = partial(source_words, morphology=Morphology.load(signed.text))
     with console.status("reading the corpus"):
-        data = load_training_data(corpus, read, pairs, seed)
+        data = load_training_data(corpus, read, pairs, seed, signed)
     trained = train_model(model, network, config, data, read, directory, command, console, where)
     fit = trained.fit
     console.print(

@@ -16,6 +16,9 @@ import typer
 from rich.console import Console
 from rich.progress import track
 
+from teo_common.errors import CodedError
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
+from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
@@ -34,7 +37,8 @@ app = typer.Typer(add_completion=False)
 @app.command()
 def translate(
     text: Annotated[
-        str | None, typer.Argument(help="Spanish text; put a blank before one that begins with -.")
+        str | None,
+        typer.Argument(help="Text in the spoken language; put a blank before one that begins with -."),
     ] = None,
     stdin: Annotated[
         bool,
@@ -49,8 +53,9 @@ def translate(
     as_json: Annotated[
         bool, typer.Option("--json", help="Write everything, one JSON object a text.")
     ] = False,
+    language: LanguageOption = DEFAULT_LANGUAGE,
     model: Annotated[
-        str, typer.Option(help=f"Model to use, one of: {', '.join(available_models()) or 'none'}.")
+        str, typer.Option(help="Model to use, one of those that --list-models lists.")
     ] = DEFAULT_MODEL,
     beam: Annotated[
         int, typer.Option(min=1, max=16, help="Translations that the model weighs against each other.")
@@ -76,28 +81,30 @@ def translate(
         ),
     ] = Substitutes.HYPERNYM.name.lower(),
     list_models: Annotated[
-        bool, typer.Option("--list-models", help="Write the models' names and stop.")
+        bool, typer.Option("--list-models", help="Write the names of the language's models and stop.")
     ] = False,
 ) -> None:
-    """Translate Spanish to glosses of Spanish Sign Language (LSE).
+    """Translate text to glosses of a sign language: Spanish to Spanish Sign Language, if none is named.
 
     Writes one line for each text: glosses separated by spaces, a spelled word as A-N-A, a number as 12. A
     line that cannot be translated gives an empty line, or a JSON object with "error", and a reason on
     standard error; the others are translated all the same, and the exit status is 1. A blank line gives a
     blank line and is no error.
     """
-    if list_models:
-        print(*available_models(), sep="\n")
-        return
-    if (text is not None) + stdin + (file is not None) != 1:
+    if not list_models and (text is not None) + stdin + (file is not None) != 1:
         raise typer.BadParameter("expected either a text, --stdin or --file")
     try:
+        if list_models:
+            print(*available_models(load_language(language).models), sep="\n")
+            return
         writer = _Writer(
-            Translator.load(model, beam_width=beam, substitutes=Substitutes.named(substitutes)),
+            Translator.load(
+                model, beam_width=beam, substitutes=Substitutes.named(substitutes), language=language
+            ),
             read_signs(signs, least_standing) if signs else None,
             as_json=as_json,
         )
-    except TranslationError as error:
+    except (TranslationError, LanguageError) as error:
         _complain("", error)
         raise typer.Exit(1) from None
     if text is not None:
@@ -184,7 +191,7 @@ def _progress(lines: Sequence[str]) -> Iterable[tuple[int, Sequence[str]]]:
     )
 
 
-def _complain(place: str, error: TranslationError) -> None:
+def _complain(place: str, error: CodedError) -> None:
     print(f"{place}{error.code}: {error}", file=sys.stderr, flush=True)
 
 

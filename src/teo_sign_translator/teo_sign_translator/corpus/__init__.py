@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Sentence pairs: by the hundred thousand from a grammar of Spanish and its LSE order, and the paper's.
+"""Sentence pairs: by the hundred thousand from a language's grammar, and those it must know by heart.
 
-`grammar_file` reads `data/grammar` into a `Grammar`, `generator.Generator` makes `Pair`s of it, and files
+`grammar_file` reads `text/grammar` into a `Grammar`, `generator.Generator` makes `Pair`s of it, and files
 keep them. The README beside this file tells how a rule is written.
 """
 

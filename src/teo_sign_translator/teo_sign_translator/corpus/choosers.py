@@ -17,6 +17,9 @@ _Weighted = TypeVar("_Weighted", Rule, Shape)
 
 #: Share of the slots that are given a held-out word, where there is one, in sentences that test words.
 _HELD_SHARE = 0.5
+#: Share of contractions that are written where both ways are right ("don't", "do not"): most are in messages,
+#: few in school texts, and a model has to read both.
+_CONTRACTED_SHARE = 0.6
 #: Numbers up to this are mostly written in words, as people do.
 _WORDS_UP_TO = 12
 
@@ -58,6 +61,10 @@ class Chooser:
         """Small numbers mostly in words, large ones mostly in digits."""
         del path
         return self.random.random() < (0.7 if value <= _WORDS_UP_TO else 0.3)
+
+    def contracted(self) -> bool:
+        """Whether two words are written as one where both ways are right."""
+        return self.random.random() < _CONTRACTED_SHARE
 
     def _by_weight(self, items: Sequence[_Weighted]) -> _Weighted:
         return self.random.choices(items, cum_weights=list(accumulate(item.weight for item in items)))[0]

@@ -12,11 +12,11 @@ from teo_sign_translator.corpus.choosers import Chooser
 from teo_sign_translator.corpus.fillers import NoFillerError, can_be_in_words, number_phrase, word_phrase
 from teo_sign_translator.corpus.grammar import LEXICAL, Grammar, Rule, Slot, fits
 from teo_sign_translator.corpus.sides import Sides
-from teo_sign_translator.corpus.spanish_text import write
 from teo_sign_translator.corpus.tenses import Tenses
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, looked_up
 from teo_sign_translator.corpus.verb_phrase import denied_once, without_addressee
 from teo_sign_translator.corpus.words import WordLists
+from teo_sign_translator.corpus.written_text import write
 from teo_sign_translator.errors import TranslationError
 
 #: Handed down to all that is inside, unless the rule says otherwise.
@@ -27,14 +27,14 @@ class Sentence(NamedTuple):
     """A sentence in both languages.
 
     Attributes:
-        spanish: As written.
+        text: As written.
         glosses: In signing order.
         alignment: For each gloss the words it stands for.
         lemmas: Of the words that were chosen.
-        words: The Spanish words and marks in order, lower case.
+        words: The words and marks in order, lower case.
     """
 
-    spanish: str
+    text: str
     glosses: tuple[str, ...]
     alignment: tuple[tuple[int, ...], ...]
     lemmas: frozenset[str]
@@ -72,9 +72,9 @@ class Derivation:
         """
         self._lemmas.clear()
         phrase = self._phrase(rule, {}, "", spread)
-        stressed = frozenset(self.grammar.word_lists.get("stressed_a", ()))
-        text, places = write(phrase.tokens, stressed)
-        signs = denied_once(without_addressee(phrase.signs, asked="?" in text))
+        text, places = write(phrase.tokens, self.grammar.writing, self._contracts)
+        lists = self.grammar.word_lists
+        signs = denied_once(without_addressee(phrase.signs, lists, asked="?" in text), lists)
         lost = [sign.gloss for sign in signs if any(id(token) not in places for token in sign.sources)]
         if lost:
             raise TranslationError(
@@ -88,6 +88,11 @@ class Derivation:
             frozenset(self._lemmas),
             tuple(token.text for token in phrase.tokens),
         )
+
+    def _contracts(self, contraction: str) -> bool | None:
+        """Whether a contraction is written; None for one that is read as one word, so that it always is."""
+        apart = self.words.rules.expressions.stands_for(contraction)
+        return self.chooser.contracted() if len(apart) > 1 else None
 
     def _phrase(
         self, rule: Rule, features: Mapping[str, str], path: str, spread: Mapping[str, str]
@@ -103,16 +108,14 @@ class Derivation:
             else:
                 chosen = self._alternative(slot.category, arguments, place, spread.get(slot.name), rule)
                 slots[slot.name] = self._phrase(chosen, arguments, place, {})
-        tokens, signs = Sides(
-            rule, slots, features, self.words, self.grammar.paradigms, self.grammar.word_lists
-        ).said()
+        tokens, signs = Sides(rule, slots, features, self.words, self.grammar).said()
         head = slots.get(rule.head)
         taken = {**(head.features if head else {})}
         for key, value in rule.features:
             if found := looked_up(value, features, slots):
                 taken[key] = found
         if taken.get("clitic") == "dative":
-            taken["clitic"] = "les" if taken.get("number") == "p" else "le"
+            taken["clitic"] = self.grammar.writing.clitics.dative[taken.get("number") == "p"]
         verb = next((phrase.verb for phrase in slots.values() if phrase.verb), None)
         if verb and verb.said:
             taken.pop("clitic", None)  # said with the verb of this clause, not with that of another
@@ -168,7 +171,8 @@ class Derivation:
         value = self.chooser.number(path, low, high, int(arguments.get("step", 1)))
         gender = arguments.get("gender", "")
         wordy = can_be_in_words(value, gender) and arguments.get("as") != "digits"
-        return number_phrase(value, gender, in_words=wordy and self.chooser.in_words(path, value))
+        in_words = wordy and self.chooser.in_words(path, value)
+        return number_phrase(value, gender, self.words.rules.numbers, in_words=in_words)
 
     def _verb(self, arguments: Mapping[str, str], path: str, rule: Rule) -> Phrase:
         chosen = {key: arguments[key] for key in ("frame", "lemma", "self") if key in arguments}

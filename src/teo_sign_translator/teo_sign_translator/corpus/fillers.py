@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from teo_sign_translator.corpus.tokens import Phrase, Sign, Token
 from teo_sign_translator.corpus.words import Word, WordLists
 from teo_sign_translator.morphology import gloss_name
-from teo_sign_translator.text.numerals import HUNDREDS, TENS, UNITS
+from teo_sign_translator.text.numerals import Numerals
 
 #: One more than the largest number that is written in words here.
 LIMIT = 10_000
@@ -31,8 +31,9 @@ def word_phrase(words: WordLists, category: str, word: Word, arguments: Mapping[
     if category == "noun":
         form = words.inflect(word.lemma, word.features["tag"])
     elif category == "adj":
-        letter = {"m+f": arguments.get("gender", "m"), "mf": "c"}.get(word.features["gender"])
-        form = words.inflect(word.lemma, f"A:{letter}{arguments.get('number', 's')}" if letter else "A:cn")
+        number = arguments.get("number", "s")
+        tags = {"m+f": f"A:{arguments.get('gender', 'm')}{number}", "mf": f"A:c{number}", "-": "A"}
+        form = words.inflect(word.lemma, tags.get(word.features["gender"], "A:cn"))
     token = Token(form)
     gloss = gloss_name(word.lemma)
     return Phrase({**word.features, "lemma": word.lemma}, [token], [Sign(gloss, [token])], token)
@@ -44,25 +45,8 @@ def can_be_in_words(value: int, gender: str) -> bool:
     return value < LIMIT and not (gender and agrees)
 
 
-def number_phrase(value: int, gender: str, *, in_words: bool) -> Phrase:
+def number_phrase(value: int, gender: str, numbers: Numerals, *, in_words: bool) -> Phrase:
     """A number, in words or digits; one gloss of digits."""
-    token = Token(number_words(value) if in_words else str(value))
+    token = Token(numbers.in_words(value) if in_words else str(value))
     features = {"number": "s" if value == 1 else "p", "gender": gender or "m", "person": "3"}
     return Phrase(features, [token], [Sign(str(value), [token])], token)
-
-
-def number_words(value: int) -> str:
-    """A number from 0 to 9999 in words, as counted: `31` is `"treinta y uno"`."""
-    if value >= 1000:
-        thousands, rest = divmod(value, 1000)
-        words = "mil" if thousands == 1 else f"{number_words(thousands)} mil"
-        return f"{words} {number_words(rest)}" if rest else words
-    if value == 100:
-        return "cien"
-    if value > 100:
-        hundreds, rest = divmod(value, 100)
-        return f"{HUNDREDS[hundreds - 1]} {number_words(rest)}" if rest else HUNDREDS[hundreds - 1]
-    if value < 30:
-        return UNITS[value]
-    tens, units = divmod(value, 10)
-    return f"{TENS[tens - 3]} y {UNITS[units]}" if units else TENS[tens - 3]

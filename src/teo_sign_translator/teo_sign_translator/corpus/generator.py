@@ -62,7 +62,7 @@ class Generator:
             raise TranslationError(
                 "invalid_grammar", f"{grammar_folder}: held_out: expected names of templates, got {unknown}"
             )
-        words = WordLists.load(grammar_folder, morphology, grammar.word_lists)
+        words = WordLists.load(grammar_folder, morphology, grammar)
         words.held_out = held_out_words(grammar, words)
         return cls(grammar, words)
 
@@ -134,10 +134,10 @@ class Generator:
                 if sentence is None:
                     spent = place
                     continue
-                seen.add(sentence.spanish)
+                seen.add(sentence.text)
                 total += 1
                 made[places[place]] += 1
-                yield Pair(sentence.spanish, sentence.glosses, sentence.alignment, left[place].name, split)
+                yield Pair(sentence.text, sentence.glosses, sentence.alignment, left[place].name, split)
                 if made[places[place]] >= largest:
                     spent = place
             if spent is not None:
@@ -152,7 +152,7 @@ class Generator:
             except NoFillerError:
                 continue
             most = template.rule.repeat if split == "train" else 1
-            if seen.has(sentence.spanish, most) or len(sentence.words) > _LONGEST or not sentence.glosses:
+            if seen.has(sentence.text, most) or len(sentence.words) > _LONGEST or not sentence.glosses:
                 continue
             if held != bool(sentence.lemmas & self.words.held_out):
                 continue
@@ -179,7 +179,7 @@ class _Seen:
 
 def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
     """Content words that only tests see: by hash, except those that the grammar itself names."""
-    named = {item.word for rule in grammar.rules() for item in rule.spanish}
+    named = {item.word for rule in grammar.rules() for item in rule.text}
     named |= {item.gloss.lower() for rule in grammar.rules() for item in rule.glosses}
     named |= {
         value
@@ -193,7 +193,7 @@ def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
     named |= {part.lemma for shape in grammar.shapes for part in shape.parts}
     every = sorted(
         {
-            word.lemma.removesuffix("se") if word in words.verbs else word.lemma
+            words.clitics.bare(word.lemma)[0] if word in words.verbs else word.lemma
             for entries in (words.nouns, words.adjectives, words.names, words.verbs)
             for word in entries
         }

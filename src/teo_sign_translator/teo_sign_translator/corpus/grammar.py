@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a grammar is made of; `data/grammar/*.yaml` are read into these by `grammar_file`."""
+"""What a grammar is made of; `text/grammar/*.yaml` are read into these by `grammar_file`."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from teo_sign_translator.corpus.patterns import GlossItem, SpanishItem
+from teo_sign_translator.corpus.patterns import GlossItem, TextItem
+from teo_sign_translator.corpus.writing import Writing
 
 #: Kinds of slots that are filled from the word lists; every other name is a category of the grammar.
 LEXICAL = ("noun", "adj", "verb", "name", "number", "adverb")
@@ -36,13 +37,13 @@ class Example:
     """What a rule makes when its choices are fixed.
 
     Attributes:
-        spanish: The sentence.
+        text: The sentence.
         glosses: Its translation.
         fixed: Choice by path (`S.P.n`), or by a slot's name alone, wherever it is: name of an alternative or
             a lemma. All else takes the first there is.
     """
 
-    spanish: str
+    text: str
     glosses: tuple[str, ...]
     fixed: Mapping[str, str]
 
@@ -57,8 +58,8 @@ class Rule:
         weight: How often, among its neighbours.
         when: Features that must have been handed down: each value must be among those given.
         slots: In the order in which they are filled.
-        spanish: Spanish side.
-        glosses: LSE side.
+        text: The side of the spoken language.
+        glosses: The side of the sign language.
         features: What it adds to the features of its head.
         head: Slot whose features (person, number, gender) it takes; empty for none.
         example: Of sentences; categories have none.
@@ -70,7 +71,7 @@ class Rule:
     weight: float
     when: tuple[tuple[str, tuple[str, ...]], ...]
     slots: tuple[Slot, ...]
-    spanish: tuple[SpanishItem, ...]
+    text: tuple[TextItem, ...]
     glosses: tuple[GlossItem, ...]
     features: tuple[tuple[str, str], ...]
     head: str
@@ -102,7 +103,7 @@ class Shape:
     Attributes:
         name: Unique.
         weight: How often, among those that fit.
-        mood: ind, sub, sub_past, inf, imp, neg_imp or ger.
+        mood: ind, sub, sub_past, inf, imp, neg_imp, ger or part.
         time: past, present or future.
         kind: "event": only of verbs that are events; else empty.
         dated: Whether it is said with a past date: not the perfect ("ayer he ido").
@@ -150,6 +151,7 @@ class Grammar:
         constructions: For each construction that a corpus may be made without, all that says it: families
             (`condition`), sentence rules (`in_case.if_then`) and alternatives of categories
             (`vp.better_than`).
+        writing: How words that meet are written, and the pronouns at verbs.
     """
 
     families: tuple[Family, ...]
@@ -159,6 +161,7 @@ class Grammar:
     word_lists: Mapping[str, tuple[str, ...]]
     held_out: frozenset[str]
     constructions: Mapping[str, tuple[str, ...]]
+    writing: Writing
 
     def rules(self) -> list[Rule]:
         """All sentence rules and alternatives."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and checks `data/grammar/*.yaml`."""
+"""Reads and checks `text/grammar/*.yaml`."""
 
 from __future__ import annotations
 
@@ -26,16 +26,26 @@ from teo_sign_translator.corpus.patterns import (
     CLITIC,
     VERB,
     GlossItem,
-    SpanishItem,
+    TextItem,
     parse_glosses,
-    parse_spanish,
+    parse_text,
 )
+from teo_sign_translator.corpus.writing import parse_writing
 from teo_sign_translator.errors import TranslationError
 
-_SECTIONS = ("families", "categories", "shapes", "paradigms", "word_lists", "held_out", "constructions")
-_RULE_KEYS = ("weight", "when", "pick", "es", "lse", "set", "head", "example", "repeat")
-_SHAPE_KEYS = ("weight", "mood", "time", "kind", "dated", "es", "lse")
-_MOODS = ("ind", "sub", "sub_past", "inf", "imp", "neg_imp", "ger")
+_SECTIONS = (
+    "families",
+    "categories",
+    "shapes",
+    "paradigms",
+    "word_lists",
+    "held_out",
+    "constructions",
+    "writing",
+)
+_RULE_KEYS = ("weight", "when", "pick", "text", "signs", "set", "head", "example", "repeat")
+_SHAPE_KEYS = ("weight", "mood", "time", "kind", "dated", "text", "signs")
+_MOODS = ("ind", "sub", "sub_past", "inf", "imp", "neg_imp", "ger", "part")
 _TIMES = ("past", "present", "future")
 _PART = re.compile(r"(?P<lemma>\w*)(?P<main>\*?)/(?P<tag>[\w:]+)(?P<enclitic>\+?)")
 
@@ -66,6 +76,16 @@ def load_grammar(folder: Path) -> Grammar:
     families = tuple(
         _family(where, name, body, paradigms) for name, (where, body) in merged["families"].items()
     )
+    word_lists = {
+        name: tuple(_text(f"{where}: {name}", words).split())
+        for name, (where, words) in merged["word_lists"].items()
+    }
+    writing = {
+        name: {
+            key: _text(f"{where}: writing.{name}.{key}", text) for key, text in _mapping(where, name, body)
+        }
+        for name, (where, body) in merged["writing"].items()
+    }
     grammar = Grammar(
         families=families,
         categories=categories,
@@ -73,15 +93,13 @@ def load_grammar(folder: Path) -> Grammar:
             _shape(f"{where}: {name}", name, body) for name, (where, body) in merged["shapes"].items()
         ),
         paradigms=paradigms,
-        word_lists={
-            name: tuple(_text(f"{where}: {name}", words).split())
-            for name, (where, words) in merged["word_lists"].items()
-        },
+        word_lists=word_lists,
         held_out=frozenset(merged["held_out"]),
         constructions={
             name: tuple(_text(f"{where}: {name}", names).split())
             for name, (where, names) in merged["constructions"].items()
         },
+        writing=parse_writing(writing, word_lists),
     )
     _check_links(grammar)
     return grammar
@@ -127,13 +145,13 @@ def _family(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> F
 def _rule(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> Rule:
     _check_keys(where, body, _RULE_KEYS)
     try:
-        spanish = parse_spanish(_text(where, body["es"]))
-        glosses = parse_glosses(_text(where, body["lse"]))
+        text = parse_text(_text(where, body["text"]))
+        glosses = parse_glosses(_text(where, body["signs"]))
     except TranslationError as error:
         raise TranslationError(error.code, f"{where}: {error}") from error
     slots = tuple(_slot(where, key, text) for key, text in _mapping(where, "pick", body.get("pick", {})))
     names = {slot.name for slot in slots}
-    _check_sides(where, names, spanish, glosses, paradigms)
+    _check_sides(where, names, text, glosses, paradigms)
     head = body.get("head", slots[0].name if slots else "")
     if head and head not in names:
         _fail(where, f"a head among {sorted(names)}, got '{head}'")
@@ -145,7 +163,7 @@ def _rule(where: str, name: str, body: Any, paradigms: Mapping[str, Any]) -> Rul
             (key, tuple(str(value).split())) for key, value in _mapping(where, "when", body.get("when", {}))
         ),
         slots=slots,
-        spanish=spanish,
+        text=text,
         glosses=glosses,
         features=tuple((key, str(value)) for key, value in _mapping(where, "set", body.get("set", {}))),
         head=head,
@@ -168,34 +186,34 @@ def _slot(where: str, name: str, text: Any) -> Slot:
 
 
 def _example(where: str, body: Any) -> Example:
-    _check_keys(f"{where}: example", body, ("es", "lse", "fix"))
+    _check_keys(f"{where}: example", body, ("text", "signs", "fix"))
     fixed = {key: str(value) for key, value in _mapping(where, "fix", body.get("fix", {}))}
-    return Example(_text(where, body["es"]), tuple(_text(where, body["lse"]).split()), fixed)
+    return Example(_text(where, body["text"]), tuple(_text(where, body["signs"]).split()), fixed)
 
 
 def _check_sides(
     where: str,
     names: set[str],
-    spanish: tuple[SpanishItem, ...],
+    text: tuple[TextItem, ...],
     glosses: tuple[GlossItem, ...],
     paradigms: Mapping[str, Any],
 ) -> None:
-    for item in spanish:
+    for item in text:
         for slot in (item.slot, item.agree):
             if slot and slot not in names:
-                _fail(where, f"slots {sorted(names)} in 'es', got '{slot}'")
+                _fail(where, f"slots {sorted(names)} in 'text', got '{slot}'")
         if item.agree and item.word and item.word not in paradigms:
             _fail(where, f"a paradigm of {sorted(paradigms)}, got '{item.word}'")
-    counted = Counter(item.word for item in spanish)
+    counted = Counter(item.word for item in text)
     words = {f"{word}#{n}" if n > 1 else word for word, count in counted.items() for n in range(1, count + 1)}
     for gloss in glosses:
         for slot in (gloss.slot, gloss.also):
             if slot and slot not in names:
-                _fail(where, f"slots {sorted(names)} in 'lse', got '{slot}'")
+                _fail(where, f"slots {sorted(names)} in 'signs', got '{slot}'")
         for source in gloss.sources:
             known = source.strip("{}") in names if source.startswith("{") else source in words
             if not known and source not in (VERB, CLITIC):
-                _fail(where, f"words of 'es' as sources in 'lse', got '{source}'")
+                _fail(where, f"words of 'text' as sources in 'signs', got '{source}'")
 
 
 def _shape(where: str, name: str, body: Any) -> Shape:
@@ -204,7 +222,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
     if mood not in _MOODS or time not in _TIMES:
         _fail(where, f"a mood of {_MOODS} and a time of {_TIMES}, got '{mood}', '{time}'")
     parts: list[ShapePart] = []
-    for written in _text(where, body["es"]).split():
+    for written in _text(where, body["text"]).split():
         match = _PART.fullmatch(written)
         if match and (match["lemma"] or match["main"]):
             parts.append(ShapePart(match["lemma"], match["tag"], "", bool(match["enclitic"])))
@@ -214,7 +232,7 @@ def _shape(where: str, name: str, body: Any) -> Shape:
             _fail(where, f"*/tag, auxiliary/tag, a word or ^, got '{written}'")
     known = {part.lemma for part in parts} | {part.literal for part in parts}
     glosses: list[tuple[str, str]] = []
-    for written in _text(where, body["lse"]).split():
+    for written in _text(where, body["signs"]).split():
         gloss, _, source = written.partition("=")
         if source not in known and not (gloss == "*" and not source):
             _fail(where, f"* or GLOSS=auxiliary, got '{written}'")
@@ -242,12 +260,12 @@ def _check_links(grammar: Grammar) -> None:
                 if value.startswith("$") and dot and name not in earlier:
                     _fail(rule.where, f"a slot filled before '{slot.name}', got '{value}'")
             earlier.add(slot.name)
-        said = {item.slot for item in rule.spanish}
+        said = {item.slot for item in rule.text}
         for slot in rule.slots:
-            silent = all(not each.spanish for each in grammar.categories.get(slot.category, ()))
+            silent = all(not each.text for each in grammar.categories.get(slot.category, ()))
             signed = any(item.slot == slot.name for item in rule.glosses)
             if signed and slot.name not in said and (slot.category in LEXICAL or not silent):
-                _fail(rule.where, f"slot '{slot.name}' in 'es' since it is in 'lse'")
+                _fail(rule.where, f"slot '{slot.name}' in 'text' since it is in 'signs'")
     known = {
         name for family in grammar.families for name in (family.name, *_names(family.name, family.rules))
     }
@@ -290,9 +308,9 @@ def _number(where: str, value: Any) -> float:
 
 
 def _check_keys(where: str, body: Any, known: tuple[str, ...]) -> None:
-    if not isinstance(body, dict) or not {"es", "lse"} <= set(body) <= set(known):
+    if not isinstance(body, dict) or not {"text", "signs"} <= set(body) <= set(known):
         got = [str(key) for key in body] if isinstance(body, dict) else [type(body).__name__]
-        _fail(where, f"'es' and 'lse', and of {known} what is needed, got {got}")
+        _fail(where, f"'text' and 'signs', and of {known} what is needed, got {got}")
 
 
 def _fail(where: str, expected: str) -> NoReturn:

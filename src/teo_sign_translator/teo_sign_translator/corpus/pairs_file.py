@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The corpus file: one pair of Spanish and LSE a line, with its alignment."""
+"""The corpus file: one sentence and its glosses a line, with its alignment."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from teo_common.atomic_files import write_atomically
 from teo_sign_translator.data_files import invalid_line
 from teo_sign_translator.errors import TranslationError
 
-COLUMNS = ("spanish", "glosses", "alignment", "rule", "split")
+COLUMNS = ("text", "glosses", "alignment", "rule", "split")
 
 #: `test_words`: known templates with words that train never has; `test_templates`: known words in templates
 #: that train never has; `test_both`: neither was seen; `test_constructions`: known words in constructions
@@ -22,18 +22,18 @@ SPLITS = ("train", "dev", "test_words", "test_templates", "test_both", "test_con
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """A Spanish sentence and its translation.
+    """A sentence and its translation.
 
     Attributes:
-        spanish: As people write it, with accents and marks.
+        text: As people write it, with accents and marks.
         glosses: In signing order; upper case with accents, `_` for spaces, numbers in digits.
-        alignment: For each gloss the indices into `source_words(spanish)` that it stands for; empty for none.
+        alignment: For each gloss the indices into `source_words(text)` that it stands for; empty for none.
         rule: Name of the template it was made from, `family.rule` and what fills the rule; `paper` for the
             paper's and the project's own pairs.
         split: One of `SPLITS`.
     """
 
-    spanish: str
+    text: str
     glosses: tuple[str, ...]
     alignment: tuple[tuple[int, ...], ...]
     rule: str
@@ -46,7 +46,7 @@ def write_pairs(path: Path, pairs: Iterable[Pair]) -> None:
     lines += (
         "\t".join(
             (
-                pair.spanish,
+                pair.text,
                 " ".join(pair.glosses),
                 " ".join(",".join(map(str, places)) or "-" for places in pair.alignment),
                 pair.rule,
@@ -81,7 +81,7 @@ def read_pairs(path: Path) -> Iterator[Pair]:
 def _pair(path: Path, number: int, fields: list[str]) -> Pair:
     if len(fields) != len(COLUMNS):
         raise invalid_line(path, number, f"{len(COLUMNS)} columns", f"{len(fields)}")
-    spanish, glosses, alignment, rule, split = fields
+    text, glosses, alignment, rule, split = fields
     if split not in SPLITS:
         raise invalid_line(path, number, f"one of {SPLITS}", f"'{split.strip()}'")
     try:
@@ -90,7 +90,7 @@ def _pair(path: Path, number: int, fields: list[str]) -> Pair:
         )
     except ValueError:
         raise invalid_line(path, number, "word numbers or '-'", f"'{alignment.strip()}'") from None
-    pair = Pair(spanish, tuple(glosses.split()), places, rule, split)
+    pair = Pair(text, tuple(glosses.split()), places, rule, split)
     if len(pair.alignment) != len(pair.glosses):
         raise invalid_line(path, number, f"{len(pair.glosses)} alignments, one a gloss", f"{len(places)}")
     return pair

@@ -90,7 +90,7 @@ def paper_predictions() -> list[PublishedPair]:
 
 
 def read_aligned_pairs(path: Path) -> list[AlignedPair]:
-    """Read a file of sentences and aligned glosses; `data/paper_alignment.tsv` explains the notation.
+    """Read a file of sentences and aligned glosses; `text/paper_alignment.tsv` explains the notation.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
@@ -101,15 +101,20 @@ def read_aligned_pairs(path: Path) -> list[AlignedPair]:
     ]
 
 
-def training_pairs() -> list[AlignedPair]:
-    """What the shipped model is trained on: the paper's sentences, then the project's."""
-    return [pair for path in _training_files() for pair in read_aligned_pairs(path)]
+def training_pairs(folder: Path | None = None) -> list[AlignedPair]:
+    """What the shipped model of a language must know by heart: the paper's sentences, then the project's.
+
+    Args:
+        folder: The language's text folder, by default that of the default language; one without either
+            file has no such sentences.
+    """
+    return [pair for path in _training_files(folder) for pair in read_aligned_pairs(path)]
 
 
 def training_data_hash() -> str:
     """SHA-256 of the files behind `training_pairs`, hexadecimal."""
     digest = hashlib.sha256()
-    for path in _training_files():
+    for path in _training_files(None):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
@@ -117,7 +122,7 @@ def training_data_hash() -> str:
 def own_pairs(morphology: Morphology) -> Iterator[Pair]:
     """Yield the pairs that the translator must know exactly, slots filled with names and numbers."""
     read = partial(source_words, morphology=morphology)
-    for pair in training_pairs():
+    for pair in training_pairs(morphology.folder):
         fillings = list(zip(_NAMES, _NUMBERS, strict=True)) if {*SLOTS} & {*pair.glosses} else [("", "")]
         for name, number in fillings:
             yield filled(pair, name, number, read)
@@ -144,8 +149,12 @@ def filled(pair: AlignedPair, name: str, number: str, read: Callable[[str], Sequ
     return Pair(sentence, tuple(glosses), tuple(places), "paper", "train")
 
 
-def _training_files() -> tuple[Path, Path]:
-    return data_file("paper_alignment.tsv"), data_file("project_pairs.tsv")
+def _training_files(folder: Path | None) -> list[Path]:
+    paths = (
+        (folder or data_file("")) / "paper_alignment.tsv",
+        (folder or data_file("")) / "project_pairs.tsv",
+    )
+    return [path for path in paths if path.is_file()]
 
 
 def _aligned(path: Path, number: int, sentence: str, glosses: str) -> AlignedPair:

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The two linked right-hand sides of a rule, as written in the grammar files and as parsed.
 
-Spanish: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
+Text: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
 `un~n` the paradigm word "un" agreeing with slot n.
 
-LSE: `{X}` the glosses of slot X, `{n+V}` the same, which the head of slot V says too ("da miedo": MIEDO).
-`GLOSS` is a gloss that no word says, `GLOSS=word+word` one that those words of the Spanish side say (`word#2`
+Signs: `{X}` the glosses of slot X, `{n+V}` the same, which the head of slot V says too ("da miedo": MIEDO).
+`GLOSS` is a gloss that no word says, `GLOSS=word+word` one that those words of the text side say (`word#2`
 the second of them, `{X}` the head of a slot), `GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a
 clitic pronoun says.
 """
@@ -20,7 +20,7 @@ from teo_sign_translator.errors import TranslationError
 
 _SLOT = re.compile(r"\{(?P<slot>\w+)(?::(?P<agree>\w+))?\}")
 _AGREEING = re.compile(r"(?P<word>\w+)~(?P<agree>\w+)")
-_LITERAL = re.compile(r"\w+|[¿?¡!,.:]")
+_LITERAL = re.compile(r"'?\w+|[¿?¡!,.:]")
 _GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?:\+(?P<also>\w+))?\}")
 _GLOSS = re.compile(r"(?P<gloss>[A-ZÁÉÍÓÚÜÑ0-9_]+)(?:=(?P<sources>\S+))?")
 
@@ -29,8 +29,8 @@ VERB, CLITIC = "^", "@"
 
 
 @dataclass(frozen=True, slots=True)
-class SpanishItem:
-    """One item of the Spanish side: a slot, an agreeing paradigm word or a literal.
+class TextItem:
+    """One item of the text side: a slot, an agreeing paradigm word or a literal.
 
     Attributes:
         slot: Name of the slot; empty for a word.
@@ -45,13 +45,13 @@ class SpanishItem:
 
 @dataclass(frozen=True, slots=True)
 class GlossItem:
-    """One item of the LSE side: a slot or a gloss.
+    """One item of the side of signs: a slot or a gloss.
 
     Attributes:
         slot: Name of the slot; else empty.
         also: Slot whose head says the glosses too; empty for none.
         gloss: The gloss; empty for a slot.
-        sources: Words of the Spanish side, `{slot}`s, `VERB` or `CLITIC`.
+        sources: Words of the text side, `{slot}`s, `VERB` or `CLITIC`.
     """
 
     slot: str = ""
@@ -60,20 +60,20 @@ class GlossItem:
     sources: tuple[str, ...] = ()
 
 
-def parse_spanish(text: str) -> tuple[SpanishItem, ...]:
-    """Parse a Spanish side.
+def parse_text(text: str) -> tuple[TextItem, ...]:
+    """Parse a text side.
 
     Raises:
         TranslationError: "invalid_grammar" naming the item.
     """
-    items: list[SpanishItem] = []
+    items: list[TextItem] = []
     for written in text.split():
         if match := _SLOT.fullmatch(written):
-            items.append(SpanishItem(match["slot"], "", match["agree"] or ""))
+            items.append(TextItem(match["slot"], "", match["agree"] or ""))
         elif match := _AGREEING.fullmatch(written):
-            items.append(SpanishItem("", match["word"], match["agree"]))
+            items.append(TextItem("", match["word"], match["agree"]))
         elif _LITERAL.fullmatch(written):
-            items.append(SpanishItem("", written, ""))
+            items.append(TextItem("", written, ""))
         else:
             raise TranslationError(
                 "invalid_grammar",
@@ -83,7 +83,7 @@ def parse_spanish(text: str) -> tuple[SpanishItem, ...]:
 
 
 def parse_glosses(text: str) -> tuple[GlossItem, ...]:
-    """Parse an LSE side.
+    """Parse a side of signs.
 
     Raises:
         TranslationError: "invalid_grammar" naming the item.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From a rule whose slots are filled to its Spanish words and its glosses."""
+"""From a rule whose slots are filled to its words and its glosses."""
 
 from __future__ import annotations
 
@@ -8,16 +8,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from teo_sign_translator.corpus.fillers import NoFillerError
-from teo_sign_translator.corpus.grammar import Rule
-from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem, SpanishItem
+from teo_sign_translator.corpus.grammar import Grammar, Rule
+from teo_sign_translator.corpus.patterns import CLITIC, VERB, GlossItem, TextItem
 from teo_sign_translator.corpus.tokens import Phrase, SaidVerb, Sign, Token
 from teo_sign_translator.corpus.verb_phrase import say_verb, verb_signs
 from teo_sign_translator.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
 
 _COLUMNS = ("ms", "fs", "mp", "fp")
-#: Clitics that LSE never says: what has just been spoken of is known.
-_THINGS = frozenset(("lo", "la", "los", "las"))
 
 
 @dataclass
@@ -29,8 +27,7 @@ class Sides:
         slots: What fills its slots; the verbs among it are said here.
         handed: Features handed down to the rule: the person of a verb without a subject of its own.
         words: Inflects.
-        paradigms: Forms of agreeing words, in the order masculine and feminine singular, then plural.
-        lists: Lists of verbs that say less in LSE, by name: `unsaid_verbs` have no sign beside what they
+        grammar: Gives the forms of agreeing words. Of its lists `unsaid_verbs` have no sign beside what they
             govern ("tengo fiebre"), the path of `directed_verbs` shows whom a clitic means ("te ayudo").
     """
 
@@ -38,25 +35,24 @@ class Sides:
     slots: Mapping[str, Phrase]
     handed: Mapping[str, str]
     words: WordLists
-    paradigms: Mapping[str, tuple[str, str, str, str]]
-    lists: Mapping[str, tuple[str, ...]]
+    grammar: Grammar
     _literals: dict[str, Token] = field(default_factory=dict)
 
     def said(self) -> tuple[list[Token], list[Sign]]:
-        """The Spanish words, then the glosses.
+        """The words, then the glosses.
 
         Raises:
             NoFillerError: If a verb has no such imperative.
             TranslationError: "no_form" if it has no other form that it should have.
         """
-        tokens = [token for item in self.rule.spanish for token in self._tokens(item)]
+        tokens = [token for item in self.rule.text for token in self._tokens(item)]
         signs = [sign for item in self.rule.glosses for sign in self._signs(item)]
         signs.sort(key=lambda sign: not sign.leads)
         for sign in signs:
             sign.leads = False
         return tokens, signs
 
-    def _tokens(self, item: SpanishItem) -> list[Token]:
+    def _tokens(self, item: TextItem) -> list[Token]:
         if item.word:
             return [self._literal(item)]
         phrase = self.slots[item.slot]
@@ -67,12 +63,12 @@ class Sides:
             subject.say(VERB, phrase.verb.said.finite)
         return phrase.tokens
 
-    def _literal(self, item: SpanishItem) -> Token:
+    def _literal(self, item: TextItem) -> Token:
         token = Token(item.word)
         if item.agree:
             features = self.slots[item.agree].features
             column = _COLUMNS.index(features.get("gender", "m")[0] + features.get("number", "s"))
-            token = Token(self.paradigms[item.word][column], _COLUMNS[column] == "fs")
+            token = Token(self.grammar.paradigms[item.word][column], _COLUMNS[column] == "fs")
         key, again = item.word, 2
         while key in self._literals:
             key, again = f"{item.word}#{again}", again + 1
@@ -97,13 +93,13 @@ class Sides:
             raise TranslationError(error.code, f"{self.rule.where}: {error}") from error
         verb.said = said
         phrase.tokens = said.tokens
-        alone = verb.word.lemma not in self.lists.get("unsaid_verbs", ())
+        alone = verb.word.lemma not in self.grammar.word_lists.get("unsaid_verbs", ())
         phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone, denied=self._denies())
         phrase.head = said.main
-        directed = verb.word.lemma in self.lists.get("directed_verbs", ())
+        directed = verb.word.lemma in self.grammar.word_lists.get("directed_verbs", ())
         for carrier, token in zip(carrying, said.clitics, strict=True):
             shown = directed and "feels" not in carrier.features
-            if shown or carrier.features["clitic"] in _THINGS:
+            if shown or carrier.features["clitic"] in self.words.clitics.accusative:
                 carrier.leave_out(CLITIC)
             carrier.say(CLITIC, token)
         if subject:

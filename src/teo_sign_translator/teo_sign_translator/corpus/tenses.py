@@ -9,19 +9,6 @@ from dataclasses import dataclass, field
 
 from teo_sign_translator.corpus.grammar import Shape
 
-#: Shapes of the present that speak of what is to come ("mañana voy").
-_PLANS = (
-    "present",
-    "must",
-    "want",
-    "can",
-    "want_enclitic",
-    "can_enclitic",
-    "need",
-    "should",
-    "subjunctive",
-)
-
 
 @dataclass
 class Tenses:
@@ -29,7 +16,8 @@ class Tenses:
 
     Attributes:
         shapes: All of them.
-        lists: Names of several shapes.
+        lists: Names of several shapes; `plans` are those of the present that speak of what is to come
+            ("mañana voy").
     """
 
     shapes: Sequence[Shape]
@@ -58,19 +46,17 @@ class Tenses:
                 if shape.mood == mood
                 and all(shape.name in names for names in allowed)
                 and (shape.kind != "event" or kind == "event")
-                and _time_fits(says, shape, kind)
+                and _time_fits(says, shape, kind, self.lists.get("plans", ()))
             )
         return self._found[key]
 
 
-def _time_fits(says: str, shape: Shape, kind: str) -> bool:
+def _time_fits(says: str, shape: Shape, kind: str, plans: Sequence[str]) -> bool:
     """Whether a tense goes with a time word."""
     if says in ("", "any"):
         return True
     if says == "past":
         return shape.time == "past" and shape.dated
     if says == "future":
-        return shape.time == "future" or (
-            shape.time == "present" and shape.name in _PLANS and kind == "event"
-        )
+        return shape.time == "future" or (shape.time == "present" and shape.name in plans and kind == "event")
     return shape.time == says

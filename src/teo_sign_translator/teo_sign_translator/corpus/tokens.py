@@ -14,7 +14,7 @@ from teo_sign_translator.corpus.words import Word
 
 @dataclass(slots=True, eq=False)
 class Token:
-    """A Spanish word or mark.
+    """A word or mark.
 
     Attributes:
         text: As written inside a sentence.
@@ -66,8 +66,8 @@ class Phrase:
 
     Attributes:
         features: Person, number, gender and the like.
-        tokens: Spanish.
-        signs: LSE.
+        tokens: Words and marks.
+        signs: Glosses.
         head: The word that stands for the whole.
         verb: Its first verb, which shows the tense.
     """

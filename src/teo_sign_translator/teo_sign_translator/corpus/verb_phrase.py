@@ -4,25 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from teo_sign_translator.corpus.grammar import Shape
 from teo_sign_translator.corpus.tokens import Sign, Token, VerbPhrase
 from teo_sign_translator.corpus.words import WordLists
+from teo_sign_translator.corpus.writing import Clitics
 from teo_sign_translator.morphology.enclitics import attach_pronouns
 
-_CAN = "PODER"
-_NO = "NO"
-_NOTHING = frozenset(("NADA", "NADIE", "NINGUNO", "NUNCA"))
-_ADDRESSEES = frozenset(("TÚ", "USTED", "VOSOTROS", "USTEDES"))
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
-#: Reflexive pronoun by person.
-REFLEXIVES = {"1s": "me", "2s": "te", "3s": "se", "1p": "nos", "2p": "os", "3p": "se"}
-
-_ORDER = {"se": 0, "te": 1, "os": 1, "me": 2, "nos": 2}
-_LAST = 3
-_THIRD_ACCUSATIVE = frozenset(("lo", "la", "los", "las"))
 
 
 def say_verb(
@@ -41,8 +32,9 @@ def say_verb(
     Raises:
         TranslationError: "no_form" if it has no such form.
     """
-    pronouns = [*([REFLEXIVES[person]] if pronominal else []), *clitics]
-    ordered = in_order(pronouns)
+    rules = words.clitics
+    pronouns = [*([rules.reflexive[person]] if pronominal else []), *clitics]
+    ordered = in_order(pronouns, rules)
     tokens: list[Token] = []
     parts: dict[str, Token] = {}
     carriers: list[Token] = []
@@ -70,15 +62,15 @@ def say_verb(
         parts.setdefault(part.lemma or part.literal, token)
         tokens.append(token)
     assert finite is not None and main is not None, shape.name
-    return VerbPhrase(tokens, finite, main, _carriers(pronouns, ordered, carriers, clitics), parts)
+    return VerbPhrase(tokens, finite, main, _carriers(pronouns, ordered, carriers, clitics, rules), parts)
 
 
-def in_order(clitics: Sequence[str]) -> tuple[str, ...]:
+def in_order(clitics: Sequence[str], rules: Clitics) -> tuple[str, ...]:
     """Clitics as they stand before or behind a verb: `("lo", "le")` is `("se", "lo")`."""
-    ordered = tuple(sorted(clitics, key=lambda clitic: _ORDER.get(clitic, _LAST)))
-    if len(ordered) > 1 and set(ordered) & _THIRD_ACCUSATIVE:
-        changed = ["se" if clitic in ("le", "les") else clitic for clitic in ordered]
-        return tuple(sorted(changed, key=lambda clitic: _ORDER.get(clitic, _LAST)))
+    ordered = tuple(sorted(clitics, key=lambda clitic: rules.ranks.get(clitic, len(rules.ranks))))
+    if len(ordered) > 1 and set(ordered) & rules.accusative:
+        changed = [rules.beside_accusative if clitic in rules.dative else clitic for clitic in ordered]
+        return tuple(sorted(changed, key=lambda clitic: rules.ranks.get(clitic, len(rules.ranks))))
     return ordered
 
 
@@ -115,29 +107,42 @@ def verb_signs(
     return [*before, *signs]
 
 
-def without_addressee(signs: Sequence[Sign], *, asked: bool) -> list[Sign]:
+def without_addressee(
+    signs: Sequence[Sign], lists: Mapping[str, tuple[str, ...]], *, asked: bool
+) -> list[Sign]:
     """The signs without TÚ or USTED where somebody is asked to do something: "¿Puedes venir?" is VENIR PODER.
 
     Left out is who is addressed, if only the ending of the verb that PODER stands for says so and PODER ends
     the question: signers leave the addressee out in 5 of 6 of such requests.
+
+    Args:
+        signs: Of the sentence.
+        lists: Of the grammar; `asking_glosses` names such verbs, `addressee_glosses` who is addressed.
+        asked: Whether it is a question.
     """
-    if not asked or not signs or signs[-1].gloss != _CAN:
+    if not asked or not signs or signs[-1].gloss not in lists.get("asking_glosses", ()):
         return list(signs)
     finite = signs[-1].sources
-    return [sign for sign in signs if not (sign.gloss in _ADDRESSEES and sign.sources == finite[:1])]
+    return [
+        sign
+        for sign in signs
+        if not (sign.gloss in lists.get("addressee_glosses", ()) and sign.sources == finite[:1])
+    ]
 
 
-def denied_once(signs: Sequence[Sign]) -> list[Sign]:
+def denied_once(signs: Sequence[Sign], lists: Mapping[str, tuple[str, ...]]) -> list[Sign]:
     """The signs without NO where one word more denies: "no digo nada" is DECIR NADA.
 
-    Only where they stand side by side, so that both deny the same verb.
+    Only where they stand side by side, so that both deny the same verb: glosses of the grammar's list
+    `denying_once` are enough without those of `not_glosses`.
     """
+    enough, denials = lists.get("denying_once", ()), lists.get("not_glosses", ())
     result: list[Sign] = []
     for sign in signs:
         last = result[-1].gloss if result else ""
-        if sign.gloss == _NO and last in _NOTHING:
+        if sign.gloss in denials and last in enough:
             result[-1].sources.extend(sign.sources)
-        elif sign.gloss in _NOTHING and last == _NO:
+        elif sign.gloss in enough and last in denials:
             sign.sources.extend(result.pop().sources)
             result.append(sign)
         else:
@@ -146,13 +151,17 @@ def denied_once(signs: Sequence[Sign]) -> list[Sign]:
 
 
 def _carriers(
-    pronouns: Sequence[str], ordered: Sequence[str], carriers: Sequence[Token], clitics: Sequence[str]
+    pronouns: Sequence[str],
+    ordered: Sequence[str],
+    carriers: Sequence[Token],
+    clitics: Sequence[str],
+    rules: Clitics,
 ) -> list[Token]:
     """The word that says each of the clitics; "le" may have become "se"."""
     own = len(pronouns) - len(clitics)
     found: list[Token] = []
     for clitic in clitics:
-        written = clitic if clitic in ordered[own:] or clitic in ordered else "se"
+        written = clitic if clitic in ordered[own:] or clitic in ordered else rules.beside_accusative
         places = [place for place, each in enumerate(ordered) if each == written]
         found.append(carriers[places[-1]])
     return found

@@ -12,9 +12,12 @@ from itertools import accumulate
 from pathlib import Path
 from random import Random
 
+from teo_sign_translator.corpus.grammar import Grammar
+from teo_sign_translator.corpus.writing import Clitics
 from teo_sign_translator.data_files import read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.text.rules import TextRules
 
 #: One word in this many is held out.
 HELD_OUT_ONE_IN = 20
@@ -23,7 +26,8 @@ _SECONDARY = 0.05
 #: The r-th word of a class has weight 1 / (r + this): the twentieth is half as likely as the first.
 _RANK_OFFSET = 20
 
-_GENDERS = {"m": "m", "f": "f", "mf": "mf", "m+f": "mf", "mp": "m", "fp": "f", "inv": "mf"}
+#: `-` is of languages without gender.
+_GENDERS = {"m": "m", "f": "f", "mf": "mf", "m+f": "mf", "mp": "m", "fp": "f", "inv": "mf", "-": "-"}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,30 +83,32 @@ class WordLists:
 
     Attributes:
         morphology: Inflects.
+        rules: How numbers and short forms are said.
         nouns: Columns by lemma and class: gender, classes.
         adjectives: Likewise: gender, classes, use.
         adverbs: By class.
         names: By class.
         verbs: Entries by frame.
         lists: The grammar's own lists.
+        clitics: Tell verbs that take a reflexive pronoun.
         held_out: Lemmas that only tests see.
     """
 
     morphology: Morphology
+    rules: TextRules
     nouns: list[Word]
     adjectives: list[Word]
     adverbs: list[Word]
     names: list[Word]
     verbs: list[Word]
     lists: Mapping[str, tuple[str, ...]]
+    clitics: Clitics
     held_out: frozenset[str] = frozenset()
     _pools: dict[tuple[object, ...], Pool] = field(default_factory=dict)
     _forms: dict[tuple[str, str], str] = field(default_factory=dict)
 
     @classmethod
-    def load(
-        cls, grammar_folder: Path, morphology: Morphology, lists: Mapping[str, tuple[str, ...]]
-    ) -> WordLists:
+    def load(cls, grammar_folder: Path, morphology: Morphology, grammar: Grammar) -> WordLists:
         """Read `verbs.tsv` of the grammar's folder and the `lexicon` folder beside it.
 
         Raises:
@@ -111,12 +117,14 @@ class WordLists:
         lexicon = grammar_folder.parent / "lexicon"
         return cls(
             morphology,
+            TextRules.load(morphology.folder),
             _merged(_listed(lexicon / "nouns.tsv", ("gender", "classes", "forms"))),
             _merged(_listed(lexicon / "adjectives.tsv", ("gender", "classes", "use", "forms"))),
             _merged(_listed(lexicon / "adverbs.tsv", ("classes",))),
             _merged(_listed(lexicon / "names.tsv", ("classes",))),
             _listed(grammar_folder / "verbs.tsv", ("frame", "kind", "subject", "object", "det", "other")),
-            lists,
+            grammar.word_lists,
+            grammar.writing.clitics,
         )
 
     def inflect(self, lemma: str, tag: str) -> str:
@@ -172,7 +180,7 @@ class WordLists:
                     continue
                 written = "p" if only_plural else number
                 # One form of both genders has a tag of its own.
-                form = "c" if gender == "mf" else each
+                form = {"mf": "c", "-": ""}.get(gender, each)
                 features = {
                     "gender": each,
                     "number": written,
@@ -198,9 +206,8 @@ class WordLists:
     def _verbs(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
         if "lemma" in arguments:
             for lemma in arguments["lemma"].split(","):
-                pronominal = lemma.endswith("se")
-                features = {"pronominal": "yes" if pronominal else "", "kind": "state"}
-                yield Word(lemma.removesuffix("se") if pronominal else lemma, features), 1.0
+                bare, pronominal = self.clitics.bare(lemma)
+                yield Word(bare, {"pronominal": "yes" if pronominal else "", "kind": "state"}), 1.0
             return
         entries = [verb for verb in self.verbs if verb.features["frame"] == arguments["frame"]]
         if not entries:
@@ -208,14 +215,14 @@ class WordLists:
                 "invalid_grammar", f"verbs.tsv: expected a verb of frame '{arguments['frame']}'"
             )
         for rank, verb in enumerate(entries):
-            pronominal = verb.lemma.endswith("se")
+            bare, pronominal = self.clitics.bare(verb.lemma)
             features = {key: value for key, value in verb.features.items() if value != "-"} | {
                 "pronominal": "yes" if pronominal else ""
             }
             if "det" in features:
                 features["det"] = ",".join(features["det"])
             features["kind"] = "event" if verb.features["kind"] == "e" else "state"
-            yield Word(verb.lemma.removesuffix("se") if pronominal else verb.lemma, features), 1 / (rank + 40)
+            yield Word(bare, features), 1 / (rank + 40)
 
     def _names(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
         for word, weight in self._chosen(self.names, arguments["class"], "name"):

@@ -54,7 +54,7 @@ class GlossList:
         """Read the list.
 
         Args:
-            path: The file; by default the package's `data/glosses.tsv`, which explains its columns.
+            path: The file; by default the package's `text/glosses.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.

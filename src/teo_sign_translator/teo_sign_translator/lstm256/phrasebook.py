@@ -8,9 +8,11 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from teo_common.text_folding import strip_marks
-from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS, AlignedPair
+from teo_sign_translator.corpus.paper_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.tokens import MARKS, folded_tokens
 from teo_sign_translator.text.reading import Word, WordKind, read
@@ -87,6 +89,21 @@ class Phrasebook:
             [len(key) for key in self._literal]
             + [len(pattern.tokens) + (MAX_NAME_WORDS - 1) * (NAME in pattern.tokens) for pattern in slotted],
             default=0,
+        )
+
+    @classmethod
+    def load(cls, folder: Path | None = None) -> Phrasebook:
+        """That of a language; empty if the language has no sentences that are known by heart.
+
+        Args:
+            folder: The language's text folder; by default that of the default language.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        pairs = training_pairs(folder)
+        return cls(
+            pairs, GlossList.load((folder or data_file("")) / "glosses.tsv") if pairs else GlossList({})
         )
 
     def match(

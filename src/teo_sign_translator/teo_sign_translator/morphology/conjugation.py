@@ -53,7 +53,7 @@ class _Paradigm:
 
 
 class Conjugations:
-    """The verbs of data/morphology/conjugations.tsv."""
+    """The verbs of text/morphology/conjugations.tsv."""
 
     def __init__(self, path: Path) -> None:
         """Read the file.

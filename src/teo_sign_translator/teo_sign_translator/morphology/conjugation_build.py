@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Conjugations out of the mlconjug3 package (MIT); data/morphology/conjugations.tsv is the result.
+"""Conjugations out of the mlconjug3 package (MIT); text/morphology/conjugations.tsv is the result.
 
     pip download --no-deps mlconjug3==3.7.22
     ros2 run teo_sign_translator build_morphology mlconjug3-3.7.22-py3-none-any.whl
@@ -160,7 +160,7 @@ def conjugate_like(verb: str, model: Forms) -> Forms:
 
 
 def build(wheel: Annotated[Path, typer.Argument(help="The wheel of mlconjug3 3.7.22.")]) -> None:
-    """Make data/morphology/conjugations.tsv anew."""
+    """Make text/morphology/conjugations.tsv anew."""
     try:
         verbs = read_package(wheel)
         correct(verbs, data_file("morphology/corrections.tsv"))

@@ -1,11 +1,15 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The lists of data/lexicon, as rows and as the forms of their words."""
+"""The lists of a language's lexicon, as rows and as the forms of their words.
+
+Each reader takes the language's text folder, which holds `lexicon`; by default that of the default language.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 from teo_sign_translator.data_files import data_file, read_rows, words_of
@@ -43,8 +47,16 @@ ADJECTIVE_CLASSES = words_of("size colour person feeling food object place quali
 _USES = ("ser", "estar", "both")
 _REFLEXIVE = ("no", "also", "mostly")
 
-#: What the gender column says, as the beginnings of tags: of the word itself and of its feminine.
-_GENDERS = {"m": "m", "f": "f", "mf": "c", "inv": "c", "m+f": "m", "mp": "m", "fp": "f"}
+#: What the gender column says, as the beginnings of tags: of the word itself and of its feminine; `-` is of
+#: languages without gender.
+_GENDERS = {"m": "m", "f": "f", "mf": "c", "inv": "c", "m+f": "m", "mp": "m", "fp": "f", "-": ""}
+
+
+class Inflected(NamedTuple):
+    """A word whose forms are made by suffixes; `irregular` has the others, by the last part of their tag."""
+
+    lemma: str
+    irregular: dict[str, str]
 
 
 class Form(NamedTuple):
@@ -96,18 +108,18 @@ class Name(NamedTuple):
 
 
 @cache
-def nouns() -> tuple[Noun, ...]:
+def nouns(folder: Path | None = None) -> tuple[Noun, ...]:
     """The common nouns."""
     return tuple(
         Noun(
             lemma, _known(gender, _GENDERS, place), _classes(classes, NOUN_CLASSES, place), _irregular(forms)
         )
-        for place, (lemma, gender, classes, forms) in _rows("nouns", 4)
+        for place, (lemma, gender, classes, forms) in _rows("nouns", 4, folder)
     )
 
 
 @cache
-def adjectives() -> tuple[Adjective, ...]:
+def adjectives(folder: Path | None = None) -> tuple[Adjective, ...]:
     """The common adjectives."""
     return tuple(
         Adjective(
@@ -117,41 +129,60 @@ def adjectives() -> tuple[Adjective, ...]:
             _known(use, _USES, place),
             _irregular(forms),
         )
-        for place, (lemma, gender, classes, use, forms) in _rows("adjectives", 5)
+        for place, (lemma, gender, classes, use, forms) in _rows("adjectives", 5, folder)
     )
 
 
 @cache
-def adverbs() -> tuple[Adverb, ...]:
+def adverbs(folder: Path | None = None) -> tuple[Adverb, ...]:
     """The common adverbs."""
     return tuple(
-        Adverb(lemma, _known(kind, ADVERB_TAGS, place)) for place, (lemma, kind) in _rows("adverbs", 2)
+        Adverb(lemma, _known(kind, ADVERB_TAGS, place))
+        for place, (lemma, kind) in _rows("adverbs", 2, folder)
     )
 
 
 @cache
-def verbs() -> tuple[Verb, ...]:
+def verbs(folder: Path | None = None) -> tuple[Verb, ...]:
     """The verbs of everyday use."""
     return tuple(
-        Verb(lemma, _known(reflexive, _REFLEXIVE, place)) for place, (lemma, reflexive) in _rows("verbs", 2)
+        Verb(lemma, _known(reflexive, _REFLEXIVE, place))
+        for place, (lemma, reflexive) in _rows("verbs", 2, folder)
     )
 
 
 @cache
-def names() -> tuple[Name, ...]:
+def names(folder: Path | None = None) -> tuple[Name, ...]:
     """Names of people and places."""
-    return tuple(Name(name, _known(kind, NAME_TAGS, place)) for place, (name, kind) in _rows("names", 2))
+    return tuple(
+        Name(name, _known(kind, NAME_TAGS, place)) for place, (name, kind) in _rows("names", 2, folder)
+    )
 
 
-def closed_class_forms() -> Iterator[Form]:
+def inflected_words(folder: Path, name: str, columns: int) -> Iterator[Inflected]:
+    """The words of a list whose first column is the lemma and whose last has its irregular forms.
+
+    Args:
+        folder: The language's text folder.
+        name: Of the list.
+        columns: That it has.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    for _, row in _rows(name, columns, folder):
+        yield Inflected(row[0], _irregular(row[-1]))
+
+
+def closed_class_forms(folder: Path | None = None) -> Iterator[Form]:
     """The forms of closed_classes.tsv, of equals the likeliest first."""
-    for _, columns in _rows("closed_classes", 3):
+    for _, columns in _rows("closed_classes", 3, folder):
         yield Form(*columns)
 
 
-def preferences() -> dict[str, tuple[str, ...]]:
+def preferences(folder: Path | None = None) -> dict[str, tuple[str, ...]]:
     """For forms whose usual order of readings is not the likeliest: lemmas and tag classes in their order."""
-    return {form: tuple(order.split()) for _, (form, order) in _rows("preferences", 2)}
+    return {form: tuple(order.split()) for _, (form, order) in _rows("preferences", 2, folder)}
 
 
 def nominal_forms(word: Noun | Adjective) -> Iterator[Form]:
@@ -178,9 +209,9 @@ def _numbers(singular: str, lemma: str, tag: str, irregular: str | None) -> Iter
         yield Form(several, lemma, tag + "p")
 
 
-def _rows(name: str, columns: int) -> Iterator[tuple[str, list[str]]]:
+def _rows(name: str, columns: int, folder: Path | None) -> Iterator[tuple[str, list[str]]]:
     """The rows of a list, each with its place for messages."""
-    path = data_file(f"lexicon/{name}.tsv")
+    path = folder / "lexicon" / f"{name}.tsv" if folder else data_file(f"lexicon/{name}.tsv")
     for number, row in read_rows(path, columns):
         yield f"{path}, line {number}", row
 

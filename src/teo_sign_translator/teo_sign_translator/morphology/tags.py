@@ -8,6 +8,9 @@ A tag is a class and its features, joined by `:`. Compare the class with `tag_cl
 - Verbs: `V:inf`, `V:ger`, `V:part:ms` (gender, number), `V:ind:pres:1s` (indicative `pres`, `impf`
   imperfect, `pret` preterite, `fut` future; person, number), `V:cond:1s`, `V:sub:pres:1s`, `V:sub:impf:1s`,
   `V:imp:2s`.
+- Of languages without persons or genders: `V:ind:pres`, `V:ind:pret`, `V:imp` for all persons, `V:part`,
+  `N:s`, `N:p`, `A`, `A:comp` (bigger), `A:sup` (biggest), `DET:def`, `DET:indef`, `DET:dem`, `DET:quant`,
+  `DET:poss:1s`, `PRON:3s:m` (he), `PRON:poss:1s`, `PRON:refl:1s`, `POSS` (Ana's).
 - `N:ms`, `A:fp`: noun, adjective; gender `m`, `f`, `c` (common: el/la estudiante), number `s`, `p`, `n`
   (either: la/las crisis).
 - `ADV`, `ADV:neg` (no, nunca, tampoco), `ADV:place`, `ADV:degree`, `ADV:manner`, `ADV:sentence` (sí,
@@ -106,6 +109,29 @@ OTHER_TAGS = (
     "X",
 )
 
+#: Of languages without persons, genders or agreement.
+_PLAIN_TAGS = (
+    "V:ind:pres",
+    "V:ind:pret",
+    "V:imp",
+    "V:part",
+    "N:s",
+    "N:p",
+    "A",
+    "A:comp",
+    "A:sup",
+    "DET:def",
+    "DET:indef",
+    "DET:dem",
+    "DET:quant",
+    *(f"DET:poss:{owner}" for owner in PERSONS),
+    *(f"PRON:poss:{owner}" for owner in PERSONS),
+    *(f"PRON:refl:{owner}" for owner in PERSONS),
+    "PRON:3s:m",
+    "PRON:3s:f",
+    "POSS",
+)
+
 #: Every tag there is; the order is stable, new tags are added at the end of their part.
 TAGS = (
     *VERB_TAGS,
@@ -115,6 +141,7 @@ TAGS = (
     *DETERMINER_TAGS,
     *PRONOUN_TAGS,
     *OTHER_TAGS,
+    *_PLAIN_TAGS,
 )
 
 

@@ -65,18 +65,20 @@ def short(text: str) -> str:
 
 
 def diagnose(
-    statistics: Statistics, *, model: str, active: bool, waiting: int, signs: int | None
+    statistics: Statistics, *, language: str, model: str, active: bool, waiting: int, signs: int | None
 ) -> Diagnosis:
     """How the translator is: a warning where it has refused texts since the last diagnosis.
 
     Args:
         statistics: What it has done.
+        language: Code of the sign language in use.
         model: Name of the model in use.
         active: Whether it listens to texts.
         waiting: Texts that wait.
         signs: Glosses that have signs; None if that is not known.
     """
     values = {
+        "language": language,
         "model": model,
         "state": "active" if active else "inactive",
         "texts done": str(statistics.done),

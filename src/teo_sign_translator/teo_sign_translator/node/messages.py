@@ -26,6 +26,7 @@ def to_messages(translation: Translation, *, stamp: Time, utterance_id: str) -> 
         message.sentence_index = index
         message.sentence_count = len(translation.sentences)
         message.text = sentence.text
+        message.language = translation.language
         message.type = int(sentence.type)
         message.negated = sentence.negated
         message.confidence = sentence.confidence

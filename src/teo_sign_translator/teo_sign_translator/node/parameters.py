@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from teo_common.parameters import AUTOSTART, ParameterRow
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
 from teo_sign_translator.pipeline.translator import DEFAULT_MIN_CONFIDENCE, DEFAULT_MODEL
@@ -14,6 +15,12 @@ SIGN_TOKENS_DEPTH = 100
 
 
 PARAMETERS = (
+    ParameterRow(
+        name="language",
+        default=DEFAULT_LANGUAGE,
+        description="Sign language to translate into, by its ISO 639-3 code. Setting it loads its data and "
+        "model; texts that came before are translated into the one before.",
+    ),
     ParameterRow(
         name="model",
         default=DEFAULT_MODEL,

@@ -21,19 +21,19 @@ class SignInventory:
 
         Args:
             node: Asks.
-            listed: Glosses that have signs until an answer has come; None if that is not known.
+            listed: Glosses that have signs until a table of the language has answered; None if that is not
+                known.
         """
         self._node = node
         self._listed = listed
-        self._answered: frozenset[str] | None = None
+        self._answered: dict[str, frozenset[str]] = {}
         self._answer: Future | None = None
         self._client = node.create_client(ListSigns, "list_signs")
         self._timer = node.create_timer(SIGNS_PERIOD, self._ask)
 
-    @property
-    def signs(self) -> frozenset[str] | None:
-        """Glosses that have signs; None if that is not known."""
-        return self._listed if self._answered is None else self._answered
+    def signs(self, language: str) -> frozenset[str] | None:
+        """Glosses of a language, by its code, that have signs; None if that is not known."""
+        return self._answered.get(language, self._listed)
 
     def list(self, listed: frozenset[str] | None) -> None:
         """Replace the glosses that count until the executor answers."""
@@ -55,10 +55,11 @@ class SignInventory:
 
     def _take(self, answer: Future) -> None:
         self._answer = None
-        signs = lexical_glosses(answer.result())
-        if signs != self._answered:
-            self._answered = signs
-            self._node.get_logger().info(f"{len(signs)} glosses have signs")
+        response = answer.result()
+        signs = lexical_glosses(response)
+        if signs != self._answered.get(response.language):
+            self._answered[response.language] = signs
+            self._node.get_logger().info(f"{len(signs)} glosses of {response.language} have signs")
 
 
 def lexical_glosses(response: ListSigns.Response) -> frozenset[str]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`translator_node`: Spanish text in, sign tokens out."""
+"""`translator_node`: text in, sign tokens out."""
 
 from __future__ import annotations
 
@@ -50,12 +50,22 @@ _NOT_ACTIVE = TranslationError(
 )
 
 
+#: Parameters that a translator is loaded anew for.
+_OF_THE_MODEL = {"language", "model", "beam_width"}
+
+
 class _Text(NamedTuple):
-    """A text, when it came, and what it is called from then on."""
+    """A text, when it came, what it is called from then on, and the translator that was in use."""
 
     text: str
     received: Time
     utterance_id: str
+    translator: Translator | None
+
+    @property
+    def language(self) -> str:
+        """Code of the sign language that it is translated into; empty if nothing translates it."""
+        return "" if self.translator is None else self.translator.language
 
 
 class TranslatorNode(SelfStartingNode):
@@ -116,7 +126,7 @@ class TranslatorNode(SelfStartingNode):
         qos = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
         self._texts = self.create_subscription(String, "text", self._on_text, qos)
         assert self._translator is not None
-        self.get_logger().info(f"ready, model {self._translator.name}")
+        self.get_logger().info(f"ready, language {self._translator.language}, model {self._translator.name}")
         return result
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -168,7 +178,7 @@ class TranslatorNode(SelfStartingNode):
             self._refuse(item, TranslationError("queue_full", full))
 
     def _received(self, text: str) -> _Text:
-        return _Text(text, self.get_clock().now(), str(uuid.uuid4()))
+        return _Text(text, self.get_clock().now(), str(uuid.uuid4()), self._translator)
 
     def _answer_text(self, item: _Text) -> None:
         """Translate and publish a text of the topic; in the worker's thread."""
@@ -215,9 +225,10 @@ class TranslatorNode(SelfStartingNode):
         """
         # The service and the worker share one model, which need not stand two callers at a time.
         with self._translating:
-            assert self._translator is not None
+            assert item.translator is not None
             assert self._inventory is not None
-            translation = self._translator.translate(item.text, self._inventory.signs)
+            signs = self._inventory.signs(item.language)
+            translation = item.translator.translate(item.text, signs)
         most = self._value("max_sentences")
         if len(translation.sentences) > most:
             raise TranslationError(
@@ -255,6 +266,7 @@ class TranslatorNode(SelfStartingNode):
             code=code,
             message=message,
             text=short(item.text),
+            language=item.language,
             sentence_count=sentences,
         )
         outcome.header.stamp = self.get_clock().now().to_msg()
@@ -263,10 +275,11 @@ class TranslatorNode(SelfStartingNode):
     def _publish_diagnostics(self) -> None:
         assert self._translator is not None
         assert self._inventory is not None
-        signs = self._inventory.signs
+        signs = self._inventory.signs(self._translator.language)
         self._diagnostics.publish(
             diagnose(
                 self._statistics,
+                language=self._translator.language,
                 model=self._translator.name,
                 active=self._worker is not None,
                 waiting=self._worker.waiting if self._worker is not None else 0,
@@ -278,7 +291,7 @@ class TranslatorNode(SelfStartingNode):
         """Load what the new values ask for, so that a model which cannot be used is refused."""
         asked = {parameter.name: parameter.value for parameter in parameters}
         try:
-            if {"model", "beam_width"} & asked.keys():
+            if _OF_THE_MODEL & asked.keys():
                 self._next_translator = self._load(asked)
             if "signs_file" in asked:
                 listed_signs(asked["signs_file"])
@@ -292,9 +305,9 @@ class TranslatorNode(SelfStartingNode):
         if self._translator is None:  # configuring reads them
             return
         asked = {parameter.name: parameter.value for parameter in parameters}
-        if {"model", "beam_width"} & asked.keys() and self._next_translator is not None:
+        if _OF_THE_MODEL & asked.keys() and self._next_translator is not None:
             self._translator, self._next_translator = self._next_translator, None
-            self.get_logger().info(f"model {self._translator.name}")
+            self.get_logger().info(f"language {self._translator.language}, model {self._translator.name}")
         if "min_confidence" in asked:
             self._translator.min_confidence = asked["min_confidence"]
         if "substitutes" in asked:
@@ -306,10 +319,11 @@ class TranslatorNode(SelfStartingNode):
 
     def _load(self, asked: dict[str, Any]) -> Translator:
         """A translator with the parameters' values, and with those of `asked` that are about to be set."""
-        names = ("model", "beam_width", "min_confidence", "substitutes")
+        names = ("language", "model", "beam_width", "min_confidence", "substitutes")
         values = {name: self._value(name) for name in names} | asked
         return Translator.load(
             values["model"],
+            language=values["language"],
             beam_width=values["beam_width"],
             min_confidence=values["min_confidence"],
             substitutes=Substitutes.named(values["substitutes"]),

@@ -15,49 +15,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import words_of
 from teo_sign_translator.text.reading import Clause
+from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.sentence_type import SentenceType, is_negated
 
-# Folded words, any of which makes a sentence one that may not stay true.
-_STRICT = frozenset(
-    words_of(
-        "sin ni si excepto salvo menos mas que como apenas dudo duda "
-        "todo toda todos todas cada cualquier cualquiera ambos ambas siempre "
-        "solo solamente unico unica unicos unicas los las al cuando donde quien "
-        "es son era eran sera seran fue fueron mejor peor mayor menor igual"
-    )
-)
-# Beginnings of folded verbs whose object is a kind, or need not exist.
-_OF_KINDS = (
-    "gust",
-    "encant",
-    "prefer",
-    "prefier",
-    "odi",
-    "detest",
-    "interes",
-    "quier",
-    "quer",
-    "quis",
-    "busc",
-    "neg",
-    "nieg",
-    "dud",
-    "evit",
-    "prohib",
-    "falt",
-)
 
-
-def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType) -> bool:
+def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: TextRules | None = None) -> bool:
     """Whether any word of a sentence may give way to a more general one, and it stays true.
 
     Args:
         clauses: Of the sentence.
         kind: Its type.
+        rules: Of its language; by default the default language's.
     """
-    if kind is not SentenceType.STATEMENT or is_negated(clauses):
+    if kind is not SentenceType.STATEMENT or is_negated(clauses, rules):
         return False
+    listed = (rules or TextRules.load()).generality
     words = [fold(word.lower) for clause in clauses for word in clause.words]
-    return not any(word in _STRICT or word.startswith(_OF_KINDS) for word in words)
+    return not any(word in listed.strict or word.startswith(listed.of_kinds) for word in words)

@@ -2,42 +2,56 @@
 # SPDX-License-Identifier: Apache-2.0
 """Numbers that a sign takes up: two weeks are one sign, made with the hand of the number.
 
-Signers of LSE take numbers up to five into units of time and into pronouns (GramLSE, CNLSE, Morphology
-3.1.1.3: THREE-MONTH; the corpus LSE-Health-UVigo: SEMANA(TRES), MES(DOS); the dual of pronouns: SignHub,
-LSE, Lexicon 3.7.2.2). It is done where the table has the sign; else noun and number stay two signs.
+It is done where the table has the sign; else noun and number stay two signs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
+from pathlib import Path
 
+from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.output.output_words import OutputWord
+from teo_sign_translator.output.substitutes import SIGN_NAME
 from teo_sign_translator.output.translation import Kind
 
-_NUMBERS = {"2": "DOS", "3": "TRES", "4": "CUATRO", "5": "CINCO"}
-_UNITS = {"SEMANA": "SEMANAS", "MES": "MESES"}
-# The forms are those of the masculine: LSE's pronouns have no gender.
-_PRONOUNS = {
-    "NOSOTROS": "NOSOTROS",
-    "NOSOTRAS": "NOSOTROS",
-    "VOSOTROS": "VOSOTROS",
-    "VOSOTRAS": "VOSOTROS",
-    "ELLOS": "ELLOS",
-    "ELLAS": "ELLOS",
-}
+#: Where a language's text folder says which; the file explains its columns.
+INCORPORATED_NUMBERS = "incorporated_numbers.tsv"
+
+#: The gloss that is both, by the gloss and the number.
+Incorporated = Mapping[tuple[str, str], str]
 
 
-def with_numbers_incorporated(output_words: Sequence[OutputWord], signs: Set[str] | None) -> list[OutputWord]:
-    """Output words, a unit of time or a pronoun and the number beside it as one where that has a sign.
+def read_incorporated(path: Path) -> Incorporated:
+    """Which glosses take up which numbers.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    found: dict[tuple[str, str], str] = {}
+    for line, (gloss, number, both) in read_rows(path, columns=3):
+        valid = SIGN_NAME.fullmatch(gloss) and number.isdecimal() and SIGN_NAME.fullmatch(both)
+        if not valid or (gloss, number) in found:
+            got = f"'{gloss}', '{number}', '{both}'"
+            raise invalid_line(path, line, "a gloss, a number and the gloss of both, once", got)
+        found[gloss, number] = both
+    return found
+
+
+def with_numbers_incorporated(
+    output_words: Sequence[OutputWord], signs: Set[str] | None, incorporated: Incorporated
+) -> list[OutputWord]:
+    """Output words, a gloss and the number beside it as one where that has a sign.
 
     Args:
         output_words: Of one sentence.
         signs: Glosses that have a sign; None if that is not known: then nothing is put together.
+        incorporated: The glosses that are both.
     """
     result: list[OutputWord] = []
     for word in output_words:
-        gloss = _together(result[-1], word) if result else ""
+        gloss = _together(result[-1], word, incorporated) if result else ""
         if signs is not None and gloss and gloss in signs:
             before = result.pop()
             noun = before if before.kind is Kind.LEXICAL else word
@@ -49,7 +63,7 @@ def with_numbers_incorporated(output_words: Sequence[OutputWord], signs: Set[str
     return result
 
 
-def _together(first: OutputWord, second: OutputWord) -> str:
+def _together(first: OutputWord, second: OutputWord, incorporated: Incorporated) -> str:
     """The gloss that says both; empty if they are no noun and number that go together."""
     for noun, number in ((first, second), (second, first)):
         if (
@@ -57,10 +71,7 @@ def _together(first: OutputWord, second: OutputWord) -> str:
             and number.kind is Kind.NUMBER
             and len(noun.signs) == len(number.signs) == 1
         ):
-            count = _NUMBERS.get(number.signs[0], "")
-            unit, pronoun = _UNITS.get(noun.signs[0], ""), _PRONOUNS.get(noun.signs[0], "")
-            if count and unit:
-                return f"{count}_{unit}"
-            if count and pronoun:
-                return f"{pronoun}_{count}"
+            both = incorporated.get((noun.signs[0], number.signs[0]), "")
+            if both:
+                return both
     return ""

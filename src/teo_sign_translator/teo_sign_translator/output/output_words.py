@@ -8,14 +8,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-from teo_sign_translator.output.spelling import DIGITS, letters
+from teo_sign_translator.output.spelling import DIGITS, Spelling
 from teo_sign_translator.output.translation import Kind, Origin, Token
+from teo_sign_translator.text.rules import TextRules
 
 #: Of a word that is spelled since it has no sign: spelling Spanish is the last resort.
 SPELLED_CONFIDENCE = 0.3
-
-# Between the whole and the decimal part of a number; "3,5" is read "tres coma cinco".
-_DECIMAL_GLOSS = "COMA"
 
 # Digits of the largest number that is one token: 999,999.
 _LONGEST_NUMBER = 6
@@ -60,18 +58,22 @@ def carried(word: str, typed: tuple[str, ...]) -> OutputWord:
     )
 
 
-def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[OutputWord]:
+def spelled(
+    word: str, typed: tuple[str, ...], confidence: float, spelling: Spelling | None = None
+) -> list[OutputWord]:
     """A word in letters of the manual alphabet; digits in it ("UC3M") as numbers.
 
     Args:
         word: What is spelled.
         typed: Words of the text that it stands for.
         confidence: 0 to 1.
+        spelling: Of the language; by default the default language's.
     """
+    spelling = spelling or Spelling.load()
     result: list[OutputWord] = []
     for is_number, run in groupby(word, key=lambda character: character in DIGITS):
         text = "".join(run)
-        signs = tuple(text) if is_number else letters(text)
+        signs = tuple(text) if is_number else spelling.letters(text)
         if signs:
             kind = Kind.NUMBER if is_number else Kind.LETTER
             result.append(
@@ -80,7 +82,9 @@ def spelled(word: str, typed: tuple[str, ...], confidence: float) -> list[Output
     return result
 
 
-def number(value: str, typed: tuple[str, ...], confidence: float) -> list[OutputWord]:
+def number(
+    value: str, typed: tuple[str, ...], confidence: float, decimal_gloss: str | None = None
+) -> list[OutputWord]:
     """A number as one token, which the executor composes signs for; a decimal comma is a word between two.
 
     Hours and minutes of a time of day are two numbers; no minutes are not said.
@@ -89,6 +93,7 @@ def number(value: str, typed: tuple[str, ...], confidence: float) -> list[Output
         value: Digits, with one `,` if it has decimals, or one `:` in a time of day.
         typed: Words of the text that it stands for.
         confidence: 0 to 1.
+        decimal_gloss: What is signed between whole and decimals; by default the default language's.
     """
     hours, _, minutes = value.partition(":")
     if minutes:
@@ -97,7 +102,7 @@ def number(value: str, typed: tuple[str, ...], confidence: float) -> list[Output
     whole, _, decimals = value.partition(",")
     if not decimals:
         return [_digits(whole, typed, confidence)]
-    comma = lexical(_DECIMAL_GLOSS, typed, confidence, Origin.NUMBER)
+    comma = lexical(decimal_gloss or TextRules.load().glosses.decimal, typed, confidence, Origin.NUMBER)
     return [_digits(whole, typed, confidence), comma, _digits(decimals, typed, confidence)]
 
 
@@ -140,11 +145,14 @@ def unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list
     return result
 
 
-def without_carried(output_words: Sequence[OutputWord]) -> tuple[list[OutputWord], tuple[str, ...]]:
+def without_carried(
+    output_words: Sequence[OutputWord], spelling: Spelling | None = None
+) -> tuple[list[OutputWord], tuple[str, ...]]:
     """Output words that are signed, and the typed words of those that are not, in the order of the text.
 
     Args:
         output_words: Of one sentence. If none of them is signed, their words are spelled.
+        spelling: Of the language; by default the default language's.
 
     Returns:
         One pause between two words, none at the ends, however many marks were typed; and what is dropped.
@@ -153,7 +161,7 @@ def without_carried(output_words: Sequence[OutputWord]) -> tuple[list[OutputWord
         spelt = [
             each
             for output_word in output_words
-            for each in spelled(output_word.said, output_word.words, SPELLED_CONFIDENCE)
+            for each in spelled(output_word.said, output_word.words, SPELLED_CONFIDENCE, spelling)
         ]
         return spelt, ()
     result: list[OutputWord] = []

@@ -10,6 +10,7 @@ from dataclasses import replace
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import OutputWord, spelled
+from teo_sign_translator.output.spelling import Spelling
 from teo_sign_translator.output.substitutes import SIGN_NAME, SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind, Origin
 
@@ -22,6 +23,7 @@ class SignChooser:
         lists: SubstituteLists,
         morphology: Morphology | None,
         substitutes: Substitutes = Substitutes.HYPERNYM,
+        spelling: Spelling | None = None,
     ) -> None:
         """Take the ways from a gloss without a sign to one that has one.
 
@@ -29,7 +31,9 @@ class SignChooser:
             lists: What may be signed in place of a gloss.
             morphology: Gives lemmas and participles; None if glosses are lemmas.
             substitutes: Which of the lists' steps are taken; the rest is spelled.
+            spelling: Of the language; by default the default language's.
         """
+        self._spelling = spelling
         self._lists = lists
         self._morphology = morphology
         self.substitutes = substitutes
@@ -63,11 +67,11 @@ class SignChooser:
         (gloss,) = output_word.signs
         if signs is None:
             keeps = not output_word.is_name and SIGN_NAME.fullmatch(gloss)
-            return [output_word] if keeps else _letters(output_word)
+            return [output_word] if keeps else self._letters(output_word)
         if gloss in signs:
             return [output_word]
         if output_word.is_name:
-            return _letters(output_word)
+            return self._letters(output_word)
         found = self._same_sign(gloss, signs)
         if found is not None:
             return [replace(output_word, signs=(found[0],), origin=found[1])]
@@ -82,7 +86,7 @@ class SignChooser:
             return [
                 c for part in parts for c in self._choose(replace(output_word, signs=(part,)), signs, taken)
             ]
-        return _letters(output_word)
+        return self._letters(output_word)
 
     def _same_sign(self, gloss: str, signs: Set[str]) -> tuple[str, Origin] | None:
         """A name of the same sign that the table has: the gloss, its lemma, a synonym."""
@@ -140,16 +144,17 @@ class SignChooser:
         lemmas = (reading.lemma.upper() for reading in readings if reading.exact)
         return tuple(dict.fromkeys(lemma for lemma in lemmas if lemma != gloss))
 
+    def _letters(self, output_word: OutputWord) -> list[OutputWord]:
+        (gloss,) = output_word.signs
+        return [
+            each
+            for part in gloss.split("_")
+            for each in spelled(part, output_word.words, output_word.confidence, self._spelling)
+        ]
+
 
 def _shows(chosen: OutputWord, word: OutputWord) -> OutputWord:
     """What was chosen, with the gloss that it shows if that is another's and no name."""
     if word.kind is not Kind.LEXICAL or word.is_name or chosen.signs == word.signs:
         return chosen
     return replace(chosen, meant=word.signs[0])
-
-
-def _letters(output_word: OutputWord) -> list[OutputWord]:
-    (gloss,) = output_word.signs
-    return [
-        each for part in gloss.split("_") for each in spelled(part, output_word.words, output_word.confidence)
-    ]

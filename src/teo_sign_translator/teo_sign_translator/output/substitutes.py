@@ -58,14 +58,18 @@ class SubstituteLists:
     hypernyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @classmethod
-    def load(cls) -> SubstituteLists:
-        """Read `data/synonyms.tsv`, `word_families.tsv`, `paraphrases.tsv` and `hypernyms.tsv`.
+    def load(cls, folder: Path | None = None) -> SubstituteLists:
+        """Read `synonyms.tsv`, `word_families.tsv`, `paraphrases.tsv` and `hypernyms.tsv`.
+
+        Args:
+            folder: The language's text folder; by default that of the default language.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        own = read_synonyms(data_file("synonyms.tsv"))
-        families = read_synonyms(data_file("word_families.tsv"))
+        folder = folder or data_file("")
+        own = read_synonyms(folder / "synonyms.tsv")
+        families = read_synonyms(folder / "word_families.tsv")
         synonyms: dict[str, tuple[str, ...]] = {}
         for gloss in {*own, *families}:
             near = [*own.get(gloss, ()), *families.get(gloss, ())]
@@ -73,8 +77,8 @@ class SubstituteLists:
             synonyms[gloss] = tuple(other for other in dict.fromkeys([*near, *far]) if other != gloss)
         return cls(
             synonyms,
-            read_paraphrases(data_file("paraphrases.tsv")),
-            read_hypernyms(data_file("hypernyms.tsv")),
+            read_paraphrases(folder / "paraphrases.tsv"),
+            read_hypernyms(folder / "hypernyms.tsv"),
         )
 
 
@@ -82,7 +86,7 @@ def read_synonyms(path: Path | None = None) -> dict[str, tuple[str, ...]]:
     """For each gloss the others that mean the same, in the order of the list.
 
     Args:
-        path: The file; by default the package's `data/synonyms.tsv`, a line a group.
+        path: The file; by default the package's `text/synonyms.tsv`, a line a group.
 
     Raises:
         TranslationError: "invalid_data", with file and line.

@@ -10,6 +10,7 @@ from enum import IntEnum
 from itertools import groupby
 from typing import Any
 
+from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_sign_translator.text.sentence_type import SentenceType
 
 
@@ -103,12 +104,14 @@ class Translation:
         ignored: Characters of the text that nothing is signed for, in order, e.g. emoji; punctuation is not
             among them.
         model: Name of the model used.
+        language: Code of the sign language of the tokens.
     """
 
     text: str
     sentences: tuple[Sentence, ...]
     ignored: tuple[str, ...]
     model: str
+    language: str = DEFAULT_LANGUAGE
 
     def __str__(self) -> str:
         """The glosses of all sentences on one line, a spelled word as `A-N-A`."""
@@ -119,6 +122,7 @@ class Translation:
         return {
             "text": self.text,
             "glosses": str(self),
+            "language": self.language,
             "model": self.model,
             "ignored": list(self.ignored),
             "sentences": [

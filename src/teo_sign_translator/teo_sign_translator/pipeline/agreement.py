@@ -16,25 +16,15 @@ from pathlib import Path
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
+from teo_sign_translator.pipeline.language_words import PersonWords, PipelineWords
 from teo_sign_translator.text.source_words import SourceWord
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"
 _NONE = "-"
 
-#: Person of an object pronoun, before the verb or at its end; of third persons whether it may be a thing.
-_OBJECTS = {"me": "1", "nos": "1", "te": "2", "os": "2", "le": "3", "les": "3"}
-_THINGS = ("lo", "la", "los", "las")
-_SUBJECTS = {"yo": "1", "nosotros": "1", "tú": "2", "vosotros": "2", "usted": "2", "ustedes": "2"}
 _ENDS = (".", "?", "!")
 _FINITE = ("V:ind", "V:cond", "V:sub", "V:imp")
-_TOWARDS = ("a", "al")
-# Of the verbs that agree, the one whose imperative is no form of the third person: di, dice.
-_OWN_IMPERATIVES = frozenset({"decir"})
-_PEOPLE = frozenset(
-    noun.lemma for noun in nouns() if not {"person", "family", "profession"}.isdisjoint(noun.classes)
-)
-# Whom these verbs please is who acts: "me gustaría ayudarte" is from me to you.
-_EXPERIENCER_VERBS = frozenset({"gustar", "encantar", "apetecer", "costar", "importar", "interesar", "tocar"})
+_OF_PEOPLE = frozenset({"person", "family", "profession"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,16 +39,19 @@ class _Rule:
 class Agreement:
     """Finds inflections."""
 
-    def __init__(self, rules: dict[str, _Rule]) -> None:
-        """Take the signs that agree, by gloss; `load` reads them."""
+    def __init__(self, rules: dict[str, _Rule], people: frozenset[str], said: PersonWords) -> None:
+        """Take the signs that agree, by gloss, the nouns that name people, and how persons are said."""
         self._rules = rules
+        self._people = people
+        self._said = said
 
     @classmethod
-    def load(cls, path: Path | None = None) -> Agreement:
-        """Read the list.
+    def load(cls, path: Path | None = None, folder: Path | None = None) -> Agreement:
+        """Read the list, and the nouns that name people.
 
         Args:
-            path: The file; by default the package's `data/agreement.tsv`, which explains its columns.
+            path: The file; by default the default language's `agreement.tsv`, which explains its columns.
+            folder: The text folder of the language of the nouns; by default that of the default language.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
@@ -71,7 +64,8 @@ class Agreement:
                 expected = "a gloss once, its verb, dative, person or body, and places for body alone"
                 raise invalid_line(path, number, expected, f"'{gloss} {lemma} {kind} {places}'")
             rules[gloss] = _Rule(lemma, kind, listed)
-        return cls(rules)
+        people = (noun.lemma for noun in nouns(folder) if not _OF_PEOPLE.isdisjoint(noun.classes))
+        return cls(rules, frozenset(people) if rules else frozenset(), PipelineWords.load(folder).persons)
 
     def inflection(self, gloss: str, sources: Iterable[int], words: Sequence[SourceWord]) -> str:
         """The form that a gloss takes; empty for the citation form.
@@ -90,7 +84,15 @@ class Agreement:
                 start, stop = _clause(words, place)
                 ends = next((word.form for word in words[place:] if word.form in _ENDS), "")
                 orders = place == start and ends != "?" and not _says_verb(words[:start])
-                clause = _Clause(words[start:stop], place - start, verbs, asks=ends == "?", opens=orders)
+                clause = _Clause(
+                    words[start:stop],
+                    place - start,
+                    verbs,
+                    self._people,
+                    self._said,
+                    asks=ends == "?",
+                    opens=orders,
+                )
                 return clause.place(rule.places) if rule.kind == _BODY else clause.persons(rule.kind)
         return ""
 
@@ -102,10 +104,10 @@ def _clause(words: Sequence[SourceWord], place: int) -> tuple[int, int]:
     return start, stop
 
 
-def _names_person(reading: Reading) -> bool:
+def _names_person(reading: Reading, people: frozenset[str]) -> bool:
     if reading.tag.startswith("NAME"):
         return reading.tag != "NAME:place"
-    return reading.tag.startswith("N:") and reading.lemma in _PEOPLE
+    return reading.tag.startswith("N:") and reading.lemma in people
 
 
 def _says_verb(words: Sequence[SourceWord]) -> bool:
@@ -122,6 +124,8 @@ class _Clause:
         words: Sequence[SourceWord],
         verb: int,
         readings: Sequence[Reading],
+        people: frozenset[str],
+        said: PersonWords,
         *,
         asks: bool,
         opens: bool,
@@ -132,9 +136,13 @@ class _Clause:
             words: Of the clause, without marks.
             verb: Place of the verb.
             readings: Those of the verb's word that are this verb.
+            people: Nouns that name people.
+            said: How persons are said.
             asks: Whether its sentence is a question.
             opens: Whether the verb opens a sentence that is no question.
         """
+        self._people = people
+        self._said = said
         self._asks = asks
         self._opens = opens
         self._words = words
@@ -190,11 +198,11 @@ class _Clause:
         if self._experiences(finite) and not any(reading.clitics for reading in self._readings):
             clitics = []
         for clitic in clitics:
-            if clitic in _OBJECTS:
-                return _OBJECTS[clitic]
-        if "se" in clitics:  # se lo doy: to him
-            return "3" if any(clitic in _THINGS for clitic in clitics) else ""
-        if kind == _PERSON and any(clitic in _THINGS for clitic in clitics):
+            if clitic in self._said.objects:
+                return self._said.objects[clitic]
+        if self._said.reflexive in clitics:  # se lo doy: to him
+            return "3" if any(clitic in self._said.things for clitic in clitics) else ""
+        if kind == _PERSON and any(clitic in self._said.things for clitic in clitics):
             return "3"
         return self._prepositional_object()
 
@@ -202,14 +210,14 @@ class _Clause:
         """Person behind "a": `ayudo a Ana`, `se lo doy a él`."""
         for place in range(self._verb + 1, len(self._words)):
             word = self._words[place]
-            if not word.readings[0].tag.startswith("PREP") or word.form not in _TOWARDS:
+            if not word.readings[0].tag.startswith("PREP") or word.form not in self._said.towards:
                 continue
             for word in self._words[place + 1 : place + 3]:
                 tag = word.readings[0].tag
                 if tag.startswith("PRON:prep:"):
                     return tag.removeprefix("PRON:prep:")[0]
-                if word.readings[0].lemma in _SUBJECTS:
-                    return _SUBJECTS[word.readings[0].lemma]
+                if word.readings[0].lemma in self._said.subjects:
+                    return self._said.subjects[word.readings[0].lemma]
                 if tag.startswith(("NAME", "N:", "PRON:3")) and tag != "NAME:place":
                     return "3"
                 if not tag.startswith("DET"):
@@ -220,7 +228,9 @@ class _Clause:
         return (
             finite is not None
             and finite != self._verb
-            and any(reading.lemma in _EXPERIENCER_VERBS for reading in self._finite_readings(finite))
+            and any(
+                reading.lemma in self._said.experiencer_verbs for reading in self._finite_readings(finite)
+            )
         )
 
     def _subject(self, finite: int | None, receiver: str) -> str:
@@ -228,7 +238,7 @@ class _Clause:
             return ""
         if self._experiences(finite):
             before = self._words[finite - 1].form if finite else ""
-            return _OBJECTS.get(before, "")
+            return self._said.objects.get(before, "")
         readings = self._finite_readings(finite)
         if self._orders(readings):
             return "2"
@@ -237,13 +247,15 @@ class _Clause:
         persons = [self._person(reading) for reading in readings]
         said = {reading.lemma: reading for word in self._words for reading in word.readings[:1]}
         explicit = {
-            _SUBJECTS[lemma] for lemma in said if lemma in _SUBJECTS and said[lemma].tag.startswith("PRON")
+            self._said.subjects[lemma]
+            for lemma in said
+            if lemma in self._said.subjects and said[lemma].tag.startswith("PRON")
         }
         possible = [person for person in dict.fromkeys(persons) if person != receiver]
         for person in possible:
             if person in explicit:
                 return person
-        if "3" in possible and "2" in explicit and any(lemma in said for lemma in ("usted", "ustedes")):
+        if "3" in possible and "2" in explicit and any(lemma in said for lemma in self._said.polite):
             return "2"
         if possible[:1] == ["3"] and receiver == "1" and self._asks_politely():
             return "2"
@@ -262,18 +274,20 @@ class _Clause:
         """
         if not self._opens or not any(reading.tag == "V:ind:pres:3s" for reading in readings):
             return False
-        if any(reading.lemma in _OWN_IMPERATIVES for reading in readings):
+        if any(reading.lemma in self._said.own_imperatives for reading in readings):
             return False
         towards = False
         for word in self._words[self._verb + 1 :]:
             reading = word.readings[0]
-            if reading.lemma == "su" or (reading.tag.startswith("PRON:3") and not towards):
+            if reading.lemma == self._said.own_possessive or (
+                reading.tag.startswith("PRON:3") and not towards
+            ):
                 return False
-            if _names_person(reading):
+            if _names_person(reading, self._people):
                 if not towards:
                     return False
                 towards = False
-            towards = towards or word.form in _TOWARDS
+            towards = towards or word.form in self._said.towards
         return True
 
     def _asks_politely(self) -> bool:

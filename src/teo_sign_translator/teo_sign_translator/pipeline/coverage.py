@@ -12,6 +12,7 @@ from pathlib import Path
 from teo_common.text_folding import fold
 from teo_sign_translator.data_files import data_file, read_listed
 from teo_sign_translator.morphology import TAGS, Reading
+from teo_sign_translator.pipeline.language_words import CoverageWords, PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
@@ -32,7 +33,7 @@ class FunctionWords:
         """Read the list.
 
         Args:
-            path: The file; by default the package's `data/function_words.tsv`, which explains its columns.
+            path: The file; by default the package's `text/function_words.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
@@ -68,19 +69,29 @@ class Coverage:
     Attributes:
         function_words: What may be left out.
         gloss_words: For each gloss the lemmas that it says though they are not its own.
+        words: Of the language.
     """
 
     function_words: FunctionWords
     gloss_words: Mapping[str, frozenset[str]]
+    words: CoverageWords
 
     @classmethod
-    def load(cls) -> Coverage:
-        """With the package's `data/function_words.tsv` and `data/gloss_words.tsv`.
+    def load(cls, folder: Path | None = None) -> Coverage:
+        """With a language's `function_words.tsv` and `gloss_words.tsv`.
+
+        Args:
+            folder: The language's text folder; by default that of the default language.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        return cls(FunctionWords.load(), read_gloss_words())
+        folder = folder or data_file("")
+        return cls(
+            FunctionWords.load(folder / "function_words.tsv"),
+            read_gloss_words(folder / "gloss_words.tsv"),
+            PipelineWords.load(folder).coverage,
+        )
 
     def lost(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """Places of the words that must not be left out and that no gloss says."""
@@ -91,7 +102,7 @@ class Coverage:
             for place, word in enumerate(words)
             if place not in said
             and not self._may_be_left_out(words, place)
-            and not _says_only_the_future(words, place)
+            and not self._says_only_the_future(words, place)
             and not (exclaims and word.readings[0].tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
         ]
 
@@ -99,7 +110,9 @@ class Coverage:
         """Whether a word has no meaning of its own; "hacer" has, unless what one does follows it."""
         if not self.function_words.may_be_left_out(words[place]):
             return False
-        does = any(reading.tag == "V:inf" and reading.lemma == "hacer" for reading in words[place].readings)
+        does = any(
+            reading.tag == "V:inf" and reading.lemma == self.words.does for reading in words[place].readings
+        )
         return not does or not all(map(self.function_words.may_be_left_out, words[place + 1 :]))
 
     def said(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[list[int]]:
@@ -119,24 +132,36 @@ class Coverage:
                 key=lambda place: (
                     place in taken,
                     place not in gloss.sources,
-                    _says_only_the_future(words, place),
+                    self._says_only_the_future(words, place),
                 ),
             )
             lemmas = self.gloss_words.get(gloss.gloss, frozenset())
             listed = sorted({place for lemma in lemmas for place in lemma_places.get(lemma, ())})
             meant = {place for place in listed if place in gloss.sources or "_" in gloss.gloss}
             meant |= {place for place in listed if meant & {place - 1, place + 1}}
-            meant |= {place for place in listed if own and place < own[0] and words[place].form == "no"}
+            meant |= {
+                place for place in listed if own and place < own[0] and words[place].form == self.words.denial
+            }
             result.append([*own[:1], *(sorted(meant) or ([] if own else listed))])
             taken.update(own[:1])
         return result
+
+    def _says_only_the_future(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
+        following = words[place + 1 : place + 3]
+        return (
+            any(reading.lemma == self.words.goes for reading in words[place].readings)
+            and len(following) == 2
+            and following[0].form == self.words.goes_to
+            and any(reading.tag == "V:inf" for reading in following[1].readings)
+        )
 
 
 def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
     """For each gloss the lemmas that it says though they are not its own.
 
     Args:
-        path: The file; by default the package's `data/gloss_words.tsv`, which explains its columns.
+        path: The file; by default the package's `text/gloss_words.tsv`, which explains its columns.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
@@ -156,17 +181,6 @@ def _places(words: Sequence[SourceWord]) -> tuple[dict[str, list[int]], dict[str
             for gloss in {copied_gloss(reading) for reading in word.readings}:
                 by_gloss[gloss].append(place)
     return by_gloss, by_lemma
-
-
-def _says_only_the_future(words: Sequence[SourceWord], place: int) -> bool:
-    """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
-    following = words[place + 1 : place + 3]
-    return (
-        any(reading.lemma == "ir" for reading in words[place].readings)
-        and len(following) == 2
-        and following[0].form == "a"
-        and any(reading.tag == "V:inf" for reading in following[1].readings)
-    )
 
 
 def _begins(tag: str, beginning: str) -> bool:

@@ -13,15 +13,12 @@ from pathlib import Path
 from teo_common.text_folding import fold
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.morphology import MAX_READINGS, Reading
+from teo_sign_translator.pipeline.language_words import EvidenceWords, PipelineWords
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
 
 _NONE = "-"
-_PAST = "PASADO"
-_NOT = "NO"
-_EVERY = "cada"
-_I = "YO"
 # Tags of what may stand between a subject's determiner and its verb.
 _BETWEEN = ("N:", "A:", "ADV:neg", "PRON:obj", "PRON:refl")
 # Forms that the first and the third person share, which morphology names the third.
@@ -33,22 +30,6 @@ _SURE_OF_SUBJECT = 0.9
 _NOMINAL = ("PREP", "DET:def", "DET:poss")
 _VERBAL = ("V:ind", "V:cond", "V:sub", "V:imp", "PRON:obj", "PRON:refl")
 _PAST_TAGS = ("V:ind:pret:", "V:ind:impf:")
-#: Subjects that a verb's ending says, and its person: "llego" may be "llegó", but not the past of YO.
-_PERSONS = {"YO": "1s", "TÚ": "2s", "NOSOTROS": "1p", "VOSOTROS": "2p"}
-#: Pronouns at the end of a verb, as tags.
-_CLITICS = {
-    "me": "PRON:obj:1s",
-    "te": "PRON:obj:2s",
-    "nos": "PRON:obj:1p",
-    "os": "PRON:obj:2p",
-    "se": "PRON:refl",
-    "lo": "PRON:obj:3s",
-    "la": "PRON:obj:3s",
-    "le": "PRON:obj:3s",
-    "los": "PRON:obj:3p",
-    "las": "PRON:obj:3p",
-    "les": "PRON:obj:3p",
-}
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,28 +44,30 @@ class Evidence:
     tags: tuple[str, ...]
     lemmas: frozenset[str]
 
-    def given_by(self, reading: Reading) -> bool:
-        """Whether this reading is evidence for the gloss."""
+    def given_by(self, reading: Reading, clitics: Mapping[str, str]) -> bool:
+        """Whether this reading is evidence for the gloss; `clitics` gives the tags of a verb's pronouns."""
         return (
             reading.lemma in self.lemmas
             or _fits(reading.tag, self.tags)
-            or any(_fits(_CLITICS.get(clitic, ""), self.tags) for clitic in reading.clitics)
+            or any(_fits(clitics.get(clitic, ""), self.tags) for clitic in reading.clitics)
         )
 
 
 class GlossEvidence:
     """Finds invented glosses."""
 
-    def __init__(self, by_gloss: Mapping[str, Evidence]) -> None:
-        """Take the evidence that each gloss needs; others need none."""
+    def __init__(self, by_gloss: Mapping[str, Evidence], words: EvidenceWords) -> None:
+        """Take the evidence that each gloss needs, others need none, and the words of the language."""
         self._by_gloss = dict(by_gloss)
+        self._words = words
 
     @classmethod
-    def load(cls, path: Path | None = None) -> GlossEvidence:
-        """Read the list.
+    def load(cls, path: Path | None = None, folder: Path | None = None) -> GlossEvidence:
+        """Read the list, and the language's words.
 
         Args:
-            path: The file; by default the package's `data/gloss_evidence.tsv`, which explains its columns.
+            path: The file; by default the package's `text/gloss_evidence.tsv`, which explains its columns.
+            folder: The language's text folder; by default that of the default language.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
@@ -95,7 +78,7 @@ class GlossEvidence:
             if gloss in found or gloss != gloss.upper():
                 raise invalid_line(path, number, "a gloss in capitals, once", f"'{gloss}'")
             found[gloss] = Evidence(tuple(_listed(tags)), frozenset(_listed(lemmas)))
-        return cls(found)
+        return cls(found, PipelineWords.load(folder).evidence)
 
     def invented(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
         """Places of the glosses that no word is evidence for.
@@ -114,16 +97,50 @@ class GlossEvidence:
             place
             for place, gloss in enumerate(glosses)
             if (self._lacks_evidence(gloss.gloss, readings) and not _unsure(gloss, words))
-            or (gloss.gloss == _PAST and _present(glosses[place:], meant))
-            or (gloss.gloss not in self._by_gloss and _said_again(place, glosses, words))
-            or _doubtful_subject(gloss, words)
+            or (gloss.gloss == self._words.past and self._present(glosses[place:], meant))
+            or (gloss.gloss not in self._by_gloss and self._said_again(place, glosses, words))
+            or (gloss.gloss == self._words.signer and _doubtful_subject(gloss, words))
         ]
+
+    def says_every(self, gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
+        """Whether a gloss stands for "cada": again, it says every second one (cada dos días: DÍA DÍA)."""
+        return any(words[place].form == self._words.every for place in gloss.sources)
 
     def _lacks_evidence(self, gloss: str, readings: Sequence[Reading]) -> bool:
         evidence = self._by_gloss.get(gloss)
         return evidence is not None and not any(
-            evidence.given_by(reading) or copied_gloss(reading) == gloss for reading in readings
+            evidence.given_by(reading, self._words.clitics) or copied_gloss(reading) == gloss
+            for reading in readings
         )
+
+    def _present(self, glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:
+        """Whether PASADO and the subject behind it stand for the same verb, which has that person only now.
+
+        "llego" is first person of the present, third of the past where the accent is left out.
+        """
+        person = self._words.persons.get(glosses[1].gloss) if len(glosses) > 1 else None
+        if person is None or glosses[0].sources != glosses[1].sources:
+            return False
+        verbs = [reading for place in glosses[0].sources for reading in meant[place]]
+        tags = [verb.tag for verb in verbs if verb.lemma != self._words.auxiliary]
+        return f"V:ind:pres:{person}" in tags and not any(f"{past}{person}" in tags for past in _PAST_TAGS)
+
+    def _said_again(self, place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord]) -> bool:
+        """Whether a gloss was said before for the same word.
+
+        What is denied may be said of the same subject again ("no somos médicos, somos profesores").
+        """
+        gloss = glosses[place]
+        again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
+        if not again:
+            return False
+        said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
+        if len(said) != 1:
+            return False
+        if again[-1] == place - 1:
+            return not any(self.says_every(each, words) for each in (glosses[place - 1], gloss))
+        denied = any(each.gloss == self._words.denial for each in glosses[again[-1] : place])
+        return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
 
 
 def _unsure(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
@@ -152,8 +169,6 @@ def _meant(words: Sequence[SourceWord]) -> list[list[Reading]]:
 
 
 def _doubtful_subject(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
-    if gloss.gloss != _I:
-        return False
     named = [place for place in gloss.sources if not words[place].readings[0].tag.startswith("N:")]
     tags = [reading.tag for place in named for reading in words[place].readings if reading.exact]
     if not any(map(_is_shared, tags)) or not all(tag.endswith(":3s") for tag in tags):
@@ -173,42 +188,6 @@ def _has_subject(verb: int, words: Sequence[SourceWord]) -> bool:
         at -= 1
     noun = any(tag.startswith("N:") for tag in tags[at + 1 :])
     return at >= 0 and noun and tags[at].startswith("DET") and not (at and tags[at - 1].startswith("PREP"))
-
-
-def _present(glosses: Sequence[OutputGloss], meant: Sequence[Sequence[Reading]]) -> bool:
-    """Whether PASADO and the subject behind it stand for the same verb, which has that person only now.
-
-    "llego" is first person of the present, third of the past where the accent is left out.
-    """
-    person = _PERSONS.get(glosses[1].gloss) if len(glosses) > 1 else None
-    if person is None or glosses[0].sources != glosses[1].sources:
-        return False
-    verbs = [reading for place in glosses[0].sources for reading in meant[place]]
-    tags = [verb.tag for verb in verbs if verb.lemma != "haber"]
-    return f"V:ind:pres:{person}" in tags and not any(f"{past}{person}" in tags for past in _PAST_TAGS)
-
-
-def _said_again(place: int, glosses: Sequence[OutputGloss], words: Sequence[SourceWord]) -> bool:
-    """Whether a gloss was said before for the same word.
-
-    What is denied may be said of the same subject again ("no somos médicos, somos profesores").
-    """
-    gloss = glosses[place]
-    again = [at for at in range(place) if glosses[at].gloss == gloss.gloss]
-    if not again:
-        return False
-    said = [word for word in words if any(copied_gloss(each) == gloss.gloss for each in word.readings)]
-    if len(said) != 1:
-        return False
-    if again[-1] == place - 1:
-        return not any(says_every(each, words) for each in (glosses[place - 1], gloss))
-    denied = any(each.gloss == _NOT for each in glosses[again[-1] : place])
-    return not denied and bool(set(glosses[again[-1]].sources) & set(gloss.sources))
-
-
-def says_every(gloss: OutputGloss, words: Sequence[SourceWord]) -> bool:
-    """Whether a gloss stands for "cada": said again, it says every second one (cada dos días: DÍA DÍA)."""
-    return any(words[place].form == _EVERY for place in gloss.sources)
 
 
 def _listed(text: str) -> list[str]:

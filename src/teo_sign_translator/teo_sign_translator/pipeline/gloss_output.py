@@ -15,18 +15,18 @@ from teo_sign_translator.pipeline.hypothesis_repair import Repaired
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.names import is_persons_name
+from teo_sign_translator.text.rules import GlossNames
 from teo_sign_translator.text.source_words import SourceWord
 
-# Beside them a number with decimals is a price: "12,50 €" is said "doce cincuenta".
-_CURRENCIES = frozenset({"EURO", "DÓLAR", "LIBRA"})
 _CENT_DIGITS = 2
-
-# Behind it stands a name: "me llamo rosa" is MI NOMBRE R-O-S-A.
-_NAME_GLOSS = "NOMBRE"
 
 
 def gloss_output_words(
-    words: Sequence[SourceWord], said: Repaired, signed: Collection[str], agreement: Agreement
+    words: Sequence[SourceWord],
+    said: Repaired,
+    signed: Collection[str],
+    agreement: Agreement,
+    names: GlossNames,
 ) -> list[OutputWord]:
     """Glosses as output words, those that none says behind them; marks between them are pauses.
 
@@ -35,19 +35,22 @@ def gloss_output_words(
         said: Its translation.
         signed: Glosses that are no names whatever their words.
         agreement: Gives the form of signs that agree.
+        names: Of glosses, in the language.
     """
     typed = [_texts(words, sorted(gloss.sources)) for gloss in said.glosses]
     pauses = _pauses(words, said.glosses)
     result: list[OutputWord] = []
     for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
-        named = place > 0 and said.glosses[place - 1].gloss == _NAME_GLOSS
+        # "me llamo rosa" is MI NOMBRE R-O-S-A
+        named = place > 0 and said.glosses[place - 1].gloss == names.name
         origin = Origin.DRAFT if said.drafted else Origin.REPAIRED if repaired else Origin.MODEL
         neighbours = {each.gloss for each in said.glosses[max(0, place - 1) : place + 2]}
-        if neighbours & _CURRENCIES:
+        if neighbours & names.currencies:  # "12,50 €" is said "doce cincuenta"
             gloss = replace(gloss, gloss=_price(gloss.gloss))
         form = agreement.inflection(gloss.gloss, gloss.sources, words)
         own_words = [
-            replace(each, inflection=form) for each in _output_words(words, gloss, origin, own, named=named)
+            replace(each, inflection=form)
+            for each in _output_words(words, gloss, origin, own, names, named=named)
         ]
         result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
         if place in pauses:
@@ -70,6 +73,7 @@ def _output_words(
     gloss: OutputGloss,
     origin: Origin,
     typed: tuple[str, ...],
+    names: GlossNames,
     *,
     named: bool,
 ) -> list[OutputWord]:
@@ -80,12 +84,13 @@ def _output_words(
         gloss: What is said.
         origin: How it came about.
         typed: The words that it stands for.
+        names: Of glosses, in the language.
         named: Whether it follows the sign for "name".
     """
     readings = [reading for source in gloss.sources for reading in words[source].readings]
     meant = [reading for reading in readings if copied_gloss(reading) == gloss.gloss]
     if gloss.gloss[0].isdigit():
-        return number(gloss.gloss, typed, gloss.probability)
+        return number(gloss.gloss, typed, gloss.probability, names.decimal)
     if _is_name([words[source] for source in gloss.sources], meant, named=named):
         return [lexical(gloss.gloss, typed, gloss.probability, is_name=True)]
     return [lexical(gloss.gloss, typed, gloss.probability, origin)]

@@ -6,11 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import NamedTuple
 
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pipeline.coverage import Coverage
-from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence, says_every
+from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
 from teo_sign_translator.pipeline.long_sentences import Piece
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
@@ -68,13 +70,17 @@ class HypothesisRepair:
     evidence: GlossEvidence
 
     @classmethod
-    def load(cls) -> HypothesisRepair:
-        """With the package's data.
+    def load(cls, folder: Path | None = None) -> HypothesisRepair:
+        """With a language's data.
+
+        Args:
+            folder: The language's text folder; by default that of the default language.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        return cls(Coverage.load(), GlossEvidence.load())
+        folder = folder or data_file("")
+        return cls(Coverage.load(folder), GlossEvidence.load(folder / "gloss_evidence.tsv", folder))
 
     def best(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Candidate:
         """The first translation without a fault, else that with the fewest.
@@ -85,7 +91,7 @@ class HypothesisRepair:
         """
         candidates: list[Candidate] = []
         for hypothesis in hypotheses:
-            glosses = _said_once(words, hypothesis.glosses)
+            glosses = self._said_once(words, hypothesis.glosses)
             candidates.append(Candidate(glosses, self._faults(words, glosses)))
             if glosses and not candidates[-1].faults:
                 return candidates[-1]
@@ -150,6 +156,27 @@ class HypothesisRepair:
             repaired += said.repaired
         return Repaired(tuple(glosses), tuple(repaired))
 
+    def _said_once(
+        self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]
+    ) -> tuple[OutputGloss, ...]:
+        """Glosses without those said twice in a row for one word: no noun is doubled for its plural.
+
+        Counted in LSE-RADIS: CERDO TRES, LOS-TRES, TODO and pointing say the plural.
+        """
+        result: list[OutputGloss] = []
+        for gloss in glosses:
+            again = (
+                bool(result)
+                and result[-1].gloss == gloss.gloss
+                and not self.evidence.says_every(gloss, words)
+            )
+            if again and sum(_may_be(word, gloss.gloss) for word in words) <= 1:
+                sources = tuple(sorted({*result[-1].sources, *gloss.sources}))
+                result[-1] = replace(result[-1], sources=sources)
+            else:
+                result.append(gloss)
+        return tuple(result)
+
     def _faults(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int:
         return len(self.coverage.lost(words, glosses)) + len(self.evidence.invented(words, glosses))
 
@@ -168,22 +195,6 @@ class HypothesisRepair:
                 if distance < best or (distance == best and source < word):
                     best, index = distance, place + (source < word)
         return index
-
-
-def _said_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:
-    """Glosses without those said twice in a row for one word: signers do not double a noun for its plural.
-
-    Counted in LSE-RADIS: CERDO TRES, LOS-TRES, TODO and pointing say the plural.
-    """
-    result: list[OutputGloss] = []
-    for gloss in glosses:
-        again = bool(result) and result[-1].gloss == gloss.gloss and not says_every(gloss, words)
-        if again and sum(_may_be(word, gloss.gloss) for word in words) <= 1:
-            sources = tuple(sorted({*result[-1].sources, *gloss.sources}))
-            result[-1] = replace(result[-1], sources=sources)
-        else:
-            result.append(gloss)
-    return tuple(result)
 
 
 def _may_be(word: SourceWord, gloss: str) -> bool:

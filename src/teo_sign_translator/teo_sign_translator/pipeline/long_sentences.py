@@ -4,18 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
-from teo_sign_translator.data_files import words_of
 from teo_sign_translator.text.source_words import SourceWord
 
 #: Words of a sentence that are translated together; a longer one is divided. The model has seen no longer
 #: ones, and its time grows with their number.
 MOST_WORDS = 40
 
-# What joins two clauses that can be signed one after the other.
-_JOINTS = frozenset(words_of("y e pero o u porque aunque"))
 # Tags of verbs that make a clause; "y" joins nouns too.
 _FINITE = ("V:ind", "V:cond", "V:sub", "V:imp")
 
@@ -47,13 +44,18 @@ def parts(words: Sequence[SourceWord]) -> list[Sequence[SourceWord]]:
     return [part for part in result if not all(word.is_mark for word in part)]
 
 
-def pieces(words: Sequence[SourceWord]) -> list[Piece]:
-    """The clauses of a sentence: what stands between marks, or between conjunctions that join verbs."""
+def pieces(words: Sequence[SourceWord], joints: Collection[str]) -> list[Piece]:
+    """The clauses of a sentence: what stands between marks, or between conjunctions that join verbs.
+
+    Args:
+        words: Of the sentence.
+        joints: The language's conjunctions that may join clauses.
+    """
     result: list[Piece] = []
     start, joint = 0, None
     for place, word in enumerate(words):
         ends = word.is_mark
-        joins = word.form in _JOINTS and _has_verb(words[start:place]) and _has_verb(words[place + 1 :])
+        joins = word.form in joints and _has_verb(words[start:place]) and _has_verb(words[place + 1 :])
         if ends or joins:
             stop = place + ends
             if not all(each.is_mark for each in words[start:stop]):

@@ -21,6 +21,7 @@ from teo_sign_translator.pipeline.long_sentences import parts, pieces
 from teo_sign_translator.pipeline.trust import is_trusted
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
 from teo_sign_translator.text.reading import Clause
+from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.sentence_type import SentenceType
 from teo_sign_translator.text.source_words import SourceWord, words_of_clauses
 
@@ -60,7 +61,7 @@ class PointerBackEnd:
         model: SentenceModel,
         morphology: Morphology,
         repair: HypothesisRepair,
-        drafter: Drafter,
+        drafter: Drafter | None,
         taught: Phrasebook,
         agreement: Agreement,
         *,
@@ -72,7 +73,8 @@ class PointerBackEnd:
             model: Says glosses, each with the words that it stands for.
             morphology: Gives the words' readings.
             repair: Chooses among the model's translations and mends the one it chooses.
-            drafter: Translates by rule what the model is not to be trusted with.
+            drafter: Translates by rule what the model is not to be trusted with; None for a language without
+                such rules: then the model's own translation is mended.
             taught: Sentences whose translation is given, the paper's among them: what that leaves out is no
                 loss, and a name that it signs is not spelled.
             agreement: Gives the form of signs that agree.
@@ -80,6 +82,7 @@ class PointerBackEnd:
         """
         self._model = model
         self._morphology = morphology
+        self._rules = TextRules.load(morphology.folder)
         self._repair = repair
         self._drafter = drafter
         self._taught = taught
@@ -102,7 +105,7 @@ class PointerBackEnd:
         ]
         said = iter(self._say(every))
         return [
-            [_assembled(sentence, [next(said) for _ in sentence.parts], self._agreement) for sentence in text]
+            [self._assembled(sentence, [next(said) for _ in sentence.parts]) for sentence in text]
             for text in sentences
         ]
 
@@ -117,7 +120,11 @@ class PointerBackEnd:
             for part, hypotheses in zip(every, answers, strict=True)
         ]
         lossy = [index for index, said in enumerate(result) if any(said.repaired)]
-        divided = {index: own for index in lossy if len(own := pieces(every[index].words)) > 1}
+        divided = {
+            index: own
+            for index in lossy
+            if len(own := pieces(every[index].words, self._rules.sentences.joints)) > 1
+        }
         asked = [
             every[index].words[piece.start : piece.stop] for index, own in divided.items() for piece in own
         ]
@@ -132,6 +139,8 @@ class PointerBackEnd:
     def _trusted(self, words: Sequence[SourceWord], hypotheses: Sequence[Hypothesis]) -> Repaired:
         """The best hypothesis, mended, or a draft where that is better."""
         best = self._repair.best(words, hypotheses)
+        if self._drafter is None:
+            return self._repair.mend(words, best)
         draft = self._drafter.draft(words)
         count = sum(not word.is_mark for word in words)
         if is_trusted(best.glosses, draft, faults=best.faults, words=count):
@@ -164,28 +173,25 @@ class PointerBackEnd:
             result.append(_Sentence(own, parts(words), match.pattern if match else None))
         return result
 
+    def _assembled(self, sentence: _Sentence, translated: Sequence[Repaired]) -> TranslatedSentence:
+        """A sentence from the translations of its parts."""
+        output_words: list[OutputWord] = []
+        recognised = sentence.taught.type if sentence.taught else None
+        for words, said in zip(sentence.parts, translated, strict=True):
+            if output_words:
+                output_words.append(PAUSE)
+            signed = sentence.taught.glosses if sentence.taught else ()
+            output_words += gloss_output_words(words, said, signed, self._agreement, self._rules.glosses)
+            if not sentence.taught and _asks(words, said.glosses):
+                recognised = SentenceType.WH_QUESTION
+        return TranslatedSentence(sentence.clauses, output_words, recognised)
+
     def _match(self, clauses: Sequence[Clause]) -> Match | None:
         return self._taught.match(
             [word for clause in clauses for word in clause.words],
             crosses_stop=any(clause.closes for clause in clauses[:-1]),
             crosses_pause=len(clauses) > 1,
         )
-
-
-def _assembled(
-    sentence: _Sentence, translated: Sequence[Repaired], agreement: Agreement
-) -> TranslatedSentence:
-    """A sentence from the translations of its parts."""
-    output_words: list[OutputWord] = []
-    recognised = sentence.taught.type if sentence.taught else None
-    for words, said in zip(sentence.parts, translated, strict=True):
-        if output_words:
-            output_words.append(PAUSE)
-        signed = sentence.taught.glosses if sentence.taught else ()
-        output_words += gloss_output_words(words, said, signed, agreement)
-        if not sentence.taught and _asks(words, said.glosses):
-            recognised = SentenceType.WH_QUESTION
-    return TranslatedSentence(sentence.clauses, output_words, recognised)
 
 
 def _by_sentence(clauses: Iterable[Clause]) -> list[list[Clause]]:

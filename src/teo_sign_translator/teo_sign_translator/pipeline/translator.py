@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Spanish text to sign tokens."""
+"""Text to sign tokens."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import NamedTuple
 
-from teo_sign_translator.corpus.paper_pairs import training_pairs
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
 from teo_sign_translator.lstm256.phrasebook import Phrasebook
@@ -17,15 +17,20 @@ from teo_sign_translator.lstm256.store import load_model
 from teo_sign_translator.model_files import card_schema
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.generality import may_be_generalised
-from teo_sign_translator.output.incorporation import with_numbers_incorporated
+from teo_sign_translator.output.incorporation import (
+    INCORPORATED_NUMBERS,
+    Incorporated,
+    read_incorporated,
+    with_numbers_incorporated,
+)
 from teo_sign_translator.output.output_words import divide, number_tokens, without_carried
 from teo_sign_translator.output.sign_choice import SignChooser
-from teo_sign_translator.output.spelling import unsignable
+from teo_sign_translator.output.spelling import Spelling
 from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
-from teo_sign_translator.pipeline.drafting.drafter import Drafter
+from teo_sign_translator.pipeline.drafting.drafter import SET_PHRASES, Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
@@ -34,6 +39,7 @@ from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import SCHEMA
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import Clause, WordKind, read
+from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.sentence_type import is_negated, sentence_type
 
 #: Of the models that ship: translates sentences that it has not seen.
@@ -70,17 +76,33 @@ class Translator:
     """Translates texts with a back end, each token with a confidence."""
 
     def __init__(
-        self, back_end: BackEnd, chooser: SignChooser, *, min_confidence: float = DEFAULT_MIN_CONFIDENCE
+        self,
+        back_end: BackEnd,
+        chooser: SignChooser,
+        rules: TextRules | None = None,
+        spelling: Spelling | None = None,
+        incorporated: Incorporated | None = None,
+        *,
+        min_confidence: float = DEFAULT_MIN_CONFIDENCE,
+        language: str = DEFAULT_LANGUAGE,
     ) -> None:
         """Put the parts together; `load` does it for a model that ships with the package.
 
         Args:
             back_end: Translates sentences.
             chooser: Finds signs for glosses.
+            rules: How its texts are read; by default the default language's.
+            spelling: Its alphabet; by default the default language's.
+            incorporated: Glosses that take up a number; None for none.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
+            language: Code of the sign language that it translates into.
         """
+        self.language = language
         self._back_end = back_end
         self._chooser = chooser
+        self._rules = rules or TextRules.load()
+        self._spelling = spelling or Spelling.load()
+        self._incorporated = incorporated or {}
         self.min_confidence = min_confidence
 
     @classmethod
@@ -92,37 +114,57 @@ class Translator:
         beam_width: int = DEFAULT_BEAM_WIDTH,
         min_confidence: float = DEFAULT_MIN_CONFIDENCE,
         substitutes: Substitutes = Substitutes.HYPERNYM,
+        language: str = DEFAULT_LANGUAGE,
     ) -> Translator:
-        """Load a model and the package's data.
+        """Load a model and its language's data.
 
         Args:
             name: One of `model_files.available_models`.
-            directory: Folder of the models; by default the package's.
+            directory: Folder of the models; by default the language's.
             beam_width: Translations that the model weighs against each other; `lstm256` has but one.
             min_confidence: A sentence that holds a token less sure than this is called uncertain, 0 to 1.
             substitutes: What may be signed in place of a gloss without a sign.
+            language: Code of the sign language.
 
         Raises:
-            TranslationError: "unknown_model", "invalid_model", "invalid_data".
+            TranslationError: "unknown_language", "invalid_language", "unknown_model", "invalid_model",
+                "invalid_data".
         """
-        glosses = GlossList.load()
-        lists = SubstituteLists.load()
-        taught = Phrasebook(training_pairs(), glosses)
+        try:
+            data = load_language(language)
+        except LanguageError as error:
+            raise TranslationError(error.code, str(error)) from error
+        directory = directory or data.models
+        rules = TextRules.load(data.text)
+        spelling = Spelling(data)
+        lists = SubstituteLists.load(data.text)
+        taught = Phrasebook.load(data.text)
         if card_schema(name, directory) == SCHEMA:
-            morphology = Morphology.load()
+            morphology = Morphology.load(data.text)
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
                 model,
                 morphology,
-                HypothesisRepair.load(),
-                Drafter.load(),
+                HypothesisRepair.load(data.text),
+                Drafter.load() if (data.text / SET_PHRASES).is_file() else None,
                 taught,
-                Agreement.load(),
+                Agreement.load(data.text / "agreement.tsv", data.text),
                 beam_width=beam_width,
             )
-            return cls(back_end, SignChooser(lists, morphology, substitutes), min_confidence=min_confidence)
-        back_end = LstmBackEnd(load_model(name, directory), taught, glosses, name=name)
-        return cls(back_end, SignChooser(lists, None, substitutes), min_confidence=min_confidence)
+            chooser = SignChooser(lists, morphology, substitutes, spelling)
+        else:
+            back_end = LstmBackEnd(load_model(name, directory), taught, GlossList.load(), name=name)
+            chooser = SignChooser(lists, None, substitutes, spelling)
+        incorporated = read_incorporated(data.text / INCORPORATED_NUMBERS)
+        return cls(
+            back_end,
+            chooser,
+            rules,
+            spelling,
+            incorporated,
+            min_confidence=min_confidence,
+            language=data.code,
+        )
 
     @property
     def substitutes(self) -> Substitutes:
@@ -142,7 +184,7 @@ class Translator:
         """Translate a text of one or more sentences.
 
         Args:
-            text: Spanish, as people type it.
+            text: As people type it.
             signs: Glosses that have a sign; see `SignChooser.choose`.
 
         Raises:
@@ -166,7 +208,7 @@ class Translator:
         Returns:
             For each text its translation, or why there is none.
         """
-        read = [_read(text) for text in texts]
+        read = [self._read(text) for text in texts]
         translated = iter(
             self._back_end.translate([each.clauses for each in read if isinstance(each, _Read)])
         )
@@ -181,7 +223,13 @@ class Translator:
                 for sentence in self._finish(translated_sentence, each.cleaned, signs)
             ]
             answers.append(
-                Translation(text=each.text, sentences=tuple(sentences), ignored=each.ignored, model=self.name)
+                Translation(
+                    text=each.text,
+                    sentences=tuple(sentences),
+                    ignored=each.ignored,
+                    model=self.name,
+                    language=self.language,
+                )
             )
         return answers
 
@@ -190,20 +238,20 @@ class Translator:
     ) -> list[Sentence]:
         """One sentence; several if it has more tokens than a message can hold."""
         clauses = translated_sentence.clauses
-        kind = sentence_type(clauses)
+        kind = sentence_type(clauses, self._rules)
         unmarked = not clauses[-1].end and not any(clause.opening for clause in clauses)
         if unmarked and translated_sentence.recognised is not None:
             kind = translated_sentence.recognised
-        signed, dropped = without_carried(translated_sentence.output_words)
-        general = may_be_generalised(clauses, kind)
+        signed, dropped = without_carried(translated_sentence.output_words, self._spelling)
+        general = may_be_generalised(clauses, kind, self._rules)
         chosen = self._chooser.choose(signed, signs, general=general)
-        output_words = with_numbers_incorporated(chosen, signs)
+        output_words = with_numbers_incorporated(chosen, signs, self._incorporated)
         parts = [number_tokens(part) for part in divide(output_words, MAX_SENTENCE_TOKENS)]
         return [
             Sentence(
                 text=text[clauses[0].start : clauses[-1].stop].strip(),
                 type=kind,
-                negated=is_negated(clauses),
+                negated=is_negated(clauses, self._rules),
                 tokens=tokens,
                 uncertain=any(token.confidence < self.min_confidence for token in tokens),
                 dropped=() if place else dropped,
@@ -211,42 +259,44 @@ class Translator:
             for place, tokens in enumerate(parts)
         ]
 
+    def _read(self, text: str) -> _Read | TranslationError:
+        """Clean and read a text; give the reason if it cannot be signed."""
+        try:
+            cleaned = clean(text)
+            reading = read(cleaned.text, self._rules)
+            if not reading.clauses:
+                if not cleaned.text.strip():
+                    raise TranslationError("empty_text", "expected text, got nothing but blanks")
+                raise TranslationError(
+                    "nothing_to_sign",
+                    f"expected words, got only marks or symbols: {_shortened(cleaned.text.strip())}",
+                )
+            self._refuse_other_scripts(reading.clauses)
+        except TranslationError as error:
+            return error
+        return _Read(text, cleaned.text, reading.clauses, cleaned.ignored + reading.ignored)
 
-def _read(text: str) -> _Read | TranslationError:
-    """Clean and read a text; give the reason if it cannot be signed."""
-    try:
-        cleaned = clean(text)
-        reading = read(cleaned.text)
-        if not reading.clauses:
-            if not cleaned.text.strip():
-                raise TranslationError("empty_text", "expected Spanish text, got nothing but blanks")
-            raise TranslationError(
-                "nothing_to_sign",
-                f"expected words, got only marks or symbols: {_shortened(cleaned.text.strip())}",
+    def _refuse_other_scripts(self, clauses: Sequence[Clause]) -> None:
+        """Refuse letters that the alphabet cannot spell, by name."""
+        words = (word for clause in clauses for word in clause.words if word.kind is WordKind.LETTERS)
+        found = list(
+            dict.fromkeys(
+                c
+                for word in words
+                for part in (word.stands_for or word.text).split()
+                for c in self._spelling.unsignable(part)
             )
-        _refuse_other_scripts(reading.clauses)
-    except TranslationError as error:
-        return error
-    return _Read(text, cleaned.text, reading.clauses, cleaned.ignored + reading.ignored)
-
-
-def _refuse_other_scripts(clauses: Sequence[Clause]) -> None:
-    """Refuse letters that the LSE alphabet cannot spell, by name."""
-    words = (word for clause in clauses for word in clause.words if word.kind is WordKind.LETTERS)
-    found = list(
-        dict.fromkeys(
-            c for word in words for part in (word.stands_for or word.text).split() for c in unsignable(part)
         )
-    )
-    if found:
-        named = ", ".join(
-            f"'{c}' ({unicodedata.name(c, f'U+{ord(c):04X}')})" for c in found[:_NAMED_CHARACTERS]
-        )
-        more = f" and {len(found) - _NAMED_CHARACTERS} more" if len(found) > _NAMED_CHARACTERS else ""
-        raise TranslationError(
-            "unsignable_text",
-            f"expected words in Latin letters, got {named}{more}, which LSE cannot spell: transcribe them",
-        )
+        if found:
+            named = ", ".join(
+                f"'{c}' ({unicodedata.name(c, f'U+{ord(c):04X}')})" for c in found[:_NAMED_CHARACTERS]
+            )
+            more = f" and {len(found) - _NAMED_CHARACTERS} more" if len(found) > _NAMED_CHARACTERS else ""
+            raise TranslationError(
+                "unsignable_text",
+                f"expected words in Latin letters, got {named}{more}, which {self._spelling.name} cannot "
+                "spell: transcribe them",
+            )
 
 
 def _shortened(text: str, length: int = 20) -> str:

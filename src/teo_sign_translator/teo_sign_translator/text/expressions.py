@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
@@ -19,7 +18,7 @@ class Expression:
     """What a short form or symbol stands for.
 
     Attributes:
-        category: One of the classes that `data/expressions.tsv` explains.
+        category: One of the classes that `text/expressions.tsv` explains.
         words: What it says, in lower case; a word of several parts has spaces inside.
     """
 
@@ -55,12 +54,11 @@ class Expressions:
         self._initials = {form[0] for form in forms} | {form[0].upper() for form in forms}
 
     @classmethod
-    @cache
     def load(cls, path: Path | None = None) -> Expressions:
-        """Read the list, once.
+        """Read the list.
 
         Args:
-            path: The file; by default the package's `data/expressions.tsv`, which explains its columns.
+            path: The file; by default the package's `text/expressions.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
@@ -76,6 +74,11 @@ class Expressions:
                     raise invalid_line(path, number, expected + ", ".join(_CLASSES), got)
                 entries[form] = Expression(category, words)
         return cls(entries)
+
+    def stands_for(self, form: str) -> tuple[str, ...]:
+        """The words that a form in lower case stands for; none if it is not listed."""
+        expression = self._entries.get(form.lower())
+        return expression.words if expression else ()
 
     def match(self, text: str, start: int) -> Found | None:
         """The longest expression that begins at a place of a clean text where a word may begin.

@@ -11,17 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from teo_sign_translator.data_files import words_of
 from teo_sign_translator.morphology import MAX_READINGS, Reading
+from teo_sign_translator.text.rules import SpecialWords
 
 #: Tags of people's names; names of places have signs, or are spelled like any other word.
 PEOPLE = ("NAME", "NAME:m", "NAME:f")
 
-# Lemmas behind which a name stands: "me llamo Rosa", "don Ángel", "la señora Pastor".
-_INTRODUCING = frozenset(words_of("llamar nombre apellido señor señora señorita don doña doctor doctora san"))
 _GIVEN = ("NAME:m", "NAME:f")
-# Tags of verbs that a name without an article may be the subject of, or is called to by.
-_THIRD_PERSON = (":3s", ":2s")
 
 
 def is_persons_name(reading: Reading) -> bool:
@@ -54,12 +50,14 @@ def name_readings(
     return (*others[: MAX_READINGS - 1], guessed) if introduced else (*others, *names)
 
 
-def introduces(readings: Sequence[Reading]) -> bool:
+def introduces(readings: Sequence[Reading], words: SpecialWords) -> bool:
     """Whether a name may follow a word with these readings though it is a common word too."""
-    return is_persons_name(readings[0]) or any(reading.lemma in _INTRODUCING for reading in readings)
+    return is_persons_name(readings[0]) or any(reading.lemma in words.introducing for reading in readings)
 
 
-def opening_name(readings: Sequence[Reading], following: Sequence[Reading]) -> tuple[Reading, ...]:
+def opening_name(
+    readings: Sequence[Reading], following: Sequence[Reading], words: SpecialWords
+) -> tuple[Reading, ...]:
     """Readings of a capitalised word that begins a sentence: a given name first, if it is a subject.
 
     A common noun that is a subject has an article (`La rosa huele`); a name has none (`Rosa viene mañana`).
@@ -67,9 +65,14 @@ def opening_name(readings: Sequence[Reading], following: Sequence[Reading]) -> t
     Args:
         readings: Of the word.
         following: Of the word behind it; none at the end.
+        words: Of the language.
     """
     given = tuple(reading for reading in readings if reading.tag in _GIVEN)
-    says = bool(following) and following[0].tag.startswith("V:") and following[0].tag.endswith(_THIRD_PERSON)
+    says = (
+        bool(following)
+        and following[0].tag.startswith("V:")
+        and following[0].tag.endswith(words.subject_tags)
+    )
     others = tuple(reading for reading in readings if not is_persons_name(reading))
     if given and says:
         return (*given, *others)

@@ -6,28 +6,21 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
 from teo_common.text_folding import fold, strip_marks
-from teo_sign_translator.text.expressions import Expressions, Found
-from teo_sign_translator.text.numerals import (
-    ACCENTED_NUMBER_WORDS,
-    NUMBER_WORDS,
-    match_digits,
-    read_number_words,
-)
+from teo_sign_translator.text.expressions import Found
+from teo_sign_translator.text.numerals import Numerals
+from teo_sign_translator.text.rules import TextRules
 
 _LETTERS_AND_DIGITS = re.compile(r"[^\W_]+")
 _PAUSES = ",;:()[]{}–—―"
 #: Marks behind which a capital says nothing of the word; of a quote, only where one opens.
 _EXPLAINING = ":([{–—―•*¿¡"
 _QUOTES = "\"'"
-#: Laughter as it is typed, slips included: jajaja, jajja, jejeje, haha, xD.
-_LAUGHTER = re.compile(r"a?j[aj]*ja[aj]*|j[ej]*je[ej]*|j[ij]*ji[ij]*|h[ah]*ha[ah]*|xd+", re.IGNORECASE)
 _SHORTEST_LAUGHTER = 4
-_LAUGH = "risa"
 
 
 class WordKind(Enum):
@@ -117,17 +110,22 @@ class Reading:
     ignored: tuple[str, ...]
 
 
-def read(text: str) -> Reading:
-    """Split a clean text, as `cleaning.clean` gives it, into clauses and words."""
-    return _Reader(text, Expressions.load()).read()
+def read(text: str, rules: TextRules | None = None) -> Reading:
+    """Split a clean text, as `cleaning.clean` gives it, into clauses and words.
+
+    Args:
+        text: Clean text.
+        rules: Of its language; by default the default language's.
+    """
+    return _Reader(text, rules or TextRules.load()).read()
 
 
 class _Reader:
     """Goes through a text once, from left to right."""
 
-    def __init__(self, text: str, expressions: Expressions) -> None:
+    def __init__(self, text: str, rules: TextRules) -> None:
         self._text = text
-        self._expressions = expressions
+        self._rules = rules
         self._clauses: list[Clause] = []
         self._ignored: list[str] = []
         self._words: list[Word] = []
@@ -148,12 +146,12 @@ class _Reader:
         after = index + 1
         if character in "0123456789":
             return self._digits(index)
-        found = self._expressions.match(text, index)
+        found = self._rules.expressions.match(text, index)
         if found is not None and (found.expression.category != "unit" or self._after_number()):
             return self._expression(index, found)
         if _is_letter(character):
             after = _word_end(text, after)
-            if _is_laughter(text[index:after]):
+            if self._is_laughter(text[index:after]):
                 self._laugh(index, after)
             else:
                 self._add(
@@ -161,7 +159,7 @@ class _Reader:
                     index,
                 )
         elif character in "-−" and _is_minus(text, index):
-            self._add(Word((character,), WordKind.LETTERS, stands_for="menos"), index)
+            self._add(Word((character,), WordKind.LETTERS, stands_for=self._rules.words.minus), index)
         elif character in "?!":
             self._close(character, closes=True, stop=after)
         elif character in "¿¡":
@@ -183,7 +181,9 @@ class _Reader:
 
     def _digits(self, index: int) -> int:
         """Read a number, ordinal, time or date."""
-        said = match_digits(self._text, index, self._words[-1].lower if self._words else "")
+        said = self._rules.numbers.match_digits(
+            self._text, index, self._words[-1].lower if self._words else ""
+        )
         for part in said:
             typed = (self._text[part.start : part.stop],)
             kind = WordKind.NUMBER if part.value else WordKind.LETTERS
@@ -204,15 +204,22 @@ class _Reader:
     def _after_number(self) -> bool:
         """Whether a number stands just before, so that a unit may follow."""
         return bool(self._words) and (
-            self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in NUMBER_WORDS
+            self._words[-1].kind is WordKind.NUMBER or self._words[-1].fold in self._rules.numbers.words
         )
 
     def _laugh(self, start: int, stop: int) -> None:
         """Laughter is a sentence of its own: it says nothing of what stands beside it."""
         if self._words:
             self._close("", closes=True, stop=start)
-        self._add(Word((self._text[start:stop],), WordKind.LETTERS, stands_for=_LAUGH), start)
+        self._add(
+            Word((self._text[start:stop],), WordKind.LETTERS, stands_for=self._rules.words.laugh), start
+        )
         self._close("", closes=True, stop=stop)
+
+    def _is_laughter(self, word: str) -> bool:
+        return self._rules.words.laughter.fullmatch(word) is not None and (
+            len(word) >= _SHORTEST_LAUGHTER or word.lower().startswith("xd")
+        )
 
     def _points(self, start: int, stop: int) -> None:
         """One point or several: the end of the sentence, a pause, or part of an abbreviation or address."""
@@ -237,7 +244,7 @@ class _Reader:
     def _close(self, end: str, *, closes: bool, stop: int) -> None:
         """End the clause here; marks without words belong to the clause before."""
         if self._words:
-            words = _join_number_words(self._words)
+            words = _join_number_words(self._words, self._rules.numbers)
             self._clauses.append(Clause(words, self._opening, end, closes, self._start, stop))
         elif self._clauses:
             before = self._clauses[-1]
@@ -278,12 +285,6 @@ def _is_after_mark(text: str, index: int) -> bool:
     )
 
 
-def _is_laughter(word: str) -> bool:
-    return _LAUGHTER.fullmatch(word) is not None and (
-        len(word) >= _SHORTEST_LAUGHTER or word.lower().startswith("xd")
-    )
-
-
 def _is_minus(text: str, index: int) -> bool:
     """Whether a dash belongs to the number behind it: `-5`, but not `COVID-19` or `10-12`."""
     return text[index + 1 : index + 2].isdigit() and not text[max(0, index - 1) : index].isalnum()
@@ -293,14 +294,14 @@ def _stands_alone(text: str, index: int) -> bool:
     return not (text[max(0, index - 1) : index].strip() and text[index + 1 : index + 2].strip())
 
 
-def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
+def _join_number_words(words: Sequence[Word], numbers: Numerals) -> tuple[Word, ...]:
     """Make one word of words that say one number."""
-    folded = [_number_key(word) for word in words]
+    folded = [_number_key(word, numbers.accented) for word in words]
     result: list[Word] = []
     index = 0
     while index < len(words):
         # The longest number below a million takes eleven words.
-        value, used = read_number_words(folded[index : index + 12])
+        value, used = numbers.read_words(folded[index : index + 12])
         if used:
             parts = tuple(part for word in words[index : index + used] for part in word.parts)
             result.append(Word(parts, WordKind.NUMBER, str(value)))
@@ -311,7 +312,7 @@ def _join_number_words(words: Sequence[Word]) -> tuple[Word, ...]:
     return tuple(result)
 
 
-def _number_key(word: Word) -> str:
+def _number_key(word: Word, accented: Collection[str]) -> str:
     """A word as numbers are looked up; empty if it can be part of none: "Díez" is a name, not ten."""
-    typed_right = word.fold == word.lower or word.lower in ACCENTED_NUMBER_WORDS
+    typed_right = word.fold == word.lower or word.lower in accented
     return word.fold if word.kind is WordKind.LETTERS and typed_right else ""

@@ -12,6 +12,7 @@ from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
 from teo_sign_translator.text.names import introduces, name_readings, opening_name
 from teo_sign_translator.text.numerals import roman_value
 from teo_sign_translator.text.reading import Clause, Word, WordKind, read
+from teo_sign_translator.text.rules import SpecialWords, TextRules
 
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
@@ -53,24 +54,26 @@ def source_words(sentence: str, morphology: Morphology) -> tuple[SourceWord, ...
     Raises:
         TranslationError: See `cleaning.clean`.
     """
-    return words_of_clauses(read(clean(sentence).text).clauses, morphology)
+    rules = TextRules.load(morphology.folder)
+    return words_of_clauses(read(clean(sentence).text, rules).clauses, morphology)
 
 
 def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple[SourceWord, ...]:
     """The words and marks of a sentence that has been read."""
+    special = TextRules.load(morphology.folder).words
     shouted = _capitals_mean_nothing([word for clause in clauses for word in clause.words])
     words: list[SourceWord] = []
     openings: list[int] = []
     begins = True
     for clause in clauses:
         begins = begins or bool(clause.opening)
-        for word in _asking_why(clause):
+        for word in _asking_why(clause, special):
             begins = begins or word.after_mark
             written = word.capitalised and not word.stands_for
             if begins and written:
                 openings.append(len(words))
             capital = written and not begins and not shouted
-            introduced = bool(words) and introduces(words[-1].readings)
+            introduced = bool(words) and introduces(words[-1].readings, special)
             words.append(_source_word(word, capital, morphology, shouted=shouted, introduced=introduced))
             begins = False
         if clause.end:
@@ -78,7 +81,7 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         begins = clause.closes
     for place in openings:
         following = words[place + 1].readings if place + 1 < len(words) else ()
-        readings = opening_name(_all_readings(words[place], morphology), following)
+        readings = opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
     return tuple(words)
 
@@ -90,13 +93,12 @@ def _all_readings(word: SourceWord, morphology: Morphology) -> tuple[Reading, ..
     return morphology.readings(word.form)
 
 
-def _asking_why(clause: Clause) -> Sequence[Word]:
+def _asking_why(clause: Clause, special: SpecialWords) -> Sequence[Word]:
     """The words of a clause; "porque" at the beginning of a question is "por qué" typed in haste."""
     first = clause.words[0]
-    if first.lower != "porque" or (clause.end != "?" and clause.opening != "¿"):
+    if first.lower != special.asked_reason or (clause.end != "?" and clause.opening != "¿"):
         return clause.words
-    why = (replace(first, stands_for="por"), replace(first, stands_for="qué"))
-    return (*why, *clause.words[1:])
+    return (*(replace(first, stands_for=word) for word in special.reason), *clause.words[1:])
 
 
 _MARKS = {mark: (Reading(mark, "MARK"),) for mark in (",", ".", "?", "!")}

@@ -59,6 +59,6 @@ def sample(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
 
 
 def without(pairs: list[Pair], sentences: Iterable[str]) -> list[Pair]:
-    """The pairs whose Spanish, however typed, is none of the sentences."""
+    """The pairs whose text, however typed, is none of the sentences."""
     unwanted = set(map(folded, sentences))
-    return [pair for pair in pairs if folded(pair.spanish) not in unwanted]
+    return [pair for pair in pairs if folded(pair.text) not in unwanted]

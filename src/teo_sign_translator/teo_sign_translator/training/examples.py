@@ -127,13 +127,13 @@ class ExampleReader:
         links: list[tuple[int, int]] = []
         starts: list[tuple[int, int, int]] = [(0, 0, 0)]
         for pair in pairs:
-            rows = [self._row(word) for word in self.read(pair.spanish)]
+            rows = [self._row(word) for word in self.read(pair.text)]
             if len(pair.alignment) != len(pair.glosses) or any(
                 not 0 <= place < len(rows) for places in pair.alignment for place in places
             ):
                 raise TranslationError(
                     "invalid_data",
-                    f"expected for each gloss of '{pair.spanish}' places among its {len(rows)} words, got "
+                    f"expected for each gloss of '{pair.text}' places among its {len(rows)} words, got "
                     f"{pair.alignment} for {pair.glosses}",
                 )
             links += (

@@ -70,7 +70,7 @@ def train_published(
             "command": command,
             "config": dataclasses.asdict(config),
             "data": {
-                "files": ["data/paper_alignment.tsv", "data/project_pairs.tsv"],
+                "files": ["text/paper_alignment.tsv", "text/project_pairs.tsv"],
                 "sha256": training_data_hash(),
                 "pairs": len(training_pairs()),
                 "examples": len(examples),

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 from teo_common.text_folding import without_accents
 from teo_sign_translator.corpus.pairs_file import Pair
@@ -21,11 +22,12 @@ _NUMBERS = ("7", "siete", "12", "treinta y cinco", "40", "veintitrés")
 _NOT_LETTERS = re.compile(r"[¿?¡!.,:;…]+")
 
 
-def memorised_pairs(read: Reader) -> tuple[Pair, ...]:
+def memorised_pairs(read: Reader, folder: Path | None = None) -> tuple[Pair, ...]:
     """All of `training_pairs`, their slots filled in several ways, with and without a full stop.
 
     Args:
         read: How sentences become words.
+        folder: The language's text folder; by default that of the default language.
 
     Raises:
         TranslationError: "invalid_data" if a gloss stands for a word that is not read from its sentence.
@@ -33,7 +35,7 @@ def memorised_pairs(read: Reader) -> tuple[Pair, ...]:
     return tuple(
         dict.fromkeys(
             filled(replace(pair, sentence=pair.sentence + stop), name, number, read)
-            for pair in training_pairs()
+            for pair in training_pairs(folder)
             for name, number in zip(_NAMES, _NUMBERS, strict=True)
             for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
         )

@@ -16,6 +16,7 @@ import torch
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from teo_sign_languages import Language
 from teo_sign_translator.corpus import Pair
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
@@ -40,6 +41,7 @@ class TrainingData:
         by_heart: The paper's and the project's pairs.
         corpus: Where they come from.
         sha256: Of the corpus files.
+        language: That is learned.
     """
 
     train: list[Pair]
@@ -47,6 +49,7 @@ class TrainingData:
     by_heart: tuple[Pair, ...]
     corpus: Path
     sha256: str
+    language: Language
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +69,9 @@ class TrainedModel:
     unknown: tuple[str, ...]
 
 
-def load_training_data(corpus: Path, read: Reader, pairs: int | None, seed: int) -> TrainingData:
+def load_training_data(
+    corpus: Path, read: Reader, pairs: int | None, seed: int, language: Language
+) -> TrainingData:
     """Read a corpus.
 
     Args:
@@ -74,14 +79,15 @@ def load_training_data(corpus: Path, read: Reader, pairs: int | None, seed: int)
         read: How sentences become words.
         pairs: Most training pairs, chosen at random; all by default.
         seed: Of that choice.
+        language: Of the corpus.
 
     Raises:
         TranslationError: "invalid_data".
     """
     splits = read_splits(corpus)
-    by_heart = memorised_pairs(read)
-    train = without(splits.pop("train"), (pair.spanish for pair in by_heart))
-    return TrainingData(sample(train, pairs, seed), splits, by_heart, corpus, corpus_hash(corpus))
+    by_heart = memorised_pairs(read, language.text)
+    train = without(splits.pop("train"), (pair.text for pair in by_heart))
+    return TrainingData(sample(train, pairs, seed), splits, by_heart, corpus, corpus_hash(corpus), language)
 
 
 def train_model(
@@ -127,7 +133,9 @@ def train_model(
             data.train, dev, data.by_heart, read, network, config, device=device, on_progress=show
         )
     card = {
-        "description": "Reads Spanish words with their readings, says LSE glosses; see pointer/config.py.",
+        "description": f"Reads {data.language.spoken.name} words with their readings, says "
+        f"{data.language.names.short} glosses; see pointer/config.py.",
+        "language": data.language.code,
         "command": command,
         "training": dataclasses.asdict(config),
         "data": {
@@ -169,19 +177,18 @@ def train_model(
         for split, pairs in data.held_out.items()
         if pairs
     }
-    unknown = not_memorised(model, read)
     # Half precision counts: the figures are those of the files.
-    result |= {
-        "scores": {split: dataclasses.asdict(each) for split, each in scores.items()},
-        "paper_sentences_wrong": len(unknown),
-    }
+    result["scores"] = {split: dataclasses.asdict(each) for split, each in scores.items()}
+    unknown = not_memorised(model, read) if data.by_heart else ()
+    if data.by_heart:
+        result["paper_sentences_wrong"] = len(unknown)
     save()
     return TrainedModel(model, fit, scores, unknown)
 
 
 def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:
     """Translate pairs, the likeliest gloss each time, and compare."""
-    got = model.translate_all([read(pair.spanish) for pair in pairs])
+    got = model.translate_all([read(pair.text) for pair in pairs])
     return score(
         [pair.glosses for pair in pairs],
         [tuple(gloss.gloss for gloss in hypotheses[0].glosses) for hypotheses in got],

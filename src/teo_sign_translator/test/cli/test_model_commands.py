@@ -90,7 +90,7 @@ def test_the_zoo_is_compared_in_a_table_and_plots_and_evaluated(
     for word in ("test_words", "statement", "BLEU"):
         assert word in said
     wrong = (tmp_path / "wrong.tsv").read_text("utf-8").splitlines()
-    assert wrong[0].startswith("split\trule\tspanish")
+    assert wrong[0].startswith("split\trule\ttext")
     with pytest.raises(TranslationError) as error:
         evaluate.run("pointer", corpus, models=tmp_path, split=["holdout"], beam=1, pairs=10, seed=1, worst=0)
     assert error.value.code == "invalid_data"
@@ -113,7 +113,7 @@ def test_a_corpus_is_read_by_split_and_sampled_always_alike(corpus: Path) -> Non
     assert splits["test_templates"] == []
     assert sample(splits["train"], 10, 1) == sample(splits["train"], 10, 1) != sample(splits["train"], 10, 2)
     assert sample(splits["dev"], None, 1) == splits["dev"]
-    first = splits["train"][0].spanish
+    first = splits["train"][0].text
     assert len(without(splits["train"], [first.lower().rstrip(".")])) == sum(
-        pair.spanish != first for pair in splits["train"]
+        pair.text != first for pair in splits["train"]
     )

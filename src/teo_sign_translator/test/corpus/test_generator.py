@@ -70,14 +70,14 @@ def test_every_sentence_occurs_once_but_set_phrases_and_every_split_has_its_shar
         for family in generator.grammar.families
         for rule in family.rules
     }
-    seen = Counter((pair.spanish, ".".join(pair.rule.split(".")[:2])) for pair in pairs)
+    seen = Counter((pair.text, ".".join(pair.rule.split(".")[:2])) for pair in pairs)
     assert max(seen.values()) > 1
     assert not [each for each, count in seen.items() if count > repeat[each[1]]]
 
 
 def test_what_is_repeated_is_repeated_in_training_alone(pairs):
-    train = {pair.spanish for pair in pairs if pair.split == "train"}
-    others = [pair.spanish for pair in pairs if pair.split != "train"]
+    train = {pair.text for pair in pairs if pair.split == "train"}
+    others = [pair.text for pair in pairs if pair.split != "train"]
     assert len(set(others)) == len(others)
     assert not train & set(others)
 
@@ -109,14 +109,14 @@ SAYS_A_CONSTRUCTION = re.compile(
 
 def test_constructions_held_out_are_said_in_a_split_of_their_own_alone(generator):
     pairs = list(generator.pairs(2000, seed=3, hold_out_constructions=True))
-    taught = [pair.spanish for pair in pairs if pair.split != "test_constructions"]
+    taught = [pair.text for pair in pairs if pair.split != "test_constructions"]
     held = [pair for pair in pairs if pair.split == "test_constructions"]
     assert len(held) == 40
     assert not [spanish for spanish in taught if SAYS_A_CONSTRUCTION.search(spanish.lower())]
     conditional = [spanish for spanish in taught if re.search(r"\bsi\b", spanish.lower())]
     assert all(spanish.lower().startswith("a ver si ") for spanish in conditional)  # a wish
-    assert len([pair for pair in held if SAYS_A_CONSTRUCTION.search(pair.spanish.lower())]) > 5
-    assert [pair for pair in held if pair.spanish.startswith("Si ")]
+    assert len([pair for pair in held if SAYS_A_CONSTRUCTION.search(pair.text.lower())]) > 5
+    assert [pair for pair in held if pair.text.startswith("Si ")]
 
 
 def test_without_holding_them_out_every_construction_is_taught(generator, train):
@@ -132,7 +132,7 @@ def test_no_template_makes_more_than_its_share(train):
 
 
 def test_most_sentences_are_short(train):
-    lengths = sorted(len(pair.spanish.split()) for pair in train)
+    lengths = sorted(len(pair.text.split()) for pair in train)
     assert lengths[len(lengths) // 2] <= 7
 
 
@@ -151,14 +151,14 @@ def test_alignments_point_into_the_sentence_and_every_content_word_is_signed(pai
 
     lost = []
     for pair in pairs:
-        words = source_words(pair.spanish, morphology)
+        words = source_words(pair.text, morphology)
         signed = {place for places in pair.alignment for place in places}
         assert max(signed) < len(words), pair
         for place, word in enumerate(words):
             is_mark = word.readings[0].tag == "MARK"
             goes_to = word.readings[0].lemma == "ir"  # "va a hacer frío": an auxiliary
             if place not in signed and not is_mark and not goes_to and not may_be_left_out(word):
-                lost.append((word.text, pair.spanish))
+                lost.append((word.text, pair.text))
     assert not lost
 
 
@@ -166,12 +166,12 @@ def test_glosses_point_at_the_words_that_say_them(pairs, morphology):
     """A gloss that is the lemma of some word in the sentence, and stands once, points at such a word."""
     wrong = []
     for pair in pairs:
-        words = source_words(pair.spanish, morphology)
+        words = source_words(pair.text, morphology)
         lemmas = [{reading.lemma.upper() for reading in word.readings} for word in words]
         for gloss, places in zip(pair.glosses, pair.alignment, strict=True):
             having = [place for place, each in enumerate(lemmas) if gloss in each]
             if len(having) == 1 and places and having[0] not in places and len(gloss) > 4:
-                wrong.append((gloss, pair.spanish))
+                wrong.append((gloss, pair.text))
     assert len(wrong) < len(pairs) / 500, wrong[:10]
 
 
@@ -181,7 +181,7 @@ def test_no_gloss_is_one_that_a_translation_would_be_refused_for(pairs, morpholo
         said = [
             OutputGloss(*each, 1.0, copied=False) for each in zip(pair.glosses, pair.alignment, strict=True)
         ]
-        assert not evidence.invented(source_words(pair.spanish, morphology), said), pair
+        assert not evidence.invented(source_words(pair.text, morphology), said), pair
 
 
 def test_articles_agree_with_their_nouns(pairs, morphology):
@@ -208,14 +208,14 @@ def test_articles_agree_with_their_nouns(pairs, morphology):
     for pair in pairs:
         if pair.rule == "statement.object_first":
             continue  # "La basura la bajo": its pronoun stands before a verb
-        words = pair.spanish.lower().strip("¿¡.?!").replace(",", "").split()
+        words = pair.text.lower().strip("¿¡.?!").replace(",", "").split()
         for article, noun in pairwise(words):
             if article in articles and gender.get(noun) in ({"m"}, {"f"}):
                 if any(reading.tag.startswith("V") for reading in morphology.readings(noun)):
                     continue  # "la bajo": a pronoun before a verb that is written as a noun
                 checked += 1
                 expected = "m" if noun in stressed else next(iter(gender[noun]))
-                assert articles[article] == expected, pair.spanish
+                assert articles[article] == expected, pair.text
     assert checked > 300
 
 
@@ -228,7 +228,7 @@ def test_every_word_is_spanish(pairs, generator):
     }
     unknown = Counter()
     for pair in pairs:
-        for word in pair.spanish.lower().replace("¿", "").replace("¡", "").split():
+        for word in pair.text.lower().replace("¿", "").replace("¡", "").split():
             bare = word.strip(".,?!")
             host = strip_accents(ENCLITICS.sub("", bare))
             spellings = (bare, host, host + "r", host + "d", host + "s", host[:-1] + "ír")
@@ -252,8 +252,8 @@ def test_the_question_word_is_last(train):
         pair
         for pair in train
         if pair.rule.startswith("questions_")
-        and pair.spanish.endswith("?")
-        and "qué tal" not in pair.spanish.lower()
+        and pair.text.endswith("?")
+        and "qué tal" not in pair.text.lower()
     ]
     assert len(questions) > 300
     assert not [pair for pair in questions if pair.glosses[-1] not in QUESTION_GLOSSES]
@@ -263,8 +263,7 @@ def test_negation_comes_last_in_statements(train):
     statements = [
         pair
         for pair in train
-        if pair.rule.startswith("statement.")
-        and pair.spanish.lower().startswith(("no ", "nunca ", "tampoco "))
+        if pair.rule.startswith("statement.") and pair.text.lower().startswith(("no ", "nunca ", "tampoco "))
     ]
     assert len(statements) > 5
     wrong = [pair for pair in statements if not set(pair.glosses[-2:]) & set(NEGATIONS)]
@@ -275,7 +274,7 @@ def test_nothing_is_signed_that_signers_leave_out(train):
     """Counted on elicited phrases and the LSE-RADIS narratives: see the corpus README."""
     ours = [pair for pair in train if pair.rule != "paper"]
     for pair in ours:
-        words = pair.spanish.lower()
+        words = pair.text.lower()
         if {"PASADO", "FUTURO"} & set(pair.glosses):
             assert re.search(r"pasad|hace|dentro|\bde (peque|jov|niñ)|futuro|una vez", words), pair
         assert "SENTIR" not in pair.glosses, pair
@@ -285,7 +284,7 @@ def test_nothing_is_signed_that_signers_leave_out(train):
 
 def test_a_translation_is_about_as_long_as_signers_make_it(train):
     """4.2 signs for 5.8 words, 0.72 signs a word."""
-    words = sum(len(re.findall(r"\w+", pair.spanish)) for pair in train)
+    words = sum(len(re.findall(r"\w+", pair.text)) for pair in train)
     assert 0.68 < sum(len(pair.glosses) for pair in train) / words < 0.80
 
 
@@ -296,21 +295,21 @@ def test_numbers_stand_before_what_they_count(train):
         if pair.rule.startswith(("possession.have_number", "numbers.costs", "weather.degrees"))
     ]
     assert len(counted) > 10
-    assert not [pair for pair in counted if pair.glosses[-1].isdigit() and "con" not in pair.spanish]
+    assert not [pair for pair in counted if pair.glosses[-1].isdigit() and "con" not in pair.text]
 
 
 def test_time_comes_first_and_replaces_the_mark_of_tense(train):
     timed = [pair for pair in train if pair.rule.startswith(("statement.", "yes_no.when."))]
     for spanish, gloss in (("ayer", "AYER"), ("anoche", "ANOCHE"), ("hoy", "HOY")):
-        found = [pair for pair in timed if spanish in pair.spanish.lower().strip("¿?.").split()]
+        found = [pair for pair in timed if spanish in pair.text.lower().strip("¿?.").split()]
         assert found
-        first = [pair for pair in found if f"desde {spanish}" not in pair.spanish.lower()]
+        first = [pair for pair in found if f"desde {spanish}" not in pair.text.lower()]
         assert all(pair.glosses[0] == gloss for pair in first if spanish != "ayer" or "AYER" in pair.glosses)
         assert not [pair for pair in found if "PASADO" in pair.glosses[:1] or "FUTURO" in pair.glosses]
 
 
 def test_the_papers_sentences_are_in_the_corpus_as_the_paper_translates_them(morphology):
-    own = {pair.spanish: pair.glosses for pair in own_pairs(morphology)}
+    own = {pair.text: pair.glosses for pair in own_pairs(morphology)}
     for pair in paper_pairs():
         if "X" not in pair.sentence:
             assert own[pair.sentence] == tuple(map(gloss_name, pair.glosses))
@@ -319,7 +318,7 @@ def test_the_papers_sentences_are_in_the_corpus_as_the_paper_translates_them(mor
 
 
 def test_unwanted_sentences_do_not_occur_however_they_are_typed(generator):
-    first = [pair.spanish for pair in generator.pairs(200, seed=3)]
+    first = [pair.text for pair in generator.pairs(200, seed=3)]
     unwanted = [strip_accents(sentence).upper().replace(" ", "  ").strip("¿¡.?!") for sentence in first[:50]]
-    second = {pair.spanish for pair in generator.pairs(200, seed=3, leave_out=unwanted)}
+    second = {pair.text for pair in generator.pairs(200, seed=3, leave_out=unwanted)}
     assert not second & set(first[:50])

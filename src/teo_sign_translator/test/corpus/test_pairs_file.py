@@ -46,7 +46,7 @@ def test_what_is_written_is_read_again(tmp_path_factory, pairs):
 )
 def test_a_line_that_is_no_pair_is_reported_with_its_number(tmp_path, line):
     path = tmp_path / "pairs.tsv"
-    path.write_text(f"spanish\tglosses\talignment\trule\tsplit\n{line}\n", encoding="utf-8")
+    path.write_text(f"text\tglosses\talignment\trule\tsplit\n{line}\n", encoding="utf-8")
     with pytest.raises(TranslationError, match=r"pairs\.tsv, line 2"):
         list(read_pairs(path))
 

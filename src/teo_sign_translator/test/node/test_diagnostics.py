@@ -36,5 +36,7 @@ def test_a_refused_text_is_a_warning_once() -> None:
     for refusals in (0, 2, 0):
         for _ in range(refusals):
             statistics.add_refused("[queue_full] too many")
-        levels.append(diagnose(statistics, model="m", active=True, waiting=0, signs=None).level)
+        levels.append(
+            diagnose(statistics, language="ssp", model="m", active=True, waiting=0, signs=None).level
+        )
     assert levels == [Level.OK, Level.WARN, Level.OK]

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import made_languages
 import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -326,19 +327,20 @@ def test_the_executors_signs_are_used_as_they_change(bench: Bench) -> None:
     glosses = ["A", "HOLA"]
 
     def list_signs(_: ListSigns.Request, response: ListSigns.Response) -> ListSigns.Response:
+        response.language = "ssp"
         response.glosses = glosses
         response.kinds = [SignToken.KIND_LETTER] + [SignToken.KIND_LEXICAL] * (len(glosses) - 1)
         return response
 
     bench.person.create_service(ListSigns, "list_signs", list_signs)
-    bench.wait(lambda: bench.node._inventory.signs == {"HOLA"}, "the signs")
+    bench.wait(lambda: bench.node._inventory.signs("ssp") == {"HOLA"}, "the signs")
     bench.type("Hola", "Adiós")
     first, second = bench.wait_for(2)
     assert [token.kind for token in first.tokens] == [SignToken.KIND_LEXICAL]
     assert [token.gloss for token in second.tokens] == list("ADIOS")
     assert {token.origin for token in second.tokens} == {SignToken.ORIGIN_SPELLED}
     glosses.append("CHAO")
-    bench.wait(lambda: "CHAO" in (bench.node._inventory.signs or ()), "the new sign")
+    bench.wait(lambda: "CHAO" in (bench.node._inventory.signs("ssp") or ()), "the new sign")
     (token,) = bench.ask("Adiós").sentences[0].tokens
     assert (token.gloss, token.origin) == ("CHAO", SignToken.ORIGIN_SYNONYM)
 
@@ -373,3 +375,35 @@ def test_a_node_with_an_unknown_model_cannot_be_configured(domain_id: int) -> No
     assert not node.start()
     node.destroy_node()
     rclpy.shutdown(context=context)
+
+
+def test_a_language_is_changed_while_texts_wait_and_each_stays_in_its_own(
+    bench: Bench, data_home: Path
+) -> None:
+    folder = made_languages.make_language(data_home)
+    worker = bench.node._worker
+    assert worker is not None
+    with bench.node._translating:
+        bench.type("Hola", "¿Qué tal?")
+        bench.wait(lambda: worker.waiting > 0, "a text that came")
+        (result,) = bench.node.set_parameters([Parameter("language", value=folder.name)])
+        assert result.successful
+    bench.type("Hola")
+    first, _, last = bench.wait_for(3)
+    assert (first.language, last.language) == ("ssp", folder.name)
+    bench.wait(lambda: len(bench.outcomes) == 3, "the outcomes")
+    assert bench.outcomes[-1].language == folder.name
+
+
+@pytest.mark.parametrize(
+    ("code", "reason"), [("qqq", "unknown_language"), (made_languages.CODE, "invalid_language")]
+)
+def test_an_unknown_or_broken_language_is_refused_and_the_one_before_serves_on(
+    bench: Bench, data_home: Path, code: str, reason: str
+) -> None:
+    file = made_languages.make_language(data_home) / "language.yaml"
+    file.write_text(file.read_text("utf-8").replace("spoken:", "talked:"), "utf-8")
+    (result,) = bench.node.set_parameters([Parameter("language", value=code)])
+    assert not result.successful
+    assert result.reason.startswith(f"[{reason}]")
+    assert bench.ask("Hola").sentences[0].language == "ssp"

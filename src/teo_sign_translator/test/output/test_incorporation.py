@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.output.incorporation import with_numbers_incorporated
+from teo_sign_translator.data_files import data_file
+from teo_sign_translator.output.incorporation import (
+    INCORPORATED_NUMBERS,
+    read_incorporated,
+    with_numbers_incorporated,
+)
 from teo_sign_translator.output.output_words import OutputWord, lexical, number
 
 SIGNS = frozenset({"SEMANA", "MES", "DOS_SEMANAS", "TRES_MESES", "NOSOTROS_DOS", "YO"})
+
+
+INCORPORATED = read_incorporated(data_file(INCORPORATED_NUMBERS))
 
 
 def words(text: str) -> list[OutputWord]:
@@ -18,7 +26,9 @@ def words(text: str) -> list[OutputWord]:
 
 
 def said(text: str, signs: frozenset[str] | None = SIGNS) -> str:
-    return " ".join(" ".join(word.signs) for word in with_numbers_incorporated(words(text), signs))
+    return " ".join(
+        " ".join(word.signs) for word in with_numbers_incorporated(words(text), signs, INCORPORATED)
+    )
 
 
 @pytest.mark.parametrize(
@@ -47,6 +57,6 @@ def test_nothing_is_put_together_while_the_table_is_not_known() -> None:
 
 
 def test_one_sign_says_the_words_of_both_and_is_as_sure_as_the_less_sure() -> None:
-    (word,) = with_numbers_incorporated(words("2 SEMANA"), SIGNS)
+    (word,) = with_numbers_incorporated(words("2 SEMANA"), SIGNS, INCORPORATED)
     assert word.words == ("2", "semana")
     assert word.confidence == 0.8

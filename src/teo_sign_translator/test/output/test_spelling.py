@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.output.spelling import letters, unsignable
+from teo_sign_translator.output.spelling import Spelling
 
 
 @pytest.mark.parametrize(
@@ -24,9 +24,9 @@ from teo_sign_translator.output.spelling import letters, unsignable
     ],
 )
 def test_spelling(word: str, signs: str) -> None:
-    assert letters(word) == tuple(signs.split())
-    assert unsignable(word) == ()
+    assert Spelling.load().letters(word) == tuple(signs.split())
+    assert Spelling.load().unsignable(word) == ()
 
 
 def test_what_no_letter_sign_exists_for_is_named_once() -> None:
-    assert unsignable("Иван и Иван"[:4] + "aИ") == ("И", "в", "а", "н")
+    assert Spelling.load().unsignable("Иван и Иван"[:4] + "aИ") == ("И", "в", "а", "н")

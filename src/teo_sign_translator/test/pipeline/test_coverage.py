@@ -68,8 +68,8 @@ def test_what_the_grammar_translates_loses_no_word() -> None:
     lossy = []
     for pair in pairs:
         glosses = zip(pair.glosses, pair.alignment, strict=True)
-        lost = _lost(pair.spanish, *glosses)
+        lost = _lost(pair.text, *glosses)
         if lost:
-            lossy.append(f"{pair.spanish} -> {' '.join(pair.glosses)}: {lost}")
+            lossy.append(f"{pair.text} -> {' '.join(pair.glosses)}: {lost}")
     # The odd rule leaves a word to the context; many would be a list that the grammar has outgrown.
     assert len(lossy) < 0.01 * len(pairs), "\n".join(lossy[:20])

@@ -9,7 +9,10 @@ from word_by_word_model import MORPHOLOGY, WordByWordModel
 
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pipeline.long_sentences import MOST_WORDS, parts, pieces
+from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.source_words import source_words
+
+JOINTS = TextRules.load().sentences.joints
 
 
 @pytest.mark.parametrize(
@@ -26,7 +29,7 @@ from teo_sign_translator.text.source_words import source_words
 )
 def test_a_sentence_is_divided_at_marks_and_between_verbs(sentence: str, expected: str) -> None:
     words = source_words(sentence, MORPHOLOGY)
-    got = [" ".join(word.form for word in words[piece.start : piece.stop]) for piece in pieces(words)]
+    got = [" ".join(word.form for word in words[piece.start : piece.stop]) for piece in pieces(words, JOINTS)]
     assert " | ".join(got) == expected
 
 
@@ -46,7 +49,7 @@ def test_pieces_are_joined_with_their_places_and_conjunctions() -> None:
             piece,
             repair.repair(words[piece.start : piece.stop], model.translate(words[piece.start : piece.stop])),
         )
-        for piece in pieces(words)
+        for piece in pieces(words, JOINTS)
     ]
     whole = repair.join(words, translated)
     assert [(words[gloss.sources[0]].form, len(gloss.sources)) for gloss in whole.glosses] == [

@@ -15,7 +15,7 @@ from word_by_word_model import translator_with
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.output.spelling import ALPHABET
+from teo_sign_translator.output.spelling import Spelling
 from teo_sign_translator.output.translation import Kind, Translation
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
@@ -124,7 +124,7 @@ def _assert_well_formed(translation: Translation) -> None:
             assert token.duration_scale > 0
             assert len(token.gloss) <= 64
             if token.kind is Kind.LETTER:
-                assert token.gloss in ALPHABET
+                assert token.gloss in Spelling.load().alphabet
             elif token.kind is Kind.NUMBER:
                 assert re.fullmatch("[0-9]{1,6}", token.gloss)
             elif token.kind is Kind.PAUSE:

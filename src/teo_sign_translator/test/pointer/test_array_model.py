@@ -36,7 +36,7 @@ def test_each_model_learns_a_few_sentences_by_heart(name: str) -> None:
     # Stacked LSTMs are slow to begin; simple RNNs forget with steps as large as theirs and need more of them.
     rate, epochs = {"rnn": (0.005, 60), "gru": (0.01, 45), "lstm": (0.02, 45)}[ZOO[name].cell]
     trained = fit_small(name, pairs * 20, epochs=epochs, learning_rate=rate)
-    got = small_model(name, trained).translate_all([read(pair.spanish) for pair in pairs])
+    got = small_model(name, trained).translate_all([read(pair.text) for pair in pairs])
     assert [glosses_of(best) for best, *_ in got] == [pair.glosses for pair in pairs]
 
 
@@ -64,7 +64,7 @@ def test_plain_arrays_say_what_pytorch_says(name: str) -> None:
         with torch.no_grad():
             said = network(on_device(batch, torch.device("cpu")))
         expected = np.exp(said.log_probability[0].numpy())
-        words = read(pairs[place].spanish)
+        words = read(pairs[place].text)
         if config.layout == "equal_length":
             np.testing.assert_allclose(arrays.positions(arrays.encode([words], 4))[0], expected, atol=1e-4)
             continue
@@ -100,7 +100,7 @@ def test_glosses_name_the_words_that_they_stand_for(pointer: SentenceModel) -> N
     pairs = sentence_pairs(40, seed=2)
     right = 0
     for pair in pairs:
-        (best,) = pointer.translate(read(pair.spanish))
+        (best,) = pointer.translate(read(pair.text))
         right += tuple(gloss.sources for gloss in best.glosses) == pair.alignment
     assert right >= 38
 
@@ -111,7 +111,7 @@ def test_a_generated_gloss_is_not_called_copied(pointer: SentenceModel) -> None:
 
 
 def test_a_beam_never_ends_below_the_likeliest_gloss_each_time(pointer: SentenceModel) -> None:
-    sentences = [read(pair.spanish) for pair in sentence_pairs(60, seed=3)] + [
+    sentences = [read(pair.text) for pair in sentence_pairs(60, seed=3)] + [
         read("zzz Qu el no no los xx ?? aa")
     ]
     for greedy, wide in zip(
@@ -132,7 +132,7 @@ def test_the_probability_of_a_translation_is_that_of_its_glosses_and_its_end(poi
 
 @pytest.mark.parametrize("beam", [1, 3])
 def test_many_sentences_together_are_translated_as_one_by_one(pointer: SentenceModel, beam: int) -> None:
-    sentences = [read(pair.spanish) for pair in sentence_pairs(30, seed=4)] + [()]
+    sentences = [read(pair.text) for pair in sentence_pairs(30, seed=4)] + [()]
     together = pointer.translate_all(sentences, beam=beam)
     for words, hypotheses in zip(sentences, together, strict=True):
         alone = pointer.translate(words, beam=beam)

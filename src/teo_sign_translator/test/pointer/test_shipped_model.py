@@ -45,9 +45,9 @@ def test_the_papers_pairs_come_out_exactly_however_they_are_typed() -> None:
 
 def test_the_projects_pairs_come_out_exactly() -> None:
     pairs = memorised_pairs(read())
-    wrong = {pair.spanish: _translated(pair.spanish) for pair in pairs}
+    wrong = {pair.text: _translated(pair.text) for pair in pairs}
     wrong = {
-        sentence: got for pair in pairs if (got := wrong[sentence := pair.spanish]) != " ".join(pair.glosses)
+        sentence: got for pair in pairs if (got := wrong[sentence := pair.text]) != " ".join(pair.glosses)
     }
     assert wrong == {}
 
@@ -78,7 +78,7 @@ def test_the_scores_on_the_card_hold_for_sentences_made_anew(generated_pairs: li
     scores = read_card(POINTER, SCHEMA)["result"]["scores"]
     made = [pair for pair in generated_pairs if pair.split in scores]
     claimed = sum(scores[pair.split]["exact"] for pair in made)
-    right = sum(_translated(pair.spanish) == " ".join(pair.glosses) for pair in made)
+    right = sum(_translated(pair.text) == " ".join(pair.glosses) for pair in made)
     # Three standard deviations of a share of 0.94.
     assert len(made) == 350
     assert right > claimed - 13

@@ -39,7 +39,7 @@ def test_a_saved_model_says_the_same_after_loading(tmp_path: Path) -> None:
     assert available_models(tmp_path) == ("small",)
     loaded = load_sentence_model("small", tmp_path)
     for pair in sentence_pairs(10):
-        (expected,), (got,) = model.translate(read(pair.spanish)), loaded.translate(read(pair.spanish))
+        (expected,), (got,) = model.translate(read(pair.text)), loaded.translate(read(pair.text))
         assert glosses_of(expected) == glosses_of(got)
         assert expected.log_probability == pytest.approx(got.log_probability, abs=0.02)  # half precision
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]

@@ -6,8 +6,10 @@ import pytest
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.text.cleaning import clean
-from teo_sign_translator.text.numerals import match_digits, read_number_words
 from teo_sign_translator.text.reading import read
+from teo_sign_translator.text.rules import TextRules
+
+NUMBERS = TextRules.load().numbers
 
 
 @pytest.mark.parametrize(
@@ -123,7 +125,7 @@ def test_reading_finds_where_sentences_end(text: str, ends: list[tuple[str, bool
     ],
 )
 def test_number_words_are_read(words: str, value: int, used: int) -> None:
-    assert read_number_words(words.split()) == (value, used)
+    assert NUMBERS.read_words(words.split()) == (value, used)
 
 
 @pytest.mark.parametrize(
@@ -141,4 +143,4 @@ def test_number_words_are_read(words: str, value: int, used: int) -> None:
     ],
 )
 def test_digits_are_read_as_spanish_writes_them(text: str, values: list[str]) -> None:
-    assert [part.value for part in match_digits(text, 0)] == values
+    assert [part.value for part in NUMBERS.match_digits(text, 0)] == values

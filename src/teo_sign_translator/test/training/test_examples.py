@@ -69,7 +69,7 @@ def _typing(variant: int = 0, final: bool = False, marks: bool = False) -> Typin
 
 def test_pairs_typed_as_written_are_what_was_read() -> None:
     pairs, table = examples()
-    assert _sentences(pairs, table) == [[word.form for word in read()(pair.spanish)] for pair in PAIRS]
+    assert _sentences(pairs, table) == [[word.form for word in read()(pair.text)] for pair in PAIRS]
     written = typed(pairs, table, Typing.draw(len(PAIRS), 1.0, np.random.default_rng(0)))
     for name in ("words", "word_start", "glosses", "link_gloss", "link_word"):
         np.testing.assert_array_equal(getattr(written, name), getattr(pairs, name))
@@ -89,7 +89,7 @@ def test_typing_noise_gives_the_words_that_the_typed_sentence_would(typing: Typi
     assert callable(typist)
     pairs, table = examples()
     noisy = typed(pairs, table, typing)
-    expected = [read()(typist(pair.spanish)) for pair in PAIRS]
+    expected = [read()(typist(pair.text)) for pair in PAIRS]
     assert _sentences(noisy, table) == [[word.form for word in words] for words in expected]
     got = [table.words[row] for row in noisy.words]
     # A name that opens the sentence keeps its reading as a name; the readings are the same as well.
@@ -182,9 +182,9 @@ def test_spans_of_nothing_are_nothing() -> None:
 def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:
     pairs = memorised_pairs(read())
     assert {pair.sentence for pair in training_pairs() if "{" not in pair.sentence} <= {
-        pair.spanish for pair in pairs
+        pair.text for pair in pairs
     }
-    taught = {(pair.spanish, pair.glosses) for pair in pairs}
+    taught = {(pair.text, pair.glosses) for pair in pairs}
     for pair in paper_pairs():
         glosses = tuple("7" if gloss == "X" else gloss_name(gloss) for gloss in pair.glosses)
         assert (pair.sentence.replace(" X ", " siete "), glosses) in taught
@@ -194,7 +194,7 @@ def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:
 
 
 def test_no_sentence_is_known_by_heart_in_two_ways() -> None:
-    known = {(folded(pair.spanish), pair.glosses) for pair in memorised_pairs(read())}
+    known = {(folded(pair.text), pair.glosses) for pair in memorised_pairs(read())}
     assert len({sentence for sentence, _ in known}) == len(known)
 
 

@@ -24,10 +24,6 @@ def play_motion2_parameters(motions: Iterable[SignMotion]) -> str:
     lines = ["play_motion2:", "  ros__parameters:", "    motions:"]
     for motion in motions:
         sign = motion.sign
-        description = (
-            f"{sign.kind} of {sign.language}, {sign.provenance.standing}; from rest to rest, the sign from "
-            f"{motion.start:.2f} s for {motion.duration:.2f} s ({motion.stretch:.2f} times its time)"
-        )
         rows = [", ".join(map(_number, row)) for row in motion.positions.tolist()]
         lines += [
             f"      {_text(sign.gloss)}:",
@@ -39,7 +35,7 @@ def play_motion2_parameters(motions: Iterable[SignMotion]) -> str:
             "        meta:",
             f"          name: {_text(sign.gloss)}",
             f"          usage: {_text('sign')}",
-            f"          description: {_text(description)}",
+            f"          description: {_text(motion.description)}",
         ]
     return "\n".join(lines) + "\n"
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A sign as the motion that TEO would make of it, for programs that play motions and know nothing of signs.
+"""A sign as the motion that its robot makes of it, for programs that play motions and know no signs.
 
 A program that plays stored motions goes straight to the first position, with no look at what is in between;
 a motion from rest to rest leaves nothing to hit on the way.
@@ -8,21 +8,11 @@ a motion from rest to rest leaves nothing to hit on the way.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from teo_common.arrays import Array
-from teo_description import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, TRUNK
 from teo_signs.sign import Sign
-
-# TEO's control boards, as their ports are named, and the joints of each in its order.
-PARTS = {
-    "head": HEAD,
-    "trunk": TRUNK,
-    "leftArm": LEFT_ARM,
-    "rightArm": RIGHT_ARM,
-    "leftHand": LEFT_HAND,
-    "rightHand": RIGHT_HAND,
-}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -31,7 +21,7 @@ class SignMotion:
 
     Attributes:
         sign: The entry.
-        parts: Which of `PARTS` move, in their order; the others stay at rest.
+        limbs: Joints of each of the robot's limbs that moves, in its order; the others stay at rest.
         times: [s] from 0, evenly spaced. Shape (n,).
         positions: [rad], a column for each of `joints`. Shape (n, m).
         start: When the sign itself begins [s].
@@ -40,7 +30,7 @@ class SignMotion:
     """
 
     sign: Sign
-    parts: tuple[str, ...]
+    limbs: Mapping[str, tuple[str, ...]]
     times: Array
     positions: Array
     start: float
@@ -49,10 +39,20 @@ class SignMotion:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Joints of the moving parts."""
-        return tuple(joint for part in self.parts for joint in PARTS[part])
+        """Joints of the moving limbs."""
+        return tuple(joint for joints in self.limbs.values() for joint in joints)
 
-    def part(self, name: str) -> Array:
-        """Positions of one moving part [rad]. Shape (n, joints of the part)."""
-        columns = [self.joints.index(joint) for joint in PARTS[name]]
+    @property
+    def description(self) -> str:
+        """What it is of and what it was made for, in a sentence."""
+        sign = self.sign
+        return (
+            f"{sign.kind} of {sign.language} for {sign.robot}, {sign.provenance.standing}; from rest to "
+            f"rest, the sign from {self.start:.2f} s for {self.duration:.2f} s "
+            f"({self.stretch:.2f} times its time)"
+        )
+
+    def limb(self, name: str) -> Array:
+        """Positions of one moving limb [rad]. Shape (n, joints of the limb)."""
+        columns = [self.joints.index(joint) for joint in self.limbs[name]]
         return self.positions[:, columns]

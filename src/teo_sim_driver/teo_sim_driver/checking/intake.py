@@ -14,7 +14,7 @@ from teo_sim_driver.checking.cdr import CdrTrajectory
 from teo_sim_driver.checking.reading import Fields, Points
 from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import Refusal, TrajectoryError
-from teo_sim_driver.groups import WHOLE_BODY, JointGroup
+from teo_sim_driver.groups import JointGroup
 from teo_sim_driver.rules import Rules
 
 # Trajectories that wait to be checked: as many as the subscription keeps.
@@ -51,7 +51,7 @@ class Intake(Generic[Sender]):
         self._waiting: deque[Checked[Sender]] = deque()
 
     def put(
-        self, message: bytes | Fields, rules: Rules, sender: Sender, group: JointGroup = WHOLE_BODY
+        self, message: bytes | Fields, rules: Rules, sender: Sender, group: JointGroup | None = None
     ) -> None:
         """Begin to check a message.
 
@@ -59,7 +59,7 @@ class Intake(Generic[Sender]):
             message: Serialized, or as arrays.
             rules: Limits on the message.
             sender: Comes out with the result.
-            group: Joints that the message is to be about.
+            group: Joints that the message is to be about; None: all.
 
         Raises:
             TrajectoryError: refused at once: ``too_large`` or ``too_many_waiting``.
@@ -77,7 +77,8 @@ class Intake(Generic[Sender]):
                 Refusal.TOO_MANY_WAITING,
                 f"expected at most {MOST_WAITING} trajectories at once, got one more: send them more slowly",
             )
-        self._waiting.append(Checked(sender, self._worker.submit(self._check, message, rules, group)))
+        joints = self._limits.names if group is None else group.joints
+        self._waiting.append(Checked(sender, self._worker.submit(self._check, message, rules, joints)))
 
     def take(self) -> list[Checked[Sender]]:
         """What has been checked since the last call, in the order in which it was put."""
@@ -90,6 +91,6 @@ class Intake(Generic[Sender]):
         """End the thread, when it has done what it is at."""
         self._worker.shutdown(cancel_futures=True)
 
-    def _check(self, message: bytes | Fields, rules: Rules, group: JointGroup) -> Points:
+    def _check(self, message: bytes | Fields, rules: Rules, group: tuple[str, ...]) -> Points:
         fields = CdrTrajectory(message) if isinstance(message, bytes) else message
-        return check(fields, limits=self._limits, rules=rules, held=self._held, group=group.joints)
+        return check(fields, limits=self._limits, rules=rules, held=self._held, group=group)

@@ -174,7 +174,13 @@ def _columns(
         )
     if unknown:
         near = difflib.get_close_matches(unknown[0][:40], joints, n=1)
-        hint = f"did you mean {near[0]!r}?" if near else f"expected some of {', '.join(joints)}"
+        if len(unknown) > 1:  # more than a slip: a motion of another robot
+            hint = (
+                f"expected some of {', '.join(joints)}; a motion of another robot is driven with the "
+                "parameter robot that it was made for, or signed anew by an executor of this one"
+            )
+        else:
+            hint = f"did you mean {near[0]!r}?" if near else f"expected some of {', '.join(joints)}"
         raise TrajectoryError(Refusal.UNKNOWN_JOINT, f"no joint is called {listed(unknown)}: {hint}")
     if others := [name for name in names if name not in group]:
         raise TrajectoryError(

@@ -14,12 +14,12 @@ from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from trajectory_msgs.msg import JointTrajectory
 
-from teo_description import LEG_JOINTS
+from teo_description.humanoid import Humanoid
 from teo_sim_driver.checking.intake import MOST_WAITING, Checked, Intake
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Source
 from teo_sim_driver.goal_monitor import ResultCode
-from teo_sim_driver.groups import LIMBS, WHOLE_BODY, JointGroup
+from teo_sim_driver.groups import JointGroup, joint_groups
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.node.follow_action import End, FollowAction, Goal
@@ -45,6 +45,7 @@ class CommandInputs:
         self,
         node: Node,
         follower: JointFollower,
+        humanoid: Humanoid,
         *,
         step_rate: int,
         report: Callable[[TrajectoryError], None],
@@ -54,24 +55,26 @@ class CommandInputs:
         Args:
             node: Which listens.
             follower: Executes them, and has the rules for them.
+            humanoid: Whose joints they are for.
             step_rate: How often `step` is called [Hz].
             report: Tells people of a refusal.
         """
         self._node, self._follower, self._report = node, follower, report
-        self._intake: Intake[_Sender] = Intake(follower.limits, LEG_JOINTS)
+        self._intake: Intake[_Sender] = Intake(follower.limits, humanoid.standing)
         self._actions = {}
-        for group in (WHOLE_BODY, *LIMBS):
+        for group in joint_groups(humanoid):
             node.create_subscription(
                 JointTrajectory,
                 f"{group.prefix}joint_trajectory",
                 partial(self._on_trajectory, _Sender(group, None)),
                 MOST_WAITING,
                 raw=True,
-                event_callbacks=None if group is WHOLE_BODY else _UNWATCHED,
+                event_callbacks=_UNWATCHED if group.name else None,
             )
             self._actions[group.name] = FollowAction(
                 node,
                 group,
+                joints=humanoid.commanded_joints,
                 step_rate=step_rate,
                 most_points=lambda: self._follower.rules.max_points,
                 receive=partial(self._on_goal, group),

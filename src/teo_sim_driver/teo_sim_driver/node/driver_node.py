@@ -8,7 +8,6 @@ import sys
 import time
 from typing import Any
 
-import numpy as np
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
 from rclpy.parameter import Parameter
@@ -18,7 +17,8 @@ from std_msgs.msg import String
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher, RateMeter
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
-from teo_description import COMMANDED_JOINTS, HOME, LEG_JOINTS, DescriptionError, joint_limits, urdf_text
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import Humanoid, load_humanoid
 from teo_sim_driver.errors import DriverError, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode
 from teo_sim_driver.health import RefusalLog, assess
@@ -48,22 +48,24 @@ _SWITCH_INTERVAL = 0.001
 
 
 class DriverNode(LifecycleNode):
-    """Executes trajectories as TEO would, and publishes where its joints are.
+    """Executes trajectories as the robot would, and publishes where its joints are.
 
     It publishes in every state of its lifecycle, and moves in `active` alone.
     """
 
     def __init__(self, **node_arguments: Any) -> None:
-        """Stand at HOME. The arguments are those of `rclpy.node.Node`, after its name."""
+        """Stand at home. The arguments are those of `rclpy.node.Node`, after its name."""
         super().__init__("teo_sim_driver", **node_arguments)
         declare_parameters(self, PARAMETERS)
         self._rate = self.get_parameter("update_rate").value
         hand_drive = self.get_parameter("hand_drive").value
-        limits = joint_limits(COMMANDED_JOINTS, hand_drive=hand_drive)
-        home = np.array([HOME[name] for name in COMMANDED_JOINTS])
-        self._follower = JointFollower(limits=limits, start=home, period=1.0 / self._rate, held=LEG_JOINTS)
+        self._humanoid = humanoid = load_humanoid(self.get_parameter("robot").value)
+        limits, home = humanoid.limits(hand_drive=hand_drive), humanoid.hanging
+        self._follower = JointFollower(
+            limits=limits, start=home, period=1.0 / self._rate, held=humanoid.standing
+        )
         self._follower.block(Mode.INACTIVE, "not active", self._now())
-        self._plant = FaultyPlant(_plant(self.get_parameter("plant").value), limits, home)
+        self._plant = FaultyPlant(_plant(self.get_parameter("plant").value, humanoid), limits, home)
         self._state_line = StateLine()
         self._asked = self._measured = MotionState.at_rest(home)
         self._astray = False  # whether a joint did not follow, and the robot is not at rest since
@@ -76,14 +78,16 @@ class DriverNode(LifecycleNode):
         self._reported: FollowerReport | None = None
         self._limited_steps = 0
 
-        self._joint_states = JointStatePublisher(self)
-        self._controller_state = ControllerStatePublisher(self)
+        self._joint_states = JointStatePublisher(self, humanoid)
+        self._controller_state = ControllerStatePublisher(self, humanoid.commanded_joints)
         self._driver_state = DriverStatePublisher(self, _LATCHED, self._rate)
-        self._hands = HandPublisher(self, _LATCHED)
+        self._hands = HandPublisher(self, _LATCHED, humanoid) if humanoid.file.controllers else None
         self._description = self.create_publisher(String, "robot_description", _LATCHED)
-        self._description.publish(String(data=urdf_text(hand_drive)))
+        self._description.publish(String(data=humanoid.urdf_text(hand_drive)))
         self._diagnostics = DiagnosticsPublisher(self, "joints")
-        self._inputs = CommandInputs(self, self._follower, step_rate=self._rate, report=self._report)
+        self._inputs = CommandInputs(
+            self, self._follower, humanoid, step_rate=self._rate, report=self._report
+        )
         self._operator = OperatorServices(self, self._follower, rearm=self._rearm)
         self.create_timer(1.0 / self._rate, self._on_step)
         self.create_timer(DIAGNOSTICS_PERIOD, self._on_diagnostics)
@@ -145,7 +149,8 @@ class DriverNode(LifecycleNode):
             self._joint_states.publish(state, measured_at)
         self._controller_state.publish(asked, self._measured, report.speed_scaling, stamp)
         self._driver_state.step(report, stamp)
-        self._hands.step(self._measured.positions)
+        if self._hands is not None:
+            self._hands.step(self._measured.positions)
         self._meter.step(begin, time.monotonic())
 
     def _watch(self, now: int) -> None:
@@ -161,7 +166,8 @@ class DriverNode(LifecycleNode):
         pressed = self._plant.faults.limit_switches
         if (self._measured is self._asked and not pressed) or self._follower.mode is Mode.FAULT:
             return
-        reason = fault(COMMANDED_JOINTS, self._asked, self._measured, self._following_error, pressed)
+        joints = self._humanoid.commanded_joints
+        reason = fault(joints, self._asked, self._measured, self._following_error, pressed)
         if reason:
             self._follower.block(Mode.FAULT, reason, now)
             self._astray = True
@@ -183,7 +189,7 @@ class DriverNode(LifecycleNode):
     def _check_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         names = {f"{_FAULT_PREFIX}frozen", f"{_FAULT_PREFIX}limit_switches"}
         asked = {name for each in parameters if each.name in names for name in _names(each.value)}
-        unknown = sorted(asked - set(COMMANDED_JOINTS))
+        unknown = sorted(asked - set(self._humanoid.commanded_joints))
         return SetParametersResult(
             successful=not unknown,
             reason=f"no commanded joint is called {', '.join(unknown)}" if unknown else "",
@@ -202,7 +208,7 @@ class DriverNode(LifecycleNode):
         self._plant.faults = Faults(**faults)
 
 
-def _plant(name: str) -> Plant:
+def _plant(name: str, humanoid: Humanoid) -> Plant:
     """The joints that were asked for.
 
     Raises:
@@ -219,7 +225,7 @@ def _plant(name: str) -> Plant:
             "mujoco_missing",
             f"plant: {MUJOCO!r} needs MuJoCo: python -m pip install -r requirements/physics.txt ({error})",
         ) from error
-    return PhysicsPlant()
+    return PhysicsPlant(humanoid)
 
 
 def _names(text: str) -> tuple[str, ...]:

@@ -19,7 +19,6 @@ from rclpy.action import ActionServer, CancelResponse
 from rclpy.node import Node
 from rclpy.task import Future
 
-from teo_description import COMMANDED_JOINTS
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.goal_monitor import GoalMonitor, ResultCode, Tolerances, result_code
@@ -56,11 +55,12 @@ class Outcome(NamedTuple):
 class Goal:
     """A goal from its arrival to its end."""
 
-    def __init__(self, handle: Any) -> None:
+    def __init__(self, handle: Any, joints: tuple[str, ...]) -> None:
         """Read its tolerances.
 
         Args:
             handle: Of rclpy's; its request is a `lean_goal.LeanGoal`.
+            joints: The commanded joints.
 
         Raises:
             TrajectoryError: ``bad_tolerance`` or ``multi_dof``.
@@ -73,14 +73,14 @@ class Goal:
             or request.component_goal_tolerance
         ):
             raise TrajectoryError(
-                Refusal.MULTI_DOF, "expected joints of one degree of freedom alone: TEO has no others"
+                Refusal.MULTI_DOF, "expected joints of one degree of freedom alone: the robot has no others"
             )
         goal_time = request.goal_time_tolerance
         self.handle = handle
         self.monitor = GoalMonitor(
-            COMMANDED_JOINTS,
+            joints,
             Tolerances.read(
-                COMMANDED_JOINTS,
+                joints,
                 request.path_tolerance,
                 request.goal_tolerance,
                 goal_time.sec + goal_time.nanosec / SECOND,
@@ -108,6 +108,7 @@ class FollowAction:
         node: Node,
         group: JointGroup,
         *,
+        joints: tuple[str, ...],
         step_rate: int,
         most_points: Callable[[], int],
         receive: Callable[[Goal], None],
@@ -119,6 +120,7 @@ class FollowAction:
         Args:
             node: Which serves.
             group: Joints that its goals are about.
+            joints: All commanded joints.
             step_rate: How often `step` is called [Hz].
             most_points: That a goal may have.
             receive: Takes in a goal's trajectory; raises `TrajectoryError`.
@@ -127,7 +129,8 @@ class FollowAction:
         """
         self._receive, self._refused, self._cancel = receive, refused, cancel
         self._joints = list(group.joints)
-        self._columns = np.array([COMMANDED_JOINTS.index(name) for name in group.joints])
+        self._columns = np.array([joints.index(name) for name in group.joints])
+        self._all_joints = joints
         self._every = max(step_rate // _FEEDBACK_RATE, 1)
         self._steps = 0
         self._active: Goal | None = None
@@ -208,7 +211,7 @@ class FollowAction:
     async def _execute(self, handle: Any) -> FollowJointTrajectory.Result:
         # Every goal is accepted first, as only a result can carry the reason of a refusal.
         try:
-            goal = Goal(handle)
+            goal = Goal(handle, self._all_joints)
             self._receive(goal)
         except TrajectoryError as refusal:
             self._refused(refusal)

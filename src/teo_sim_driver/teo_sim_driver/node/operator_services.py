@@ -11,7 +11,6 @@ from control_msgs.srv import QueryTrajectoryState
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from teo_description import COMMANDED_JOINTS
 from teo_sim_driver.errors import DriverError
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.joint_follower import JointFollower
@@ -87,7 +86,7 @@ class OperatorServices:
             return response
         state = self._follower.state_at(ahead)
         response.success = True
-        response.name = list(COMMANDED_JOINTS)
+        response.name = list(self._follower.limits.names)
         response.position, response.velocity = doubles(state.positions), doubles(state.velocities)
         response.acceleration = doubles(state.accelerations)
         return response

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from array import array
+from collections.abc import Sequence
 
 import numpy as np
 from builtin_interfaces.msg import Time
@@ -15,7 +16,7 @@ from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectoryPoint
 
-from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, LEG_JOINTS
+from teo_description.humanoid import Humanoid
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import SECOND
@@ -62,20 +63,21 @@ def difference(desired: MotionState, measured: MotionState) -> JointTrajectoryPo
 
 
 class JointStatePublisher:
-    """Publishes measured states; the legs are held at home."""
+    """Publishes measured states; joints that stand are at home."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, humanoid: Humanoid) -> None:
         self._publisher = node.create_publisher(JointState, "joint_states", 10)
-        self._message = JointState(name=list(ALL_JOINTS))
-        self._legs = np.array([HOME[name] for name in LEG_JOINTS])
+        self._message = JointState(name=list(humanoid.all_joints))
+        self._standing = np.array([humanoid.home[name] for name in humanoid.standing])
         self._last: MotionState | None = None
 
     def publish(self, state: MotionState, measured_at: int) -> None:
         """Publish a state that was measured at this time [ns]."""
         if state is not self._last:
             self._last = state
-            self._message.position = doubles(np.concatenate([state.positions, self._legs]))
-            self._message.velocity = doubles(np.concatenate([state.velocities, np.zeros_like(self._legs)]))
+            self._message.position = doubles(np.concatenate([state.positions, self._standing]))
+            still = np.zeros_like(self._standing)
+            self._message.velocity = doubles(np.concatenate([state.velocities, still]))
         self._message.header.stamp.sec, self._message.header.stamp.nanosec = divmod(measured_at, SECOND)
         self._publisher.publish(self._message)
 
@@ -83,7 +85,8 @@ class JointStatePublisher:
 class ControllerStatePublisher:
     """Publishes what a joint_trajectory_controller would, while anybody listens."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, joints: Sequence[str]) -> None:
+        self._joints = list(joints)
         self._publisher = node.create_publisher(JointTrajectoryControllerState, "controller_state", 10)
 
     def publish(self, desired: MotionState, measured: MotionState, scaling: float, stamp: Time) -> None:
@@ -91,7 +94,7 @@ class ControllerStatePublisher:
         if not self._publisher.get_subscription_count():
             return
         message = JointTrajectoryControllerState(
-            joint_names=list(COMMANDED_JOINTS),
+            joint_names=self._joints,
             reference=point(desired),
             feedback=point(measured),
             error=difference(desired, measured),

@@ -16,11 +16,10 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_description import ALL_JOINTS, COMMANDED_JOINTS, HOME, urdf_text
-from teo_description.joints import BODY_JOINTS
+from teo_description.humanoid import Humanoid
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.trajectory import MotionState
-from teo_sim_driver.plants.servos import SERVOS
+from teo_sim_driver.plants.servos import servos_of
 
 # [s]; ten to a step of the driver. The servos' time constant is 16 of them.
 TIMESTEP = 0.001
@@ -34,10 +33,6 @@ SERVO_FREQUENCY = 2.0 * np.pi * 10.0
 
 # Of an arm that signs [rad], for the inertia about its shoulder and wrist.
 _BENT_ELBOW = -1.5
-
-
-# Where the hands begin among the joints.
-_HANDS = len(BODY_JOINTS)
 
 
 class Contact(NamedTuple):
@@ -54,18 +49,20 @@ class Contact(NamedTuple):
 class PhysicsPlant:
     """The whole robot; see `Plant`."""
 
-    def __init__(self) -> None:
-        """Stand still at HOME."""
-        self._model = model = _model()
+    def __init__(self, humanoid: Humanoid) -> None:
+        """Stand still at home."""
+        self._model = model = _model(humanoid)
+        joints = humanoid.commanded_joints
+        self._hands = len(humanoid.body_joints)  # where they begin among the joints
         self._data = mujoco.MjData(model)
-        self._columns = np.array([model.joint(name).qposadr[0] for name in COMMANDED_JOINTS])
-        self._speeds = np.array([model.joint(name).dofadr[0] for name in COMMANDED_JOINTS])
-        self._actuators = np.array([model.actuator(name).id for name in COMMANDED_JOINTS])
+        self._columns = np.array([model.joint(name).qposadr[0] for name in joints])
+        self._speeds = np.array([model.joint(name).dofadr[0] for name in joints])
+        self._actuators = np.array([model.actuator(name).id for name in joints])
         # A servo is a spring about its set-point and a damper about 0: this much of the velocity that is
         # asked for, added to the set-point, makes it a damper about that velocity.
         self._lead = -model.actuator_biasprm[self._actuators, 2] / model.actuator_gainprm[self._actuators, 0]
-        self._told = MotionState.at_rest(np.array([HOME[name] for name in COMMANDED_JOINTS]))
-        _stand(model, self._data)
+        self._told = MotionState.at_rest(humanoid.hanging)
+        _stand(model, self._data, humanoid)
         self._behind = 0.0
 
     def step(self, asked: MotionState, duration: float) -> MotionState:
@@ -87,7 +84,7 @@ class PhysicsPlant:
         places = self._columns, self._speeds, self._speeds
         return MotionState(
             *(
-                np.concatenate([values[place[:_HANDS]], told[_HANDS:]])
+                np.concatenate([values[place[: self._hands]], told[self._hands :]])
                 for values, place, told in zip(moved, places, asked, strict=True)
             )
         )
@@ -116,48 +113,49 @@ class PhysicsPlant:
         return found
 
 
-def _model() -> mujoco.MjModel:
+def _model(humanoid: Humanoid) -> mujoco.MjModel:
     """The URDF with servos, without contact between parts that are built into each other.
 
     Those are the ones that two joints at most connect, whose boxes reach into each other when they turn, and
-    those that overlap at HOME.
+    those that overlap at home.
     """
-    spec = mujoco.MjSpec.from_string(urdf_text())
+    servos = servos_of(humanoid)
+    spec = mujoco.MjSpec.from_string(humanoid.urdf_text())
     spec.option.timestep = TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # damping of servos is stiff
     for joint in spec.joints:
-        if joint.name in SERVOS:
-            joint.armature, joint.actfrclimited = SERVOS[joint.name].inertia, False
-        if joint.name not in BODY_JOINTS:
+        if joint.name in servos:
+            joint.armature, joint.actfrclimited = servos[joint.name].inertia, False
+        if joint.name not in humanoid.body_joints:
             joint.frictionloss = 0.0  # a hand's is that of its motors; legs hang still
-        if joint.name not in ALL_JOINTS:
+        if joint.name not in humanoid.all_joints:
             joint.armature = _FOLLOWER_INERTIA
     bare = spec.compile()
     data = mujoco.MjData(bare)
-    _stand(bare, data)
+    _stand(bare, data, humanoid)
     parent = bare.body_parentid
     built = {_bodies(bare, contact) for contact in data.contact[: data.ncon]}
     built |= {(bare.body(parent[parent[i]]).name, bare.body(i).name) for i in range(1, bare.nbody)}
     for first, second in built:
         spec.add_exclude(bodyname1=first, bodyname2=second)
-    inertias = _inertias(bare, data)
-    for name in ALL_JOINTS:
+    inertias = _inertias(bare, data, humanoid.elbows)
+    for name in humanoid.all_joints:
         inertia = inertias[bare.joint(name).dofadr[0]]
         stiffness, damping = inertia * SERVO_FREQUENCY**2, 2.0 * inertia * SERVO_FREQUENCY
         actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         actuator.gainprm[0], actuator.biastype = stiffness, mujoco.mjtBias.mjBIAS_AFFINE
         actuator.biasprm[:3] = 0.0, -stiffness, -damping
-        if name in SERVOS:
-            actuator.forcelimited, actuator.forcerange = True, (-SERVOS[name].torque, SERVOS[name].torque)
+        if name in servos:
+            actuator.forcelimited, actuator.forcerange = True, (-servos[name].torque, servos[name].torque)
     return spec.compile()
 
 
-def _inertias(model: mujoco.MjModel, data: mujoco.MjData) -> FloatArray:
+def _inertias(model: mujoco.MjModel, data: mujoco.MjData, elbows: tuple[str, ...]) -> FloatArray:
     """The most that each joint has to turn, elbows straight or bent [kg m^2]. Shape (nv,)."""
     found = []
     for angle in (0.0, _BENT_ELBOW):
-        for side in ("Left", "Right"):
-            data.joint(f"Frontal{side}Elbow").qpos[0] = angle
+        for elbow in elbows:
+            data.joint(elbow).qpos[0] = angle
         mujoco.mj_forward(model, data)
         mass = np.zeros((model.nv, model.nv))
         mujoco.mj_fullM(model, data, mass)
@@ -171,9 +169,9 @@ def _bodies(model: mujoco.MjModel, contact: mujoco.MjContact) -> tuple[str, str]
     return first, second
 
 
-def _stand(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Put the robot to HOME, every phalanx where its tendon has it, and tell the servos so."""
-    for name, angle in HOME.items():
+def _stand(model: mujoco.MjModel, data: mujoco.MjData, humanoid: Humanoid) -> None:
+    """Put the robot to its home, every phalanx as the joint that it follows has it; tell the servos."""
+    for name, angle in humanoid.home.items():
         data.joint(name).qpos[0] = angle
     for i in range(model.neq):
         follower, driven = model.eq_obj1id[i], model.eq_obj2id[i]

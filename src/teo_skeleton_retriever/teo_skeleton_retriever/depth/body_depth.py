@@ -14,6 +14,7 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray, median
 from teo_skeleton_retriever.depth.arm_depth import Arm, ArmSolution, ArmSolver
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
 from teo_skeleton_retriever.depth.filtered_keypoints import points_of
+from teo_skeleton_retriever.depth.girdle_depth import girdle_depths
 from teo_skeleton_retriever.depth.skin import (
     BODY_CAPS,
     BODY_DEPTHS,
@@ -22,19 +23,16 @@ from teo_skeleton_retriever.depth.skin import (
     along_ray,
 )
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays
-from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_sigma
+from teo_skeleton_retriever.detectors.mediapipe.calibration import body_sigma, elbow_error
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.person_layout import ARMS, ROW
+from teo_skeleton_retriever.layouts.person_layout import ARMS, GIRDLE, ROW
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.body_size import BodySize
 from teo_skeleton_retriever.tracking.keypoint_filter import FilterOutput
 
 _N = len(BODY_25)
 _LEGS = [[ROW[f"{side}{joint}"] for joint in ("Hip", "Knee", "Ankle")] for side in ("R", "L")]
-_TRUNK = np.array(
-    [ROW[name] for name in ("Nose", "Neck", "RShoulder", "LShoulder", "MidHip", "RHip", "LHip")]
-)
-_SHOULDERS = np.array([ROW[name] for name in ("Neck", "RShoulder", "LShoulder")])
+_TRUNK = np.array([ROW[name] for name in ("Nose", "MidHip", "RHip", "LHip")])
 _HEAD = np.array([ROW[name] for name in ("Nose", "REye", "LEye")])
 # Joints at the ends of limbs, and the limbs' other ends. A wrist lies in the middle: the hand goes on.
 _LIMBS = np.array(
@@ -47,11 +45,6 @@ _LIMBS = np.array(
 
 _SKIN_SIGMA = 0.008  # [m] how far the skin is from a tube around the limb
 _HIDDEN = 0.06  # [m] a trunk does not come nearer by this from image to image: something hides it
-_UNEVEN = 0.09  # [m] a chest's roundness and a raised shoulder are less, a hand before a shoulder more
-_BEFORE_HEAD = 0.12  # [m] of someone who turns or leans back shoulders are nearer than the eyes, hands more
-_BEHIND_HEAD = 0.12  # [m] from the eyes to the shoulders' joints; of rendered people it was 0.06 to 0.19
-_BEHIND_HEAD_SIGMA = 0.06  # [m] they lean and turn
-_EVEN_SIGMA = 0.03  # [m] how evenly shoulders lie about the neck
 _ACROSS = np.full(_N, 0.012)  # [m] how far the detector's keypoints are from the joints
 _ACROSS[[ROW[f"{side}Elbow"] for side in "LR"]] = 0.02
 _ACROSS[[ROW[f"{side}Wrist"] for side in "LR"]] = 0.025
@@ -133,9 +126,13 @@ class BodyDepth:
         along = dict.fromkeys(ARMS, float(across[_ELBOWS[0]]))
         if self._parameters.detector == "mediapipe":
             across = body_sigma(across, seen.confidence)
-            for side, (_, elbow, wrist) in ARMS.items():
+            for side, (shoulder, elbow, wrist) in ARMS.items():
                 forearm = _part_across(seen.rays[[elbow, wrist]], before.depth[wrist], size)
-                along[side] = elbow_sigma(float(seen.confidence[elbow]), forearm)
+                short, along[side] = elbow_error(float(seen.confidence[elbow]), forearm)
+                upper_arm = seen.rays[elbow] - seen.rays[shoulder]
+                away = math.hypot(*upper_arm) * float(depth[elbow])
+                if short > 0.0 and away > 0.0:
+                    rays[elbow] += upper_arm * short / away
             # Beside the joint is another depth than at it.
             beside = across - _ACROSS
             beside[_ELBOWS] = [along[side] - _ACROSS[ARMS[side][1]] for side in ARMS]
@@ -145,7 +142,17 @@ class BodyDepth:
             rays[row], across[row] = view.ray, _HAND_ACROSS
             depth[row], sigma[row] = view.depth, view.sigma
         _reject_hidden_trunk(depth, before)
-        replaced = _behind_the_head(depth, sigma) | _even_shoulders(depth, sigma)
+        replaced = np.zeros(_N, dtype=bool)
+        girdle = girdle_depths(
+            surfaces.part(GIRDLE),
+            behind[GIRDLE],
+            head=_head(depth),
+            expected=before.depth[GIRDLE],
+            expected_sigma=before.sigma[GIRDLE, 2],
+        )
+        depth[GIRDLE], replaced[GIRDLE] = girdle.depth, girdle.hidden
+        own = np.hypot(girdle.sigma, np.hypot(_SKIN_SIGMA, slanted[GIRDLE]))
+        sigma[GIRDLE] = np.where(girdle.hidden, girdle.sigma, own)
         points = np.column_stack([rays, np.ones(_N)]) * depth[:, None]
         _reject_long_legs(depth, points, size)
         points[replaced] = np.nan
@@ -255,45 +262,10 @@ def _reject_hidden_trunk(depth: FloatArray, before: FilterOutput) -> None:
     depth[rows] = np.nan
 
 
-def _behind_the_head(depth: FloatArray, sigma: FloatArray) -> BoolArray:
-    """Replace depths of shoulders and neck that lie far before the head: a hand hides them.
-
-    Returns:
-        Joints that were replaced. Shape (25,).
-    """
-    replaced = np.zeros(_N, dtype=bool)
+def _head(depth: FloatArray) -> float:
+    """Depth of nose and eyes [m]; NaN if not known."""
     known = depth[_HEAD][np.isfinite(depth[_HEAD])]
-    if len(known):
-        head = median(known)
-        with np.errstate(invalid="ignore"):
-            hidden = _SHOULDERS[depth[_SHOULDERS] < head - _BEFORE_HEAD]
-        depth[hidden], sigma[hidden], replaced[hidden] = head + _BEHIND_HEAD, _BEHIND_HEAD_SIGMA, True
-    return replaced
-
-
-def _even_shoulders(depth: FloatArray, sigma: FloatArray) -> BoolArray:
-    """Replace the depth of a shoulder or the neck that something hides by that of the other two.
-
-    The neck is midway between the shoulders, also of a person who is turned.
-
-    Returns:
-        Joints that were replaced. Shape (25,).
-    """
-    neck, right, left = (ROW[name] for name in ("Neck", "RShoulder", "LShoulder"))
-    replaced = np.zeros(_N, dtype=bool)
-    if not np.isfinite(depth[[neck, right, left]]).all():
-        return replaced
-    even = {
-        neck: (depth[right] + depth[left]) / 2.0,
-        right: 2.0 * depth[neck] - depth[left],
-        left: 2.0 * depth[neck] - depth[right],
-    }
-    # Hidden is the joint that is nearer than both others and than they let expect.
-    row = min(even, key=lambda i: float(depth[i]))
-    others = min(float(depth[i]) for i in even if i != row)
-    if depth[row] < min(others, float(even[row])) - _UNEVEN:
-        depth[row], sigma[row], replaced[row] = even[row], _EVEN_SIGMA, True
-    return replaced
+    return median(known) if len(known) else math.nan
 
 
 def _reject_long_legs(depth: FloatArray, points: FloatArray, size: BodySize) -> None:

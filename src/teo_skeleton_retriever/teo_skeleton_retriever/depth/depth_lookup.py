@@ -59,6 +59,13 @@ class Surfaces(NamedTuple):
         """Keep some of the keypoints."""
         return Surfaces(self.depth[rows], self.sigma[rows], self.support[rows])
 
+    def replaced(self, rows: list[int], others: Surfaces) -> Surfaces:
+        """Put others in the place of those of some keypoints."""
+        new = Surfaces(*(values.copy() for values in self))
+        for values, those in zip(new, others, strict=True):
+            values[rows] = those
+        return new
+
     def between(self, near: float, far: float) -> Surfaces:
         """Drop surfaces that are nearer or farther [m]; a NaN bound drops none."""
         with np.errstate(invalid="ignore"):

@@ -20,6 +20,7 @@ ROW = BODY_25.index
 ARMS: dict[str, list[int]] = {
     side: [ROW[f"{side}{joint}"] for joint in ("Shoulder", "Elbow", "Wrist")] for side in ("L", "R")
 }
+GIRDLE = [ROW[name] for name in ("Neck", "RShoulder", "LShoulder")]
 HANDS = {"L": LEFT_HAND, "R": RIGHT_HAND}
 
 
@@ -56,8 +57,8 @@ JUMP = _each(0.015, 0.012, 0.01)
 # 93 % for signers among other people.
 BIAS: FloatArray = np.column_stack(
     [
-        _each(0.015, 0.006, 0.006, Shoulder=0.014, Elbow=0.020, Wrist=0.016),
-        _each(0.015, 0.012, 0.008, Shoulder=0.009, Elbow=0.016, Wrist=0.015),
+        _each(0.015, 0.007, 0.006, Shoulder=0.011, Elbow=0.020, Wrist=0.016),
+        _each(0.015, 0.012, 0.008, Shoulder=0.008, Elbow=0.016, Wrist=0.015),
     ]
 )
 # [m] Length of the bone that ends at each keypoint but the wrist, of an average adult, tips at the middle of

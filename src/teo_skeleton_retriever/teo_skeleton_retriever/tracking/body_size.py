@@ -156,13 +156,14 @@ class BodySize:
         self._off = _MEDIAPIPE_OFF if averaging else dict.fromkeys(_GROWTH, _OFF)
         self._seen_scale = 1.0
 
-    def step(self, points: FloatArray) -> None:
+    def step(self, points: FloatArray, *, outlined: bool = False) -> None:
         """Take the joints of one image: only measured ones, as others would confirm the old estimate.
 
         Args:
             points: [m], NaN where not measured. Shape (25, 3).
+            outlined: Whether both shoulders are where the body's outline says, not widened.
         """
-        points = self._as_seen(points)
+        points = self._as_seen(points, outlined=outlined)
         measured = np.isfinite(points[:, 2])
         for limb, pairs in _ROWS.items():
             for a, b in pairs:
@@ -190,11 +191,15 @@ class BodySize:
         """How much wider the shoulders are than the detector sees them."""
         return self.scale / self._seen_scale
 
-    def _as_seen(self, points: FloatArray) -> FloatArray:
-        """Undo the widening of the shoulders."""
+    def _as_seen(self, points: FloatArray, *, outlined: bool) -> FloatArray:
+        """Put the shoulders as wide as the detector sees them, or would see those of such a width."""
         pair = list(_ROWS["shoulders"][0])
+        share = 1.0 / self.widening
+        if outlined:
+            ratio = float(np.linalg.norm(points[pair[1]] - points[pair[0]])) / _AVERAGE["shoulders"]
+            share = math.pow(ratio, 1.0 / self._power - 1.0)
         seen = points.copy()
-        seen[pair] = widened(points[pair], 1.0 / self.widening)
+        seen[pair] = widened(points[pair], share)
         return seen
 
     def length(self, limb: str) -> tuple[float, float]:

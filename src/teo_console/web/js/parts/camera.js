@@ -40,22 +40,25 @@ export function camera({ t, notify }, { onFilm, bags = false }) {
     h("p", { class: "faint" }, t("camera.privacy")),
   );
 
+  /** Switches the camera on; whether it is. */
   async function open() {
     try {
       stream = await navigator.mediaDevices.getUserMedia(CAMERA);
     } catch (error) {
       const known = ["NotAllowedError", "NotFoundError", "NotReadableError"].includes(error.name);
       notify(t(known ? `camera.${error.name}` : "camera.none"));
-      return;
+      return false;
     }
     preview.srcObject = stream;
     await preview.play();
     frame.hidden = record.hidden = false;
     start.hidden = true;
     record.focus();
+    return true;
   }
 
   async function film() {
+    if (!stream && !(await open())) return; // off since the film before
     record.disabled = true;
     for (let left = COUNTDOWN; left > 0; left--) {
       count.textContent = String(left);
@@ -75,7 +78,11 @@ export function camera({ t, notify }, { onFilm, bags = false }) {
     count.textContent = "";
     frame.classList.remove("recording");
     record.disabled = false;
-    if (stream) onFilm(new Blob(pieces, { type: recorder.mimeType }));
+    if (!stream) return;
+    // Nobody is filmed, and no picture drawn, while this computer looks at the film.
+    close();
+    frame.hidden = true;
+    onFilm(new Blob(pieces, { type: recorder.mimeType }));
   }
 
   /** Switches the camera off. */

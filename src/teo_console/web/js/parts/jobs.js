@@ -42,7 +42,7 @@ export class JobProgress {
         job = await this.#api.get(`/api/jobs/${job.id}`);
       }
     } catch (error) {
-      this.#failed = refusalText(error.code, error.message);
+      this.#failed = refusalText(error.code);
       throw error;
     } finally {
       this.end();
@@ -65,7 +65,7 @@ export class JobProgress {
         await pause(LOOK);
       }
     } catch (error) {
-      this.#failed = refusalText(error.code, error.message);
+      this.#failed = refusalText(error.code);
       throw error;
     } finally {
       this.end();
@@ -88,7 +88,7 @@ export class JobProgress {
 
   #show({ name, state, ahead, progress: { what, done, total } }) {
     const key = what ? `job.what.${what.split(" ")[0]}` : `job.${name}`;
-    const words = state === "waiting" ? t(ahead > 0 ? "job.waiting" : "job.next", { ahead }) : has(key) ? t(key) : what || t("job.running");
+    const words = state === "waiting" ? t(ahead > 0 ? "job.waiting" : "job.next", { ahead }) : t(has(key) ? key : "job.running");
     this.element.hidden = this.#bar.hidden = false;
     if (this.#words.textContent !== words) this.#words.textContent = words; // else it would be read aloud again
     if (total > 0 && state === "running") {

@@ -36,12 +36,15 @@ function row({ t, notify }, { id, kind, title, items, reviewers, created }) {
 
 function exports({ api, t, attempt, notify }) {
   const progress = new JobProgress(api);
-  const said = h("pre", { hidden: true, tabindex: "0", "aria-label": t("review.entered") });
+  const said = h("section", { class: "stack", "aria-live": "polite", id: "entered" });
   const enter = () => attempt(async () => {
     progress.begin("enter");
-    const { output } = await api.post("/api/reviews/enter").finally(() => progress.end());
-    said.textContent = output;
-    said.hidden = false;
+    const { signs, changed } = await api.post("/api/reviews/enter").finally(() => progress.end());
+    said.replaceChildren(
+      h("h4", {}, t("review.entered")),
+      h("p", {}, t("review.entered_count", { rated: signs.length, changed })),
+      h("ul", { class: "plain" }, ...signs.map((sign) => h("li", {}, h("strong", {}, sign.gloss.replaceAll("_", " ")), `: ${verdict(t, sign)}`))),
+    );
     notify(t("review.entered"));
   });
   return h("div", { class: "stack" },
@@ -51,6 +54,12 @@ function exports({ api, t, attempt, notify }) {
       h("a", { class: "button", href: "/api/reviews.csv", download: "reviews.csv" }, "CSV"),
       h("button", { type: "button", on: { click: enter } }, t("review.enter"))),
     h("p", { class: "faint" }, t("review.rule")), progress.element, said);
+}
+
+/** What the ratings made of a sign. */
+function verdict(t, { standing, right, reviewers }) {
+  if (standing === null) return t("review.no_such_sign");
+  return `${t(`evidence.${standing}`)} (${t("review.of_people", { right, reviewers })})`;
 }
 
 function newSeries({ api, t, attempt, notify }, refresh) {

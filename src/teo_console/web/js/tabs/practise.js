@@ -72,7 +72,7 @@ export async function mount(element, context) {
 }
 
 function refused(t, told) {
-  return h("section", { class: "card stack" }, h("h2", { tabindex: "-1" }, t("practise.not_seen")), h("p", {}, refusalText(told.code, told.message)));
+  return h("section", { class: "card stack" }, h("h2", { tabindex: "-1" }, t("practise.not_seen")), h("p", {}, refusalText(told.code)));
 }
 
 /** What it looked like, and which part of the sign differs. */

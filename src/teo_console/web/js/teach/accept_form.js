@@ -3,6 +3,7 @@
 // The terms under which a sign is kept, and the buttons that keep it.
 
 import { h } from "../dom.js";
+import { refusalText } from "../status.js";
 
 const LICENCES = ["CC-BY-4.0", "CC-BY-SA-4.0", "CC0-1.0", "for this laboratory alone"];
 
@@ -33,7 +34,7 @@ export function acceptForm(context, { gloss, hands, exists, failed, recording, p
         despite_gates: despite.input.checked, replace: replace.input.checked,
       }));
       if (told.code !== "captured") {
-        notify(told.message);
+        notify(refusalText(told.code));
         return;
       }
       if (keep.input.checked) await api.post(`/api/recordings/${recording}/keep`, { gloss });

@@ -3,7 +3,7 @@
 // How a sign stands at each gate: a picture, words, and what to do.
 
 import { h } from "../dom.js";
-import { has, t } from "../i18n.js";
+import { t } from "../i18n.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -12,27 +12,22 @@ export const GATES = ["much_lost", "no_rest", "too_short", "palm_off", "contact_
 
 /**
  * A list of the gates, those that speak against the sign first.
- * @param {{code: string, passed: ?boolean, message: string, remedy: string}[]} gates `passed` is null before a capture.
+ * @param {{code: string, passed: ?boolean}[]} gates `passed` is null before a capture.
  */
 export function gateList(gates) {
   const sorted = [...gates].sort((a, b) => a.passed - b.passed);
   return h("ul", { class: "gates" }, ...sorted.map(gate));
 }
 
-function gate({ code, passed, message, remedy }) {
+function gate({ code, passed }) {
   const failed = passed === false;
   const mark = passed === null ? "" : passed ? "✓ " : "✗ ";
   return h("li", { class: `gate ${passed === null ? "" : failed ? "failed" : "passed"}`, dataset: { gate: code } },
     picture(code),
     h("div", {},
-      h("strong", {}, `${mark}${words(`gate.${code}`, code)}`),
+      h("strong", {}, `${mark}${t(`gate.${code}`)}`),
       passed === null ? null : h("span", { class: "visually-hidden" }, t(failed ? "gate.failed" : "gate.passed")),
-      passed ? null : h("p", {}, words(`gate.${code}.remedy`, remedy)),
-      failed ? h("p", { class: "faint", lang: "en" }, message) : null));
-}
-
-function words(key, otherwise) {
-  return has(key) ? t(key) : otherwise;
+      passed ? null : h("p", {}, t(`gate.${code}.remedy`))));
 }
 
 function picture(code) {

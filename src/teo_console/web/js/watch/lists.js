@@ -39,12 +39,12 @@ export function history({ socket, attempt, t }, listening) {
       "li", {},
       h("div", {},
         h("span", {}, text),
-        h("span", { class: "faint small" }, signed ? glosses : t("history.refused", { why: refusalText(sentence.code, sentence.message) }))),
+        h("span", { class: "faint small" }, signed ? glosses : t("history.refused", { why: refusalText(sentence.code) }))),
       sentence.text ? h("button", { type: "button", "aria-label": t("history.again_label", { text }), on: { click: again } }, t("history.again")) : null,
     );
   }
-  function refusalItem({ text, code, message }) {
-    return h("li", {}, h("div", {}, h("span", {}, text), h("span", { class: "faint small" }, t("history.refused", { why: refusalText(code, message) }))));
+  function refusalItem({ text, code }) {
+    return h("li", {}, h("div", {}, h("span", {}, text), h("span", { class: "faint small" }, t("history.refused", { why: refusalText(code) }))));
   }
   function show(situation) {
     const items = [...situation.history];

@@ -77,7 +77,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="OLD:=NEW",
         help='Topics to be remapped: "old_topic:=new_topic".',
     )
-    parser.add_argument(
+    clock = parser.add_mutually_exclusive_group()
+    clock.add_argument(
         "--clock",
         metavar="HZ",
         type=positive_float,
@@ -85,7 +86,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         const=_DEFAULT_CLOCK,
         default=0.0,
         help=f"Publish to /clock at a specific frequency in Hz ({_DEFAULT_CLOCK:g} if none is given). "
-        f"Default: not.",
+        f"Default: not. The bag's own /clock is left out.",
+    )
+    clock.add_argument(
+        "--clock-topics",
+        nargs="+",
+        default=[],
+        metavar="Topic",
+        help="Topics that make /clock go on when a message of them is published.",
+    )
+    clock.add_argument(
+        "--clock-topics-all", action="store_true", help="Publish /clock before each message that is played."
     )
     parser.add_argument(
         "-d",
@@ -156,6 +167,7 @@ def run(options: argparse.Namespace) -> int:
         delay=options.delay,
         loop=options.loop,
         clock=options.clock,
+        clock_before=_clock_topics(options),
         start_paused=options.start_paused,
         overrides=overrides,
         read_ahead=options.read_ahead_queue_size,
@@ -203,9 +215,17 @@ def _key_action(pressed: Callable[[], str] | None) -> Callable[[Player], None]:
     return act
 
 
+def _clock_topics(options: argparse.Namespace) -> Callable[[str], bool]:
+    """Return what tells whether `/clock` is published before a topic's messages."""
+    topics = frozenset(map(full_name, options.clock_topics))
+    return lambda topic: options.clock_topics_all or topic in topics
+
+
 def _selector(options: argparse.Namespace) -> Callable[[str], bool]:
     names = frozenset(map(full_name, options.topics))
-    excluded = frozenset(map(full_name, options.exclude_topics))
+    excluded = set(map(full_name, options.exclude_topics))
+    if options.clock or options.clock_topics or options.clock_topics_all:
+        excluded.add("/clock")
     included_pattern, excluded_pattern = pattern(options.regex), pattern(options.exclude_regex)
 
     def selects(topic: str) -> bool:

@@ -33,16 +33,34 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_qos_arguments(parser, "subscribe", "sensor_data")
     parser.add_argument(
+        "--field",
+        help="Echo a selected field of a message. Use '.' to select sub-fields and '[i]' for one of a "
+        "sequence, e.g. 'pose.position' or 'points[0].positions'",
+    )
+    add_printing_arguments(parser)
+    parser.add_argument("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
+    parser.add_argument("--raw", action="store_true", help="Echo the raw binary representation")
+    parser.add_argument(
+        "--filter",
+        dest="filter_expression",
+        help="Python expression to filter messages that are printed. Expression can use Python builtins as "
+        "well as m (the message).",
+    )
+    parser.add_argument("--once", action="store_true", help="Print the first message received and then exit.")
+    parser.add_argument("--timeout", metavar="N", type=positive_float, help="Exit after this time in seconds")
+    parser.add_argument(
+        "--include-message-info", "-i", action="store_true", help="Shows the associated message info."
+    )
+
+
+def add_printing_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options on the form in which messages are printed, which `Printer` follows."""
+    parser.add_argument(
         "--csv",
         action="store_true",
         help="Output all recursive fields separated by commas (e.g. for plotting). If --include-message-info "
         "is also passed, source_timestamp, received_timestamp, publication_sequence_number and "
         "reception_sequence_number are prepended.",
-    )
-    parser.add_argument(
-        "--field",
-        help="Echo a selected field of a message. Use '.' to select sub-fields and '[i]' for one of a "
-        "sequence, e.g. 'pose.position' or 'points[0].positions'",
     )
     parser.add_argument(
         "--full-length",
@@ -63,19 +81,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--flow-style", action="store_true", help="Print collections in the flow style (not with csv)"
     )
-    parser.add_argument("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
-    parser.add_argument("--raw", action="store_true", help="Echo the raw binary representation")
-    parser.add_argument(
-        "--filter",
-        dest="filter_expression",
-        help="Python expression to filter messages that are printed. Expression can use Python builtins as "
-        "well as m (the message).",
-    )
-    parser.add_argument("--once", action="store_true", help="Print the first message received and then exit.")
-    parser.add_argument("--timeout", metavar="N", type=positive_float, help="Exit after this time in seconds")
-    parser.add_argument(
-        "--include-message-info", "-i", action="store_true", help="Shows the associated message info."
-    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -86,20 +91,20 @@ def run(options: argparse.Namespace) -> int:
             `ambiguous_type`.
     """
     from teo_ros2cli.graph.adaptive import AdaptiveSubscription
-    from teo_ros2cli.graph.cli_node import cli_node, settle
+    from teo_ros2cli.graph.cli_node import cli_node, look_again, settle
     from teo_ros2cli.graph.listening import listen
     from teo_ros2cli.graph.qos import from_options, to_record
     from teo_ros2cli.graph.topics import full_topic_name, only_type
     from teo_ros2cli.messages.classes import message_class
 
     given = message_class(options.message_type) if options.message_type else None
-    show = _Printer(options)
+    show = Printer(options)
     deadline = time.monotonic() + options.timeout if options.timeout is not None else None
     with cli_node(use_sim_time=options.use_sim_time) as node:
         topic = full_topic_name(node, options.topic_name)
         if given is None:
             settle(node, options.spin_time)
-            name = only_type(node, topic, "echo")
+            name = look_again(lambda: only_type(node, topic, "echo"))
             if name is None:
                 print(f"WARNING: topic [{options.topic_name}] does not appear to be published yet")
                 raise Ros2CliError("type_unknown", "Could not determine the type for the passed topic")
@@ -120,8 +125,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-class _Printer:
-    """Prints messages in the form that the options ask for."""
+class Printer:
+    """Prints messages in the form that the options of `topic echo` ask for.
+
+    Attributes:
+        shown: Messages that were printed.
+    """
 
     def __init__(self, options: argparse.Namespace) -> None:
         self._options = options
@@ -135,6 +144,7 @@ class _Printer:
         self.shown = 0
 
     def __call__(self, message: Any, info: dict[str, Any]) -> None:
+        """Print a message, unless the options leave it out; `info` is rclpy's on it."""
         part = message
         if self._options.field is not None and not self._options.raw:
             part = select(message, self._options.field)
@@ -164,8 +174,10 @@ class _Printer:
             return
         if self._options.include_message_info:
             print(dump(info), end="---\n")
-        tree = message_tree(message, self._abridgement)
-        print(dump(tree, flow_style=self._options.flow_style), end="---\n")
+        print(dump(self._tree(message), flow_style=self._options.flow_style), end="---\n")
+
+    def _tree(self, message: Any) -> Any:
+        return message_tree(message, self._abridgement)
 
 
 def message_filter(expression: str | None) -> Callable[[Any], bool]:

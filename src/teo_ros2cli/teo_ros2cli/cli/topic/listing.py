@@ -58,7 +58,7 @@ def add_type_arguments(parser: argparse.ArgumentParser) -> None:
 def run_type(options: argparse.Namespace) -> int:
     """Print the types of a topic; exit status 1 if there is no such topic."""
     with known_graph(options) as node:
-        return print_types(_topics(node, hidden=True), options.topic_name)
+        return print_types(lambda: _topics(node, hidden=True), options.topic_name)
 
 
 def add_find_arguments(parser: argparse.ArgumentParser) -> None:

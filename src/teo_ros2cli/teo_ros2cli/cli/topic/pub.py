@@ -118,7 +118,7 @@ def run(options: argparse.Namespace) -> int:
         _wait_for_subscriptions(publisher, wanted, options.max_wait_time_secs)
         if wanted:
             # The first subscription that matched is rarely the only one.
-            settle(node, options.spin_time, publisher=publisher)
+            settle(node, options.spin_time, publishers=(publisher,))
         print("publisher: beginning loop")
         _publish(node, publisher, message, stamps, times, options)
         _linger(publisher, profile, options.keep_alive)

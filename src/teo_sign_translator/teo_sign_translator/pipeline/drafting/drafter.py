@@ -25,6 +25,7 @@ from teo_sign_translator.pipeline.drafting.persons import OBJECTS, is_implied, n
 from teo_sign_translator.pipeline.drafting.times import AGE, HOUR, LENGTHS, is_length, tells_hour, times_first
 from teo_sign_translator.pipeline.long_sentences import Piece, pieces
 from teo_sign_translator.pointer import OutputGloss
+from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.source_words import SourceWord
 
 #: Of each gloss of a draft: its words are right, their order is a rule's. Below the translator's threshold,
@@ -37,6 +38,9 @@ _COPULAS = frozenset(words_of("ser estar"))
 _STATES = frozenset(words_of("sentir encontrar"))
 _SILENT_PREPOSITIONS = frozenset(words_of("a de en con por para"))
 _TODAY = "HOY"
+#: File of the phrases; drafts are made for a language whose text folder has it.
+SET_PHRASES = "set_phrases.tsv"
+
 # "Una semana" is 1 SEMANA: how long is said, not which.
 _COUNTED_LENGTHS = frozenset(LENGTHS) - {"día", "rato", "tiempo"}
 PARTS_OF_DAY = ("mañana", "tarde", "noche")
@@ -50,20 +54,22 @@ class Drafter:
 
     Attributes:
         function_words: What may be left out.
+        joints: Conjunctions that may join clauses.
         phrases: Glosses of set phrases, by their words.
     """
 
     function_words: FunctionWords
+    joints: frozenset[str]
     phrases: Mapping[tuple[str, ...], str] = field(default_factory=dict)
 
     @classmethod
     def load(cls) -> Drafter:
-        """With the package's `data/function_words.tsv` and `data/set_phrases.tsv`.
+        """With the default language's `function_words.tsv`, `set_phrases.tsv` and `reading.yaml`.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        return cls(FunctionWords.load(), read_phrases())
+        return cls(FunctionWords.load(), TextRules.load().sentences.joints, read_phrases())
 
     def draft(self, words: Sequence[SourceWord]) -> tuple[OutputGloss, ...]:
         """The glosses of a sentence, clause by clause; none only if it is marks alone.
@@ -73,7 +79,7 @@ class Drafter:
         """
         asks = any(word.form == "?" for word in words)
         result: list[Item] = []
-        for piece in _quotes_behind(words, pieces(words)):
+        for piece in _quotes_behind(words, pieces(words, self.joints)):
             if piece.joint is not None and not self.function_words.may_be_left_out(words[piece.joint]):
                 result.append(item_of(piece.joint, words[piece.joint].readings[0]))
             result += self._clause(words, piece, asks=asks)
@@ -157,12 +163,12 @@ def read_phrases(path: Path | None = None) -> dict[tuple[str, ...], str]:
     """Glosses of set phrases, by their words in lower case.
 
     Args:
-        path: The file; by default the package's `data/set_phrases.tsv`, which explains its columns.
+        path: The file; by default the package's `text/set_phrases.tsv`, which explains its columns.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
     """
-    path = path or data_file("set_phrases.tsv")
+    path = path or data_file(SET_PHRASES)
     found: dict[tuple[str, ...], str] = {}
     for number, (phrase, gloss) in read_rows(path, columns=2):
         words = words_of(phrase)

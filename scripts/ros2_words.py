@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Writes which words of the genuine `ros2` our own has: `python scripts/ros2_words.py`; a test compares."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import yaml
+
+from teo_ros2cli.cli.dispatch import Entry, add_arguments, verbs_of
+from teo_ros2cli.main import COMMANDS
+
+_PACKAGE = Path(__file__).parents[1] / "src" / "teo_ros2cli"
+FILE = _PACKAGE / "COMMANDS.md"
+GENUINE = _PACKAGE / "test" / "golden" / "genuine_words.yaml"
+_HEAD = """\
+# The words of `ros2`
+
+Every command, verb and option of ros2cli 0.32 and rosbag2 0.26 (ROS 2 Jazzy), and whether this package's
+`ros2` has it. `scripts/ros2_words.py` makes this page from the genuine command's words
+([genuine_words.yaml](test/golden/genuine_words.yaml)) and from this one's own parsers; a test compares them.
+Every verb has `-h` besides. `--no-daemon` is accepted: there is no daemon.
+
+| command | there | options: yes | options: no | only here |
+|---|---|---|---|---|
+"""
+
+
+def words_table() -> str:
+    """Give the text of the page."""
+    genuine: dict[str, dict[str, list[str]]] = yaml.safe_load(GENUINE.read_text(encoding="utf-8"))
+    own = dict(_own(COMMANDS))
+    wanted = {
+        (command, verb): options for command, verbs in genuine.items() for verb, options in verbs.items()
+    }
+    rows = []
+    for words in sorted({*wanted, *own}):
+        theirs, ours = wanted.get(words, []), own.get(words)
+        cells = [
+            f"`ros2 {' '.join(filter(None, words))}`",
+            "no" if ours is None else "yes" if words in wanted else "only here",
+            _list(option for option in theirs if ours is not None and option in ours),
+            _list(option for option in theirs if ours is None or option not in ours),
+            _list(option for option in ours or () if option not in theirs),
+        ]
+        rows.append(f"| {' | '.join(cells)} |\n")
+    return _HEAD + "".join(rows)
+
+
+def _own(entries: Mapping[str, Entry], before: str = "") -> Iterator[tuple[tuple[str, str], list[str]]]:
+    for name, entry in entries.items():
+        verbs = verbs_of(entry)
+        if verbs is not None:
+            yield from _own(verbs, name)
+            continue
+        parser = argparse.ArgumentParser(add_help=False)
+        add_arguments(parser, entry)
+        # argparse shows its options in no other form that a program can read.
+        options = [action.option_strings for action in parser._actions if action.option_strings]
+        longest = [max(strings, key=len) for strings in options]
+        yield (before or name, name if before else ""), longest
+
+
+def _list(options: Iterator[str]) -> str:
+    return " ".join(f"`{option}`" for option in options)
+
+
+if __name__ == "__main__":
+    FILE.write_text(words_table(), encoding="utf-8")

@@ -1,0 +1,225 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Axes, limits and the likeness of left and right."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from teo_common.arrays import Array
+from teo_description.checking.finding import Finding
+from teo_description.humanoid import Humanoid
+from teo_description.robot import Robot
+from teo_description.schema.hand import AXES
+
+# Random postures that left and right are compared in.
+_POSTURES = 200
+
+# So far the mirror image of a frame may be from the one of the other side [m]: signs are made for the right
+# hand and mirrored, and a finger tip is as wide.
+MIRROR_TOLERANCE = 0.01
+
+# So far limits of mirrored joints may differ [rad]: 1 deg, which nobody sees.
+_LIMIT_TOLERANCE = math.radians(1.0)
+
+# Speeds that a joint of a humanoid can have [rad/s]; the fastest actuators that are sold for one reach 40.
+_SLOWEST, _FASTEST = 0.05, 50.0
+
+# How far a follower may be told beyond its own limits [rad]: rounding of the file.
+_FOLLOWER_TOLERANCE = 1e-3
+
+
+def frame_checks(robot: Robot) -> Iterator[Finding]:
+    """``base_link`` has x forward, y left and z up (REP-103)."""
+    humanoid, file = robot.humanoid, robot.humanoid.file
+    q = robot.configuration(_named(humanoid, humanoid.ready))
+    sides = robot.placements(q, [humanoid.mirrored_name(file.hand.palm), file.hand.palm])[:, :3, 3]
+    yield Finding(
+        bool(sides[0, 1] > 0.0 > sides[1, 1]),
+        "y of base_link points to the left: the left palm is at y > 0, the right one at y < 0",
+        f"y {sides[0, 1]:.3f} and {sides[1, 1]:.3f} m in the ready posture",
+        "mirror",
+    )
+    yield Finding(
+        bool(sides[:, 0].min() > 0.0),
+        "x points forward: both palms are before the body in the ready posture",
+        f"x {sides[0, 0]:.3f} and {sides[1, 0]:.3f} m",
+        "postures.ready_deg",
+    )
+    mouth = file.places.get("mouth")
+    if mouth is not None:
+        yield Finding(
+            mouth.outward[0] > 0.0 and mouth.point[2] > sides[:, 2].max(),
+            "the face looks along x and is above the hands of the ready posture",
+            f"mouth at z {mouth.point[2]:.3f}, hands at {sides[:, 2].max():.3f} m",
+            "places.mouth",
+        )
+
+
+def symmetry_checks(robot: Robot) -> Iterator[Finding]:
+    """Mirrored positions of the joints give the mirror image."""
+    worst, frame = mirror_deviation(robot)
+    yield Finding(
+        worst <= MIRROR_TOLERANCE,
+        f"left and right are mirror images within {MIRROR_TOLERANCE * 1e3:.0f} mm",
+        f"worst of {_POSTURES} random postures: {worst * 1e3:.2f} mm, {frame}",
+        "origins",
+    )
+    humanoid = robot.humanoid
+    names = humanoid.arm("right") + humanoid.hand("right")
+    here = humanoid.limits(names)
+    there = humanoid.limits([humanoid.mirrored_name(name) for name in names])
+    signs = humanoid.mirror_signs(names)
+    mirrored = np.sort(np.stack([there.lower * signs, there.upper * signs]), axis=0)
+    off = np.abs(mirrored - [here.lower, here.upper]).max(axis=0)
+    yield Finding(
+        float(off.max()) <= _LIMIT_TOLERANCE,
+        "arms and hands have the same limits on both sides",
+        f"worst: {np.degrees(off.max()):.2f} deg, {names[int(off.argmax())]}",
+        "limits",
+        needed=False,  # a hand may reach farther than the other: signs are kept to what both can
+    )
+
+
+def mirror_deviation(robot: Robot) -> tuple[float, str]:
+    """Worst distance of a hand's frame from the mirror image of the other's [m], and its name."""
+    humanoid = robot.humanoid
+    frames = hand_frames(humanoid)
+    others = [humanoid.mirrored_name(frame) for frame in frames]
+    joints, limits = humanoid.commanded_joints, humanoid.limits()
+    signs = humanoid.mirror_signs(joints)
+    dice = np.random.default_rng(1)
+    worst = np.zeros(len(frames))
+    for _ in range(_POSTURES):
+        values = dice.uniform(limits.lower, limits.upper)
+        image = {humanoid.mirrored_name(n): x * s for n, x, s in zip(joints, values, signs, strict=True)}
+        here = robot.placements(robot.configuration(_named(humanoid, values)), frames)[:, :3, 3]
+        there = robot.placements(robot.configuration(image), others)[:, :3, 3]
+        worst = np.maximum(worst, np.linalg.norm(here * [1.0, -1.0, 1.0] - there, axis=1))
+    return float(worst.max()), frames[int(worst.argmax())]
+
+
+def hand_frames(humanoid: Humanoid) -> tuple[str, ...]:
+    """Palm, fingers' and thumb's frames of the right hand."""
+    hand = humanoid.file.hand
+    return hand.palm, *(frame for row in hand.fingers.values() for frame in row), *hand.thumb
+
+
+def limit_checks(robot: Robot) -> Iterator[Finding]:
+    """Limits are there, make sense, and hold the postures and the followers."""
+    humanoid = robot.humanoid
+    limits = humanoid.limits()
+    empty = [
+        n for n, low, high in zip(limits.names, limits.lower, limits.upper, strict=True) if not low < high
+    ]
+    yield Finding(not empty, "every commanded joint can move", _names(empty) or "all can", "limits")
+    odd = [
+        f"{name} {speed:g}"
+        for name, speed in zip(limits.names, limits.velocity, strict=True)
+        if not _SLOWEST <= speed <= _FASTEST
+    ]
+    measured = _names(odd) or f"{limits.velocity.min():.2f} to {limits.velocity.max():.2f} rad/s"
+    yield Finding(not odd, f"greatest speeds within {_SLOWEST} and {_FASTEST} rad/s", measured, "limits")
+    for title, posture in (("home", humanoid.hanging), ("ready", humanoid.ready)):
+        outside = [
+            name
+            for name, value, low, high in zip(limits.names, posture, limits.lower, limits.upper, strict=True)
+            if not low - 1e-6 <= value <= high + 1e-6
+        ]
+        yield Finding(
+            not outside,
+            f"the {title} posture is within the limits",
+            _names(outside) or "it is",
+            f"postures.{title}_deg",
+        )
+    beyond = list(_followers_beyond(humanoid))
+    yield Finding(
+        not beyond,
+        "joints that follow others stay within limits of their own",
+        "; ".join(beyond) or "they do",
+        "limits",
+    )
+
+
+def _followers_beyond(humanoid: Humanoid) -> Iterator[str]:
+    for joint in humanoid.urdf_tree().iter("joint"):
+        mimic, limit = joint.find("mimic"), joint.find("limit")
+        if mimic is None or limit is None or mimic.attrib["joint"] not in humanoid.commanded_joints:
+            continue
+        leader = humanoid.limits([mimic.attrib["joint"]])
+        times, offset = float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0"))
+        ends = sorted(float(times * end + offset) for end in (leader.lower[0], leader.upper[0]))
+        low, high = float(limit.get("lower", "-inf")), float(limit.get("upper", "inf"))
+        if ends[0] < low - _FOLLOWER_TOLERANCE or ends[1] > high + _FOLLOWER_TOLERANCE:
+            way = f"{ends[0]:.2f} .. {ends[1]:.2f} of {low:.2f} .. {high:.2f} rad"
+            yield f"{joint.attrib['name']} is led to {way}"
+
+
+def hand_checks(robot: Robot) -> Iterator[Finding]:
+    """The palm's axes, and that every axis of a hand moves what its name says."""
+    humanoid, hand = robot.humanoid, robot.humanoid.file.hand
+    axes = humanoid.hand_axes("right")
+    names = humanoid.hand("right")
+    known = humanoid.limits(names)
+    limits = dict(zip(names, zip(known.lower.tolist(), known.upper.tolist(), strict=True), strict=True))
+    straight = {name: limits[name][0] for name in names}
+    points = _in_palm(robot, straight)
+    rows: list[str] = list(hand.fingers)
+    along = points[:-3].reshape(-1, 4, 3)
+    directions = along[:, 3] - along[:, 0]
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    yield Finding(
+        bool((directions[:, 0] > 0.8).all()),
+        "x of the palm runs along the straight fingers (cosine over 0.8)",
+        ", ".join(f"{name} {value:.2f}" for name, value in zip(rows, directions[:, 0], strict=True)),
+        "hand.palm",
+    )
+    across = along[:, 0, 1]
+    yield Finding(
+        bool((np.diff(across) > 0.0).all()),
+        "y of the palm points to the little finger's side",
+        ", ".join(f"{name} {value * 1e3:.0f} mm" for name, value in zip(rows, across, strict=True)),
+        "hand.palm",
+    )
+    for row, name in enumerate(rows):
+        axis = axes[AXES.index(name)]
+        if axis is None:
+            continue
+        half = 0.5 * (limits[axis][0] + limits[axis][1])
+        bent = _in_palm(robot, {**straight, axis: half})
+        moved = bent[4 * row + 3] - points[4 * row + 3]
+        yield Finding(
+            bool(moved[2] > 0.005),
+            f"{axis} bends the {name} finger towards the palm's side",
+            f"its tip moves {moved[2] * 1e3:.0f} mm out of the palm at half way",
+            f"groups.right_hand.{name}",
+        )
+    for axis, name in zip(axes[:2], ("abductor", "thumb"), strict=True):
+        if axis is not None:
+            ends = _in_palm(robot, {**straight, axis: limits[axis][1]})
+            way = float(np.linalg.norm(ends[-1] - points[-1]))
+            yield Finding(
+                way > 0.01,
+                f"{axis} moves the thumb",
+                f"its tip is {way * 1e3:.0f} mm away at the other end",
+                f"groups.right_hand.{name}",
+            )
+
+
+def _in_palm(robot: Robot, positions: dict[str, float]) -> Array:
+    """The frames of the hand but the palm's, in the palm's axes [m]. Shape (n, 3)."""
+    places = robot.placements(robot.configuration(positions), hand_frames(robot.humanoid))
+    palm = places[0]
+    points: Array = (places[1:, :3, 3] - palm[:3, 3]) @ palm[:3, :3]
+    return points
+
+
+def _named(humanoid: Humanoid, values: Array) -> dict[str, float]:
+    return dict(zip(humanoid.commanded_joints, values.tolist(), strict=True))
+
+
+def _names(names: Sequence[str]) -> str:
+    return ", ".join(names)

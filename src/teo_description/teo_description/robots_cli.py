@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Command: which robots there are, what is known of one, and whether it is true."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from teo_description.checking.finding import Finding
+from teo_description.checking.kinematic_checks import frame_checks, hand_checks, limit_checks, symmetry_checks
+from teo_description.checking.space_checks import collision_checks, reach_checks
+from teo_description.errors import DescriptionError
+from teo_description.humanoid import available_robots, load_humanoid, robot_folders
+from teo_description.robot import Robot
+
+_console, _errors = Console(), Console(stderr=True)
+_app = typer.Typer(
+    add_completion=False, rich_markup_mode=None, help="Robots as data: robots/NAME/robot.yaml."
+)
+_Name = Annotated[str, typer.Argument(help="Name of a folder with robot.yaml.")]
+
+
+@_app.command("list")
+def _list() -> None:
+    """Name the robots that there are and where they are looked for."""
+    for name in available_robots():
+        try:
+            said = load_humanoid(name).file.title
+        except DescriptionError as error:
+            said = str(error)
+        _console.print(f"{name:12} {said}", highlight=False, markup=False, soft_wrap=True)
+    _console.print(f"looked for in {', '.join(map(str, robot_folders()))}", highlight=False, soft_wrap=True)
+
+
+@_app.command("show")
+def _show(name: _Name) -> None:
+    """Say what is known of a robot: its joints by limb, with limits and greatest speeds."""
+    try:
+        humanoid = load_humanoid(name)
+        limits = humanoid.limits()
+    except DescriptionError as error:
+        _fail(error)
+    _console.print(f"{humanoid.name}: {humanoid.file.title}", highlight=False, markup=False)
+    _console.print(f"description {humanoid.description_hash[:12]}, {humanoid.urdf_path()}", highlight=False)
+    table = Table("limb", "joint", "from [deg]", "to [deg]", "speed [deg/s]")
+    for limb, joints in humanoid.limbs.items():
+        for joint in joints:
+            row = humanoid.columns([joint])[0]
+            figures = np.degrees([limits.lower[row], limits.upper[row], limits.velocity[row]])
+            table.add_row(limb, joint, *(f"{figure:.0f}" for figure in figures))
+    _console.print(table)
+
+
+@_app.command("check")
+def _check(
+    name: _Name,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for pictures: each axis of the hand, home and ready.")
+    ] = None,
+) -> None:
+    """Walk through a robot: axes, mirror symmetry, limits, hands, touch and reach; status 1 if one fails."""
+    try:
+        robot = Robot.load(name)
+        failed = []
+        for finding in _findings(robot):
+            _console.print(
+                f"{finding.mark:4} {finding.what}: {finding.measured}",
+                highlight=False,
+                markup=False,
+                soft_wrap=True,
+            )
+            if not finding.ok and finding.needed:
+                failed.append(finding)
+        if out is not None:
+            _draw(robot, out)
+    except DescriptionError as error:
+        _fail(error)
+    if failed:
+        fields = ", ".join(dict.fromkeys(finding.field for finding in failed))
+        sentence = f"{len(failed)} checks failed; look at {fields} in robot.yaml"
+        _errors.print(f"robots: {sentence}", style="red", markup=False, highlight=False, soft_wrap=True)
+        raise typer.Exit(1)
+
+
+def _findings(robot: Robot) -> Iterator[Finding]:
+    checks = (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks, reach_checks)
+    for check in checks:
+        yield from check(robot)
+
+
+def _draw(robot: Robot, folder: Path) -> None:
+    from teo_description.pictures.hand_sheet import hand_sheet  # here: what signs does without OpenCV
+    from teo_description.pictures.rendering import Renderer, film_strip, save_png
+
+    renderer, humanoid = Renderer(robot), robot.humanoid
+    folder.mkdir(parents=True, exist_ok=True)
+    ready = dict(zip(humanoid.commanded_joints, humanoid.ready.tolist(), strict=True))
+    views = [({}, "front"), (ready, "front"), (ready, "full"), (ready, "hand")]
+    frames = [renderer.render(positions, camera) for positions, camera in views]
+    save_png(folder / "postures.png", film_strip(frames, ["home", *("ready",) * 3], 4))
+    save_png(folder / "hand.png", hand_sheet(robot, renderer))
+    _console.print(f"wrote postures.png and hand.png in {folder}", highlight=False, soft_wrap=True)
+
+
+def _fail(error: DescriptionError) -> NoReturn:
+    _errors.print(
+        f"robots: {error.code}: {error}", style="red", markup=False, highlight=False, soft_wrap=True
+    )
+    raise typer.Exit(1) from error
+
+
+def main() -> None:
+    """Entry point of ``robots``."""
+    _app()

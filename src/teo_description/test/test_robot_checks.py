@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""`robots check` finds what a newcomer gets wrong, and says which field to look at."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+import yaml
+
+from teo_description import robots_cli
+from teo_description.checking.arm_reach import ArmReach
+from teo_description.checking.kinematic_checks import frame_checks, hand_checks, limit_checks, symmetry_checks
+from teo_description.checking.space_checks import collision_checks
+from teo_description.humanoid import Humanoid, robot_folders
+from teo_description.robot import Robot
+
+SECOND = robot_folders()[1] / "gr1t2"
+
+
+@pytest.fixture
+def changed(tmp_path, monkeypatch):
+    """The second robot under the name ``mine``, after a change of what its file says."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    folder = tmp_path / "teo" / "robots" / "mine"
+    (folder / "urdf").mkdir(parents=True)
+    for path in (SECOND / "urdf").iterdir():
+        (folder / "urdf" / path.name).write_bytes(path.read_bytes())
+
+    def apply(change) -> Robot:
+        content = yaml.safe_load((SECOND / "robot.yaml").read_text())
+        change(content)
+        (folder / "robot.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
+        return Robot(Humanoid(folder))
+
+    return apply
+
+
+def failed(findings) -> dict[str, str]:
+    return {finding.field: finding.measured for finding in findings if not finding.ok}
+
+
+def put(*way, value):
+    def change(content) -> None:
+        place = content
+        for key in way[:-1]:
+            place = place[key]
+        place[way[-1]] = value
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("check", "change", "field"),
+    [
+        (hand_checks, put("frames", "R_palm", "rpy_deg", value=[90.0, 90.0, 0.0]), "groups.right_hand.index"),
+        (hand_checks, put("frames", "R_palm", "rpy_deg", value=[0.0, 0.0, 0.0]), "hand.palm"),
+        (symmetry_checks, put("origins", value={}), "origins"),
+        (symmetry_checks, put("limits", "R_index_proximal_joint", value={"upper_deg": 60.0}), "limits"),
+        (limit_checks, put("limits", value={}), "limits"),
+        (
+            limit_checks,
+            put("postures", "ready_deg", "right_elbow_pitch_joint", value=-150.0),
+            "postures.ready_deg",
+        ),
+        (limit_checks, put("limits", "head_yaw_joint", value={"velocity_deg": 0.1}), "limits"),
+        (
+            frame_checks,
+            put("postures", "ready_deg", "right_shoulder_pitch_joint", value=100.0),
+            "postures.ready_deg",
+        ),
+        (collision_checks, put("postures", "home_deg", value={}), "postures.home_deg"),
+        (collision_checks, put("collision", "shapes", "R_hand_base_link", value=[]), "collision.shapes"),
+    ],
+)
+def test_what_is_wrong_is_found_and_its_field_named(changed, check, change, field):
+    assert field in failed(check(changed(change)))
+
+
+def test_a_well_described_robot_passes():
+    robot = Robot.load("gr1t2")
+    for check in (frame_checks, symmetry_checks, limit_checks, hand_checks, collision_checks):
+        assert failed(check(robot)) == {}
+
+
+def test_an_arm_reaches_what_is_near_and_not_what_is_far():
+    robot = Robot.load("gr1t2")
+    arm = ArmReach(robot, "right")
+    near = np.array([0.3, -0.15, 0.3])
+    reached = arm.to(near, arm.palm, body=False)
+    assert reached.ok
+    palm = robot.placement(robot.configuration(reached.positions), arm.palm)[:3, 3]
+    assert np.linalg.norm(palm - near) < 0.01
+    # 0.76 m from the shoulder to the tips: two metres before it, 1.3 m are missing.
+    far = arm.to(np.array([2.0, -0.2, 0.4]), arm.tip, body=False)
+    assert not far.ok
+    assert far.distance == pytest.approx(1.24, abs=0.1)
+    inside = arm.to(np.array([0.0, 0.0, 0.3]), arm.palm, body=False)
+    assert "torso_link" in inside.why
+
+
+@pytest.fixture
+def robots(monkeypatch, capsys):
+    def run(*arguments):
+        monkeypatch.setattr("sys.argv", ["robots", *map(str, arguments)])
+        with pytest.raises(SystemExit) as ended:
+            robots_cli.main()
+        output = capsys.readouterr()
+        return ended.value.code or 0, output.out, output.err
+
+    return run
+
+
+def test_robots_are_listed_and_shown(robots):
+    code, said, _ = robots("list")
+    assert code == 0
+    assert "teo          TEO" in said
+    assert "gr1t2        Fourier" in said
+    code, said, _ = robots("show", "gr1t2")
+    assert code == 0
+    assert "right_elbow_pitch_joint" in said
+    assert "-130" in said  # its lower limit, -2.27 rad
+
+
+@pytest.mark.parametrize("command", ["show", "check"])
+def test_an_unknown_robot_ends_with_status_1_and_the_names_that_there_are(robots, command):
+    code, _, said = robots(command, "nobody")
+    assert code == 1
+    assert "expected a robot among" in said
+    assert "gr1t2" in said
+
+
+def test_check_ends_with_status_1_names_the_field_and_leaves_pictures(robots, changed, tmp_path, caplog):
+    inward = {"right_shoulder_roll_joint": 12.0, "left_shoulder_roll_joint": -12.0}
+
+    def change(content) -> None:
+        del content["meshes"]
+        content["postures"]["home_deg"] = inward
+
+    changed(change)
+    code, said, failure = robots("check", "mine", "--out", tmp_path / "seen")
+    assert code == 1
+    assert "FAIL nothing touches at home" in said
+    assert "1 checks failed; look at postures.home_deg in robot.yaml" in failure
+    assert "mine is drawn as plain shapes" in caplog.text
+    for name in ("hand.png", "postures.png"):
+        assert cv2.imread(str(tmp_path / "seen" / name)).std() > 10.0

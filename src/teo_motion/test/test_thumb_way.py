@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Hands between two handshapes, judged by a collision library along the whole way."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from teo_names import COMMANDED_JOINTS, LEFT_HAND, RIGHT_HAND
+from thumb_capsules import thumb_gap
+
+from teo_common.arrays import Array
+from teo_description.hand_contact import TOUCH
+from teo_description.hand_geometry import hand_table
+from teo_description.humanoid import load_humanoid
+from teo_description.robot import Robot
+from teo_motion.collision.thumb_way import with_clear_thumbs
+from teo_motion.sentence.route import Route
+from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.ruckig_segment import State
+from teo_signs.look_up_table import Lut, default_lut_directory
+
+REST = load_humanoid().ready
+
+PAIRS = 24
+LOOKS = 25  # of each straight way: a finger folds by 3 deg between two, a table of places is off by 0.3 mm
+_OFF = 3e-4  # [m]
+SIDES = {"Right": RIGHT_HAND, "Left": LEFT_HAND}
+
+
+def columns(side: str) -> list[int]:
+    return [COMMANDED_JOINTS.index(name) for name in SIDES[side]]
+
+
+def deepest(robot: Robot, shapes: Array, side: str) -> float:
+    """Least gap on the straight ways from shape to shape [m]. Shape (n, 6)."""
+    shares: Array = np.linspace(0.0, 1.0, LOOKS)[:, None]
+    return min(
+        thumb_gap(robot, hand, side)
+        for first, last in pairwise(shapes)
+        for hand in first + shares * (last - first)
+    )
+
+
+def straight(first: Array, last: Array, side: str) -> Route:
+    """A route of two waypoints, at which all but one hand rests."""
+    targets = np.stack([REST, REST])
+    targets[:, columns(side)] = first, last
+    still = np.zeros(len(REST))
+    start = State(position=targets[0], velocity=still, acceleration=still)
+    return Route(targets=targets, nominal=np.ones(1), strokes=np.zeros(1, np.intp), spans=(), start=start)
+
+
+def handshapes() -> Array:
+    """Those with which the package's signs begin and end. Shape (n, 6)."""
+    table = Lut.open(default_lut_directory())
+    of_hand = [
+        (sign, [sign.joints.index(name) for name in RIGHT_HAND])
+        for sign in table.values()
+        if set(RIGHT_HAND) <= set(sign.joints)
+    ]
+    ends = [sign.knots[knot, hand] for sign, hand in of_hand for knot in (0, -1)]
+    return np.unique(np.round(ends, 6), axis=0)
+
+
+def test_thumbs_that_would_pass_through_a_finger_go_another_way_and_others_go_straight() -> None:
+    robot, limits = Robot.load(), MotionLimits.of_robot()
+    shapes, table, dice = handshapes(), hand_table(robot), np.random.default_rng(5)
+    through, mended = 0, 0
+    for number in range(PAIRS):
+        side = ("Right", "Left")[number % 2]
+        hand = columns(side)
+        ends = shapes[dice.choice(len(shapes), 2, replace=False)]
+        given = straight(*ends, side)
+        route = with_clear_thumbs(given, table, limits)
+        assert np.array_equal(route.targets[[0, -1]], given.targets)
+        assert np.isnan(np.delete(route.targets[1:-1], hand, axis=1)).all(), "all else goes on freely"
+        before = deepest(robot, ends, side)
+        if before > -TOUCH + _OFF:
+            assert len(route.targets) == 2
+        elif len(route.targets) > 2:
+            assert deepest(robot, route.targets[:, hand], side) > -TOUCH - _OFF
+            mended += 1
+        through += before < -TOUCH - _OFF
+    assert through >= 4
+    assert mended >= 0.75 * through, "what the README says: of 22 four are left"

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Reading a bag before its messages are due."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from queue import Full, Queue
+
+from teo_common.mcap_salvage import StoredMessage
+
+# Longest time in which the end is not looked for [s].
+_STEP = 0.05
+
+
+class ReadAhead:
+    """Reads messages in a thread of its own, so that unpacking a chunk does not hold publishing up.
+
+    Args:
+        messages: What is to be read; the thread's alone from now on. What it raises is raised to whoever
+            iterates.
+        size: Messages that are read before they are taken.
+    """
+
+    def __init__(self, messages: Iterator[StoredMessage], size: int) -> None:
+        self._messages = messages
+        self._queue: Queue[StoredMessage | BaseException | None] = Queue(maxsize=max(size, 1))
+        self._closed = False
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._read, name="bag reader", daemon=True)
+        self._thread.start()
+
+    def wait_filled(self, stopped: Callable[[], bool]) -> None:
+        """Wait until the first messages are there, all of them if they are few."""
+        while not self._ended.is_set() and not self._queue.full() and not stopped():
+            time.sleep(_STEP / 10)
+
+    def __iter__(self) -> Iterator[StoredMessage]:
+        while True:
+            item = self._queue.get()
+            if item is None:
+                return
+            if isinstance(item, BaseException):
+                raise item
+            yield item
+
+    def close(self) -> None:
+        """End the thread."""
+        self._closed = True
+        self._thread.join()
+
+    def _read(self) -> None:
+        last: BaseException | None = None
+        try:
+            for message in self._messages:
+                if not self._put(message):
+                    return
+        except BaseException as error:  # raised again where the messages are taken
+            last = error
+        self._ended.set()
+        self._put(last)
+
+    def _put(self, item: StoredMessage | BaseException | None) -> bool:
+        while not self._closed:
+            try:
+                self._queue.put(item, timeout=_STEP)
+            except Full:
+                continue
+            return True
+        return False

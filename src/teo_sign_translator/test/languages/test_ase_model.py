@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What the shipped model of ASL must do whatever it has learned, through the same pipeline as Spanish."""
+
+from __future__ import annotations
+
+import pytest
+
+from teo_sign_languages import load_language
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.output.known_signs import read_signs
+from teo_sign_translator.output.translation import Kind
+from teo_sign_translator.pipeline.translator import Translator
+from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
+from teo_sign_translator.text.sentence_type import SentenceType
+
+ASE = load_language("ase")
+
+
+@pytest.fixture(scope="module")
+def translator() -> Translator:
+    return Translator.load(language="ase")
+
+
+@pytest.mark.parametrize(
+    ("text", "glosses"),
+    [
+        # Order and courtesies as W. Vicars publishes them, lifeprint.com, lessons 1 to 3.
+        ("How are you?", "HOW YOU"),
+        ("Nice to meet you.", "NICE MEET YOU"),
+        ("Is your house big?", "YOUR HOUSE BIG"),
+        # Names and unknown words
+        ("My name is Ana.", "MY NAME A-N-A"),
+        ("My name is Guillermo.", "MY NAME G-U-I-L-L-E-R-M-O"),
+        ("I like blorps.", "ME LIKE BLORP"),
+        # Numbers, contractions, questions, negation, time
+        ("I have twenty-one books.", "ME HAVE 21 BOOK"),
+        ("I don't know.", "ME DONT_KNOW"),
+        ("I can't go.", "ME CANT GO"),
+        ("Where do you live?", "YOU LIVE WHERE"),
+        ("What is your name?", "YOUR NAME WHAT"),
+        ("Do you like coffee?", "YOU LIKE COFFEE"),
+        ("I'm not hungry.", "ME NOT HUNGRY"),
+        ("Yesterday I went to school.", "YESTERDAY ME GO SCHOOL"),
+        ("I went to school yesterday.", "YESTERDAY ME GO SCHOOL"),
+        ("If it rains, I will stay home.", "IF RAIN ME WILL STAY HOME"),
+        # As people type
+        ("where do u live", "YOU LIVE WHERE"),
+        ("I DON'T KNOW!!!", "ME DONT_KNOW"),
+        ("i dont know 😀", "ME DONT_KNOW"),
+    ],
+)
+def test_a_sentence_is_signed(translator: Translator, text: str, glosses: str) -> None:
+    assert str(translator.translate(text)) == glosses
+
+
+def test_a_word_without_a_sign_is_spelled_in_letters_of_the_language(translator: Translator) -> None:
+    signs = read_signs(ASE.table("teo"))
+    sentence = translator.translate("My friend has a blorpll.", signs).sentences[0]
+    spelled = [token.gloss for token in sentence.tokens if token.kind is Kind.LETTER]
+    assert spelled == list("BLORPLL")
+    assert {token.gloss for token in sentence.tokens if token.kind is Kind.LEXICAL} <= signs
+
+
+def test_a_sentence_has_its_kind_and_negation(translator: Translator) -> None:
+    sentences = translator.translate("Are you deaf? Where is she? I don't know!").sentences
+    assert [(sentence.type, sentence.negated) for sentence in sentences] == [
+        (SentenceType.YES_NO_QUESTION, False),
+        (SentenceType.WH_QUESTION, False),
+        (SentenceType.EXCLAMATION, True),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "says"),
+    [
+        ("", "empty_text", "nothing but blanks"),
+        ("?!", "nothing_to_sign", "only marks"),
+        ("Привет", "unsignable_text", "ASL"),
+        ("a" * (MAX_TEXT_LENGTH + 1), "text_too_long", str(MAX_TEXT_LENGTH)),
+    ],
+)
+def test_what_cannot_be_signed_is_refused_with_its_reason(
+    translator: Translator, text: str, code: str, says: str
+) -> None:
+    with pytest.raises(TranslationError, match=says) as refusal:
+        translator.translate(text)
+    assert refusal.value.code == code
+
+
+def test_a_huge_text_is_translated_whole(translator: Translator) -> None:
+    text = "I like coffee. " * (MAX_TEXT_LENGTH // 30)
+    sentences = translator.translate(text).sentences
+    assert len(sentences) == MAX_TEXT_LENGTH // 30
+    assert {str(sentence) for sentence in sentences} == {str(sentences[0])}
