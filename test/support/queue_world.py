@@ -35,6 +35,9 @@ from teo_signs.tokens import parse_printed
 
 TICK = 0.02
 
+# A driver takes a motion that begins where the robot will be then, within so much [rad].
+START_TOLERANCE = 0.01
+
 
 class World:
     """A queue, its planner, a clock, and a driver and robot that do what they are sent (or not)."""
@@ -58,6 +61,7 @@ class World:
         self.path: list[tuple[np.ndarray, np.ndarray]] = []  # positions and velocities of every tick
         self.lag = 0.0  # of the robot behind what it was sent [s]
         self.pace = 1.0  # path time per time
+        self.refused = 0  # motions that began elsewhere
         self._motions: list[tuple[float, Plan]] = []  # by the path time at which each begins
         self._stop: tuple[float, float, np.ndarray, np.ndarray] | None = None
         self._path_time = 0.0
@@ -85,7 +89,11 @@ class World:
                 self.sent.append(event)
                 if self.follows(event.plan):
                     earlier = event.samples.times[-1] - event.plan.duration  # than the plan begins
-                    begin = self._path_time + (event.start + earlier - self.now) * self.pace
+                    begin = self._path_time + (event.start - self.now) * self.pace + earlier
+                    here = self._position_at(begin - earlier)
+                    if np.abs(event.samples.positions[0] - here).max() > START_TOLERANCE:
+                        self._refuse(event.number)
+                        continue
                     self._motions = [item for item in self._motions if item[0] < begin] + [
                         (begin, event.plan)
                     ]
@@ -95,6 +103,19 @@ class World:
                 if self._motions or self._stop:
                     self._motions = []
                     self._stop = self.now, event.lead, self.positions, event.end.position
+
+    def _position_at(self, path_time: float) -> np.ndarray:
+        """Where what it was sent has the robot at a path time, if nothing new comes [rad]."""
+        position = self.positions
+        for begin, plan in self._motions:
+            if begin <= path_time:
+                position, _ = _sample(plan, path_time - begin)
+        return position
+
+    def _refuse(self, number: int) -> None:
+        self.refused += 1
+        refusal = "[start_mismatch] the robot will be elsewhere then"
+        self._answers.append((self.now, lambda: self.queue.driver_refused(number, refusal, self.now)))
 
     def _plan(self, wanted: PlanWanted | ReturnWanted) -> None:
         due, number, start, after = self.now + self.planning_time, wanted.number, wanted.start, 0.0
@@ -154,6 +175,7 @@ class World:
         self._answer()
         self.take(self.queue.step(self.now, obstacle=self.obstacle))
         self._answer()
+        self.queue.progress(self.now)
 
     def finished(self) -> list[tuple[int, Outcome]]:
         return [(event.ticket, event.outcome) for event in self.events if isinstance(event, Finished)]

@@ -18,6 +18,7 @@ from teo_lut_executor.execution.events import (
     PlanWanted,
     Preemption,
     QueueSettings,
+    ReturnWanted,
 )
 from teo_signs.sign import Sign
 
@@ -188,14 +189,6 @@ def test_a_pause_halts_progress_and_costs_nothing(world: World) -> None:
     assert world.finished() == [(ticket, Outcome.SUCCESS)]
 
 
-def test_at_half_speed_progress_follows_and_sentences_are_not_joined_in_motion(world: World) -> None:
-    world.driver_says(DriverMode.MOVING, speed_scaling=0.5)
-    first, second = world.sign("A"), world.sign("N")
-    world.run_until(lambda: len(world.finished()) == 2)
-    assert world.finished() == [(first, Outcome.SUCCESS), (second, Outcome.SUCCESS)]
-    assert not any(wanted.start.velocity.any() for wanted in plans_wanted(world))
-
-
 def test_a_newer_text_replaces_the_one_before_without_going_to_rest(table: Mapping[str, Sign]) -> None:
     world = World(table, QueueSettings(preemption=Preemption.REPLACE))
     world.run(0.2)
@@ -280,3 +273,79 @@ def test_a_queue_that_is_deactivated_stops_the_robot_and_names_the_sentence(worl
     world.obstacle = ""
     world.run_until(lambda: len(world.finished()) == 2)
     assert world.finished()[1] == (second, Outcome.SUCCESS)
+
+
+@pytest.mark.parametrize("pace", [0.1, 0.3, 0.5, 0.9])
+def test_at_any_speed_sentences_begin_at_once_and_go_on_from_where_the_robot_is(
+    world: World, pace: float
+) -> None:
+    world.run(0.2)
+    world.driver_says(DriverMode.HOLDING, speed_scaling=pace)
+    world.opening_time, world.planning_time = 0.4, 0.2
+    world.run(0.5)
+    tickets = [world.sign(text) for text in ("TÚ", "A-N", "TÚ")]
+    world.run_until(lambda: len(world.finished()) == len(tickets), most=60.0 / pace)
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert world.refused == 0
+    assert not world.stops
+    assert all(status.code == "" for status in world.statuses())
+    opening, *others = world.sent
+    assert len(others) == len(tickets)
+    np.testing.assert_allclose(opening.plan.positions[0], REST, atol=1e-3)
+    for sent in others:
+        assert np.abs(sent.plan.positions[0] - REST).max() > 0.1, "from rest again"
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_speed_that_is_changed_whenever_costs_no_sentence(world: World, seed: int) -> None:
+    draw = np.random.default_rng(seed)
+    world.run(0.2)
+    world.opening_time, world.planning_time = 0.4, 0.2
+    tickets = [world.sign(text) for text in ("TÚ", "A-N", "TÚ")]
+    for _ in range(20):
+        world.run(float(draw.uniform(0.02, 0.8)))
+        mode = draw.choice([DriverMode.MOVING, DriverMode.PAUSED], p=[0.8, 0.2])
+        world.driver_says(DriverMode(mode), speed_scaling=float(draw.uniform(0.1, 1.0)))
+    world.driver_says(DriverMode.MOVING)
+    world.run_until(lambda: len(world.finished()) == len(tickets))
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert world.refused == 0
+    assert all(status.code == "" for status in world.statuses())
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_robot_that_is_not_heard_for_a_while_but_goes_on_is_stopped_before_it_signs_again(
+    world: World, seed: int
+) -> None:
+    draw = np.random.default_rng(seed)
+    world.run(0.2)
+    tickets = [world.sign(text) for text in ("A-N-A", "TÚ")]
+    world.run(float(draw.uniform(0.3, 6.0)))
+    world.publishes_states = False
+    world.run(float(draw.uniform(0.6, 2.0)))
+    world.publishes_states = True
+    world.run_until(lambda: len(world.finished()) == len(tickets))
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert world.refused == 0
+
+
+@pytest.mark.parametrize("wait", [0.05, 1.0])
+def test_a_sentence_that_is_canceled_in_a_pause_does_not_go_on_when_the_pause_ends(
+    world: World, wait: float
+) -> None:
+    first = world.sign("A-N-A-N")
+    world.run(3.0)
+    world.driver_says(DriverMode.PAUSED)
+    world.velocities = np.zeros(REST.size)
+    world.run(wait)
+    world.cancel(first)
+    world.run(1.0)
+    here = world.positions
+    world.driver_says(DriverMode.MOVING)
+    second = world.sign("TÚ")
+    world.run_until(lambda: len(world.finished()) == 2)
+    (back,) = (event for event in world.events if isinstance(event, ReturnWanted))
+    # The way of a stop from full speed, which this driver has at once: 0.2 s at 1 rad/s.
+    np.testing.assert_allclose(back.start.position, here, atol=0.2)
+    assert world.finished() == [(first, Outcome.CANCELED), (second, Outcome.SUCCESS)]
+    assert world.refused == 0

@@ -104,11 +104,13 @@ class Interruption:
         situation = work.situation
         way = brake(work.motions, situation.limits) if follows and situation.may_continue else None
         if way is not None:
-            work.halt.expect(way.ahead + way.plan.duration)
-            start = situation.now + way.ahead
             number = next(work.numbers)
+            work.halt.expect(number, situation.clock_time(way.ahead + way.plan.duration))
+            start = situation.now + situation.clock_time(way.ahead)
             return [TrajectoryReady(number=number, plan=way.plan, samples=way.samples, start=start)]
         moving = situation.robot.state()
+        if motion is not None and not situation.may_be_told:
+            work.halt.owe()
         if motion is not None:  # joint states tell no acceleration
             moving = replace(moving, acceleration=motion.state_at(motion.elapsed).acceleration)
         return [*work.halt.stop(moving, next(work.numbers))]
@@ -124,11 +126,9 @@ class Interruption:
 
     def end_if_lost(self) -> list[Event]:
         """Give up what is going on when nothing is heard of the robot."""
-        if not self._work.situation.is_stale or self._work.phase is Phase.RESTING:
+        if not self._work.situation.is_stale or self._work.phase in (Phase.RESTING, Phase.STOPPING):
             return []
-        events = self.give_up(PlanError("stale_joint_states", self._work.situation.hindrance))
-        self._work.phase = Phase.RESTING  # nothing tells how it moves
-        return events
+        return self.give_up(PlanError("stale_joint_states", self._work.situation.hindrance))
 
     def give_up(self, error: PlanError) -> list[Event]:
         """The robot does not do what was sent: stop it, and sign the sentence again, or name it."""

@@ -46,9 +46,9 @@ class Motions:
         self.present, self.continuation = following, None
         return following.motion
 
-    def of(self, plan: Plan) -> PathMonitor:
-        """The motion of a plan that was sent."""
-        return next(motion for motion in self._sent() if motion.motion is plan)
+    def of(self, plan: Plan) -> PathMonitor | None:
+        """The motion of a plan, if it was sent."""
+        return next((motion for motion in self._sent() if motion.motion is plan), None)
 
     def clear(self) -> None:
         """Nothing is in force any more."""

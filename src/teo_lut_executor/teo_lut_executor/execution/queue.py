@@ -150,7 +150,7 @@ class ExecutionQueue:
     def driver_state(self, report: DriverReport, now: float) -> list[Event]:
         """Take what the driver says of itself."""
         self._tick(now)
-        self._situation.driver = report
+        self._situation.hear_driver(report)
         if report.remaining is not None:
             since = max(now - report.stamp, 0.0)  # the message's way here
             self._work.motions.synchronise(report.remaining - since * report.speed_scaling)

@@ -12,7 +12,7 @@ from teo_lut_executor.execution.joining import LEAST_AHEAD
 from teo_lut_executor.execution.path_monitor import PathMonitor
 from teo_lut_executor.execution.seam import continued
 from teo_lut_executor.execution.work import Work
-from teo_motion.sentence.plan import Plan
+from teo_motion.sentence.plan import Plan, Samples
 from teo_signs.errors import PlanError
 
 # A motion from a standstill is sent to start so much later [s]: the message's way to the driver, and its
@@ -58,7 +58,7 @@ class Signing:
         """Take the first motion of a sentence; the whole follows."""
         if number != self._work.asked or self._work.current is None or self._work.current.canceled:
             return []
-        return self._send(plan, self._work.situation.now + _START_LEAD)
+        return self._depart(plan)
 
     def planned(self, number: int, plan: Plan, after: float) -> list[Event]:
         """Take a plan that was wanted.
@@ -72,23 +72,23 @@ class Signing:
             return self._join()
         if number != self._work.asked:
             return []
-        now, current, opening = self._work.situation.now, self._work.current, self._work.motions.present
+        current, opening = self._work.current, self._work.motions.present
         if opening is None:
             self._work.asked = 0
             if current is not None:
                 current.plan = None if current.canceled else plan
             signs = current is not None and not current.canceled
             self._work.phase = Phase.SIGNING if signs else Phase.RETURNING
-            return self._send(plan, now + _START_LEAD) + self._work.tell()
+            return self._depart(plan) + self._work.tell()
         assert current is not None
-        ahead = after - opening.elapsed if after > 0.0 else opening.motion.duration - opening.elapsed
-        if after > 0.0 and ahead < LEAST_AHEAD:
+        ahead = after - opening.elapsed
+        if after > 0.0 and (ahead < LEAST_AHEAD or not self._work.situation.may_continue):
             return self._ask_from_end(current, opening)
         self._work.asked = 0
         current.plan = plan
-        if after == 0.0:  # it begins where the opening has come to a standstill
-            return self._send(plan, now + max(ahead, _START_LEAD)) + self._work.tell()
-        return self._send(plan, now + ahead, seam=after) + self._work.tell()
+        if after == 0.0:
+            return []  # it begins when the opening has come to a standstill, see `_follow`
+        return self._continue(opening, after, plan) + self._work.tell()
 
     def not_planned(self, number: int, error: PlanError) -> list[Event]:
         """Take why there is no plan."""
@@ -129,6 +129,7 @@ class Signing:
             return self._interruption.give_up(error)
         if motion is not None and motion.number == number:
             return self._interruption.give_up(error)
+        self._work.halt.owe(number)
         return []
 
     def _begin(self) -> list[Event]:
@@ -154,26 +155,28 @@ class Signing:
         end = opening.state_at(opening.motion.duration)
         return [PlanWanted(number=self._work.asked, sentence=current.sentence, start=end)]
 
-    def _send(self, plan: Plan, start: float, *, seam: float | None = None) -> list[Event]:
-        """Send a motion; it is in force at once, or takes over from the one that is.
-
-        Args:
-            plan: The motion.
-            start: When it begins [s].
-            seam: When it continues the present motion, in that one's time [s]; None from a standstill.
-        """
-        number, present = next(self._work.numbers), self._work.motions.present
-        opens, elapsed, samples = present is None, self._work.situation.now - start, plan.samples
-        if present is not None and seam is not None:
-            samples = continued(present.motion, seam, plan)
-            start -= float(samples.times[1])
-        settings = self._work.situation.settings
-        self._work.motions.add(PathMonitor(number=number, motion=plan, elapsed=elapsed, settings=settings))
-        events: list[Event] = [TrajectoryReady(number=number, plan=plan, samples=samples, start=start)]
-        if not opens or self._work.current is None or self._work.current.canceled:
+    def _depart(self, plan: Plan) -> list[Event]:
+        """Send a motion that begins at a standstill."""
+        situation, current = self._work.situation, self._work.current
+        opens = self._work.motions.present is None
+        start = situation.now + _START_LEAD
+        events = self._send(plan, plan.samples, start, elapsed=-_START_LEAD * situation.pace)
+        if not opens or current is None or current.canceled:
             return events
         self._work.phase = Phase.SIGNING
-        return [*events, self._begun(self._work.current)]
+        return [*events, self._begun(current)]
+
+    def _continue(self, motion: PathMonitor, seam: float, plan: Plan) -> list[Event]:
+        """Send a motion that takes over from the one in force at that one's path time [s]."""
+        situation, ahead = self._work.situation, seam - motion.elapsed
+        samples = continued(motion.motion, seam, plan)
+        start = situation.now + situation.clock_time(ahead - float(samples.times[1]))
+        return self._send(plan, samples, start, elapsed=-ahead)
+
+    def _send(self, plan: Plan, samples: Samples, start: float, *, elapsed: float) -> list[Event]:
+        number, settings = next(self._work.numbers), self._work.situation.settings
+        self._work.motions.add(PathMonitor(number=number, motion=plan, elapsed=elapsed, settings=settings))
+        return [TrajectoryReady(number=number, plan=plan, samples=samples, start=start)]
 
     @staticmethod
     def _begun(job: Job) -> Begun:
@@ -195,7 +198,7 @@ class Signing:
         if due is None:
             return wanted
         plan, seam = due
-        return self._send(plan, self._work.situation.now + seam - motion.elapsed, seam=seam)
+        return self._continue(motion, seam, plan)
 
     def _take_over(self) -> list[Event]:
         """Let the motion that continues the present one be in force when its time has come."""
@@ -214,9 +217,13 @@ class Signing:
         """See whether the robot follows, and whether it is at the end."""
         motion, current = self._work.motions.present, self._work.current
         assert motion is not None
-        robot, age = self._work.situation.robot, self._work.situation.age * self._work.situation.pace
-        whole = current is None or current.canceled or current.plan is motion.motion
-        if motion.is_reached(robot, age) and whole and self._work.motions.continuation is None:
+        situation, continues = self._work.situation, self._work.motions.continuation is not None
+        robot, age = situation.robot, situation.age * situation.pace
+        if motion.is_reached(robot, age) and not continues:
+            if current is not None and not current.canceled and current.plan is not motion.motion:
+                if current.plan is None or situation.hindrance:
+                    return []
+                return self._depart(current.plan)  # that was its opening
             if self._work.phase is Phase.RETURNING:
                 return self._interruption.rested()
             assert current is not None
@@ -225,7 +232,7 @@ class Signing:
             ended = Outcome.CANCELED if current.canceled else Outcome.SUCCESS
             return finished(current, ended, message=current.canceled)
         problem = motion.problem(robot, age)
-        if problem is None or (problem.code == "not_reached" and not whole):
+        if problem is None or (problem.code == "not_reached" and continues):
             return []
         if self._work.phase is Phase.RETURNING:
             self._work.returns += 1

@@ -14,6 +14,9 @@ from teo_motion.trajectory.limits import MotionLimits
 # running [s]: joint states that came meanwhile have not been read yet, and do not count as stale.
 _CLOCK_STEP = 0.2
 
+# A robot's pace counts as steady when the driver has told no other for this long [s]: two of its reports.
+_STEADY = 0.2
+
 # What the driver's modes mean for the sentence at hand, by code.
 BLOCKED = {
     DriverMode.STOPPED: ("stopped", "the robot was told to stop: re-arm it to go on"),
@@ -30,7 +33,7 @@ class Situation:
         settings: How patient the executor is.
         now: [s].
         robot: Where it is.
-        driver: What it said last; None if nothing yet.
+        driver: What it said last, see `hear_driver`; None if nothing yet.
         obstacle: Why no motion may begin, as far as the caller knows; empty if it may.
     """
 
@@ -42,6 +45,7 @@ class Situation:
         self.robot = RobotState(limits.names)
         self.driver: DriverReport | None = None
         self.obstacle = ""
+        self._pace_changed = -math.inf
 
     def tick(self, now: float) -> tuple[float, float]:
         """Let time pass; carry on where we are if the clock was set.
@@ -54,7 +58,14 @@ class Situation:
         is_set = passed < 0.0 or passed > _CLOCK_STEP
         if is_set:
             self.robot.shift_clock(passed)
+            self._pace_changed += passed
         return max(passed, 0.0) * self.pace, passed if is_set else 0.0
+
+    def hear_driver(self, report: DriverReport) -> None:
+        """Take what the driver says of itself."""
+        before, self.driver = self.pace, report
+        if self.pace != before:
+            self._pace_changed = self.now
 
     @property
     def pace(self) -> float:
@@ -106,9 +117,19 @@ class Situation:
         return "" if self.robot.is_still else "waiting for the robot to stand still"
 
     @property
+    def may_be_told(self) -> bool:
+        """Whether the robot is heard, and its driver takes motions."""
+        return not self.is_stale and self.block is None and self.mode is not DriverMode.PAUSED
+
+    def clock_time(self, path_time: float) -> float:
+        """How long so much path time takes while `may_continue` holds [s]."""
+        return path_time / self.pace
+
+    @property
     def may_continue(self) -> bool:
-        """Whether the driver would take a motion that continues another."""
-        return self.pace == 1.0 and self.block is None and not self.is_stale
+        """Whether it is known when the robot will be where, and the driver would take a motion from there."""
+        steady = self.pace > 0.0 and self.now - self._pace_changed >= _STEADY
+        return steady and self.block is None and not self.is_stale
 
     @property
     def may_join(self) -> bool:

@@ -70,7 +70,10 @@ class Work:
         if self.phase is not Phase.SIGNING or current is None or current.plan is None or current.canceled:
             return None
         plan = current.plan
-        elapsed = self.motions.of(plan).elapsed
+        motion = self.motions.of(plan)
+        if motion is None:  # it waits for the end of its opening
+            return None
+        elapsed = motion.elapsed
         signed = plan.token_at(elapsed)
         following = next((i for i, timing in enumerate(plan.timings) if timing.start > elapsed), None)
         return Progress(
