@@ -104,19 +104,28 @@ def test_two_pages_see_one_robot_and_closing_one_changes_nothing(new_page: NewPa
     assert other.evaluate("document.documentElement.scrollWidth") <= 390  # whatever is signed
     other.click("#pause")
     expect(one.locator("#status")).to_have_text("En pausa.")
-    other.locator("#speed").fill("50")
-    other.locator("#speed").dispatch_event("change")
+    slide_speed(other, 50)
     expect(one.locator("output[for=speed]")).to_have_text("50 %")
     one.click("#pause")
     expect(other.locator("#status")).to_have_text(re.compile("^Signando: Me llamo Bartolomé."))
     other.close()
     expect(one.locator("#status")).to_have_text(re.compile("^Signando: Me llamo Bartolomé."))
-    one.locator("#speed").fill("100")
-    one.locator("#speed").dispatch_event("change")
+    slide_speed(one, 100)
+    expect(one.locator("output[for=speed]")).to_have_text("100 %")
     one.click("#stop")
     expect(one.locator(".history li").first).to_contain_text("Me llamo Bartolomé.")
     one.click("#rearm")
     wait_until_ready(one)
+
+
+def slide_speed(page: Page, percent: int) -> None:
+    page.locator("#speed").evaluate(
+        """(slider, percent) => {
+            slider.value = percent;
+            for (const event of ["input", "change"]) slider.dispatchEvent(new Event(event));
+        }""",
+        percent,
+    )
 
 
 def test_what_is_heard_on_speech_is_signed_only_when_it_is_confirmed(

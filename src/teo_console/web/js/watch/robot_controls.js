@@ -6,6 +6,8 @@ import { h } from "../dom.js";
 
 const SLOWEST = 10; // [%]
 const STEP = 10;
+// The node repeats the situation every second: a speed that it does not tell by then was not taken [ms].
+const TAKEN = 1500;
 
 export function robotControls({ socket, settings, attempt, t }, listening) {
   const pause = h("button", { type: "button", id: "pause" });
@@ -13,6 +15,7 @@ export function robotControls({ socket, settings, attempt, t }, listening) {
   const told = h("output", { for: "speed" });
   let paused = false;
   let dragged = false;
+  let asked = { percent: null, until: 0 };
 
   pause.addEventListener("click", () => attempt(() => socket.ask("command", { order: paused ? "resume" : "pause" })));
   speed.addEventListener("input", () => {
@@ -21,6 +24,7 @@ export function robotControls({ socket, settings, attempt, t }, listening) {
   });
   speed.addEventListener("change", async () => {
     dragged = false;
+    asked = { percent: Number(speed.value), until: performance.now() + TAKEN };
     settings.set("robotSpeed", Number(speed.value) / 100);
     await attempt(() => socket.ask("set_speed", { factor: Number(speed.value) / 100 }));
   });
@@ -29,8 +33,11 @@ export function robotControls({ socket, settings, attempt, t }, listening) {
     paused = robot.mode === "paused";
     pause.textContent = t(paused ? "robot.resume" : "robot.pause");
     pause.disabled = !["moving", "holding", "paused"].includes(robot.mode);
-    if (dragged) return;
-    speed.value = String(Math.round(robot.speed_wanted * 100));
+    const percent = Math.round(robot.speed_wanted * 100);
+    // What is told before the node has taken a speed is the one before it.
+    if (dragged || (percent !== asked.percent && performance.now() < asked.until)) return;
+    asked.until = 0;
+    speed.value = String(percent);
     told.textContent = `${speed.value} %`;
     remind(robot, pages);
   }
