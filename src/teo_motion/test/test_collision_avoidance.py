@@ -158,3 +158,11 @@ def test_hands_that_part_to_pass_stay_before_the_body(glosses: str, lut: Lut, ro
     ]
     # Arms that are stretched out to the sides reach 0.75 m.
     assert max(abs(wrist[1, 3]) for wrist in wrists) < 0.5
+
+
+def test_a_way_on_which_a_hand_passes_through_another_shape_is_led_around_as_well(
+    lut: Lut, robot: Robot
+) -> None:
+    # A thumb passes through another shape half way, where one hand would be in the other.
+    plan = Planner(dict(lut), robot=robot).plan([Token(gloss="SISTEMA"), Token(gloss="SALSA")])
+    assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0
