@@ -34,7 +34,9 @@ _TEXT = "Hola. Sí."
 _LONGEST = 8.0  # [s] until the text is signed, about
 _VICTIMS = ("translator", "executor", "planner", "driver")
 _SEED = 13
-_TIMEOUT = 120.0  # [s] until all is at rest again
+# [s] until all is at rest again: an executor and its planner load for 7 s of a core, which are minutes where
+# seven processes of higher priority wait for each.
+_TIMEOUT = 900.0
 _RESTART = 1.0  # [s] after which a supervisor starts a process again
 
 
@@ -63,7 +65,7 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
     restless: list[str] = []
     unanswered = 0
     outcomes: Counter[str] = Counter()
-    fastest = 0.0
+    fastest = longest = 0.0
     with tempfile.TemporaryDirectory() as folder:
         journal = Path(folder)
         try:
@@ -83,8 +85,10 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
                 witness.heard.clear()  # what was restarted is there when it is heard again
                 if victim != "planner":
                     start(victim, journal)
+                began = time.monotonic()
                 if not wait(lambda: witness.at_rest, _TIMEOUT):
                     restless.append(f"{victim} after {moment:.1f} s: {witness.unrest}")
+                longest = max(longest, time.monotonic() - began)
                 unanswered += typed - len(witness.answered)
                 lost += [
                     f"{victim} after {moment:.1f} s" for _ in witness.sentences - witness.accounted.keys()
@@ -104,6 +108,7 @@ def measure(kills: int = KILLS, seed: int = _SEED) -> list[Figure]:
         Figure("sentences neither signed nor named", f"{len(lost)} {'; '.join(lost)}".strip()),
         Figure("texts that died with the translator, unanswered", str(unanswered)),
         Figure("kills after which the robot did not come to rest", f"{len(restless)} {'; '.join(restless)}"),
+        Figure("longest from a restart until all is signed and at rest", f"{longest:.0f} s"),
         Figure("greatest speed over the limit", f"{fastest:.3f}"),
     ]
 

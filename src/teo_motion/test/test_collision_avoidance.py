@@ -144,3 +144,25 @@ def test_no_overlap_between_two_looks_stays_unseen(robot: Robot) -> None:
         else:
             assert found > -RESOLUTION, "a little deeper than at a hundredth"
     assert overlaps > 3
+
+
+@pytest.mark.parametrize("glosses", ["GRACIAS TÚ", "TÚ GRACIAS", "MUÑECA LUNES"])
+def test_hands_that_part_to_pass_stay_before_the_body(glosses: str, lut: Lut, robot: Robot) -> None:
+    signs = dict(lut)
+    assert without_looking(signs, glosses, robot) < 0.0
+    plan = Planner(signs, robot=robot).plan([Token(gloss=gloss) for gloss in glosses.split()])
+    wrists = [
+        robot.placement(robot.configuration(dict(zip(plan.names, plan.at(time)[0], strict=True))), wrist)
+        for time in np.arange(0.0, plan.duration, 0.1)
+        for wrist in ("FrontalRightWrist_link", "FrontalLeftWrist_link")
+    ]
+    # Arms that are stretched out to the sides reach 0.75 m.
+    assert max(abs(wrist[1, 3]) for wrist in wrists) < 0.5
+
+
+def test_a_way_on_which_a_hand_passes_through_another_shape_is_led_around_as_well(
+    lut: Lut, robot: Robot
+) -> None:
+    # A thumb passes through another shape half way, where one hand would be in the other.
+    plan = Planner(dict(lut), robot=robot).plan([Token(gloss="SISTEMA"), Token(gloss="SALSA")])
+    assert MotionClearance(robot).nearest(plan.samples).distance >= 0.0

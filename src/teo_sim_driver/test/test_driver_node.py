@@ -100,6 +100,9 @@ def test_told_to_stop_it_comes_to_rest_on_the_way_and_takes_nothing_until_re_arm
     bench.commands.publish(home)
     bench.until(lambda: bench.driver_states[-1].refusal_code == "stopped")
     assert bench.position("FrontalRightElbow") == where
+    instead = bench.call("resume")
+    assert not instead.success
+    assert "`rearm`" in instead.message
     assert bench.call("rearm").success
     bench.until(lambda: bench.mode() == DriverState.MODE_HOLDING)
     bench.commands.publish(home)

@@ -123,34 +123,47 @@ class CollisionAvoidance:
         """Lead the transition with the worst collision around the body."""
         route, plan, times = timed
         step = _nearest_step(timed)
-        if self._is_clear_at(plan, times[step : step + 2]):
-            begin, end = float(times[step]), float(times[step + 1])
+        first_step, last_step = self._between_postures(route, step)
+        ends = times[[first_step, last_step]]
+        if self._is_clear_at(plan, ends):
+            begin, end = ends.tolist()
             first, middle, second = (plan.at(moment)[0] for moment in (begin, (begin + end) / 2.0, end))
             # A sign that is swung into leaves the straight line to its next knot, where hands may be close:
             # it stands still at the knot first.
             ways: Iterable[Sequence[Array]] = (
                 detours(first, middle, second, self._limits) if route.token_at(step) is None else [(first,)]
             )
+            half_way = (first_step + last_step - 1) // 2
             for postures in self._free_first(ways, first, second):
                 other = route
                 for posture in reversed(postures):
-                    other = with_detour(other, step, posture, self._arms)
+                    other = with_detour(other, half_way, posture, self._arms)
                 found = self._timed(other)
-                round_here = range(step, step + len(postures) + 1)
+                round_here = range(first_step, last_step + len(postures))
                 if self._is_clear(found.plan) or _nearest_step(found) not in round_here:
                     return found
         raise self._collision(timed)
+
+    def _between_postures(self, route: Route, step: int) -> tuple[int, int]:
+        """The waypoints around a step at which arms have places: between signs some are of hands alone."""
+        free = [bool(np.isnan(row[self._arms]).all()) for row in route.targets]
+        first, last = step, step + 1
+        if route.token_at(step) is None:
+            while free[first] and route.token_at(first - 1) is None:
+                first -= 1
+            while free[last] and route.token_at(last) is None:
+                last += 1
+        return first, last
 
     def _collision(self, timed: TimedRoute) -> _CollisionError:
         """What touches, and where: in a sign if one of its postures does, else between two waypoints."""
         route, plan, times = timed
         near, step = plan.nearest, _nearest_step(timed)
         assert near is not None
-        guilty = next(
-            (end for end in (step, step + 1) if not self._is_clear_at(plan, times[end : end + 1])), None
-        )
+        ends = self._between_postures(route, step)
+        guilty = next((end for end in ends if not self._is_clear_at(plan, times[end : end + 1])), None)
         if guilty is None:
-            where = f"on the way from {route.name_at(step)} to {route.name_at(step + 1)}"
+            where = f"on the way from {route.name_at(ends[0])} to {route.name_at(ends[1])}"
         else:
             where = f"in {route.name_at(guilty)}"
         error = PlanError(

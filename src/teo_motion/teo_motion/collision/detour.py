@@ -23,17 +23,22 @@ _CHANGES: tuple[tuple[float, tuple[str, ...]], ...] = (
     (0.6, ("open",)),
     (0.4, ("sideways", "forward")),
     (0.5, ("forward", "open")),
+)
+_WIDE_CHANGES: tuple[tuple[float, tuple[str, ...]], ...] = (
     (0.8, ("sideways", "open")),
     (0.9, ("open", "forward", "sideways")),
 )
+
+# Shares of the way to hands wide apart, which costs time and looks like flying.
+_PARTLY = (0.3, 0.5, 0.75)
 
 
 def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) -> Iterator[tuple[Array, ...]]:
     """Postures to pass through between two others, the least far out of the way first.
 
-    Arms wider, further in front, hands away from the body; then one arm before the other; then hands apart,
-    and from there one arm before the other, which takes any two hands out of each other's way; last the same
-    with hanging arms, a posture from which every sign can be reached.
+    Arms wider, further in front, hands away from the body; hands somewhat apart; arms wide; one arm before
+    the other; then hands wide apart, and from there one arm before the other, which takes any two hands out
+    of each other's way; last the same with hanging arms, a posture from which every sign can be reached.
 
     Args:
         first: Positions at the waypoint before [rad]. Shape (joints,).
@@ -45,19 +50,34 @@ def detours(first: Array, middle: Array, second: Array, limits: MotionLimits) ->
     left, right = (humanoid.limb_columns[arm] for arm in ARMS)
     for angle, directions in _CHANGES:
         yield (_changed(middle, angle, directions, limits),)
-    for arm in (left, right):
-        yield (_with_columns(first, arm, second),)
     apart = middle.copy()
     apart[left + right] = 0.0
     apart = humanoid.with_both_arms(apart, humanoid.file.detour.apart_deg)
+    partly = [_kept(middle + share * (apart - middle), limits) for share in _PARTLY]
+    for away in partly:
+        yield (away,)
+    for angle, directions in _WIDE_CHANGES:
+        yield (_changed(middle, angle, directions, limits),)
+    for arm in (left, right):
+        yield (_with_columns(first, arm, second),)
+    for away in partly:
+        yield from _one_arm_first(first, away, second, (left, right))
     for away in (_kept(apart, limits), _with_columns(middle, left + right, humanoid.hanging)):
         yield (away,)
+        yield from _one_arm_first(first, away, second, (left, right))
         for arm in (left, right):
-            yield away, _with_columns(away, arm, second)
-        for arm in (left, right):
-            yield _with_columns(first, arm, away), away
             for later in (left, right):
                 yield _with_columns(first, arm, away), away, _with_columns(away, later, second)
+
+
+def _one_arm_first(
+    first: Array, away: Array, second: Array, arms: tuple[list[int], list[int]]
+) -> Iterator[tuple[Array, ...]]:
+    """By way of a posture, to which or from which one arm goes before the other."""
+    for arm in arms:
+        yield away, _with_columns(away, arm, second)
+    for arm in arms:
+        yield _with_columns(first, arm, away), away
 
 
 def _with_columns(posture: Array, columns: list[int], other: Array) -> Array:

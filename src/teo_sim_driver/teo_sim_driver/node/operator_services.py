@@ -68,7 +68,9 @@ class OperatorServices:
 
     def _resume(self) -> str:
         if not self._follower.resume(self._now()):
-            raise DriverError("not_paused", f"expected a pause to end, it is {self._follower.mode}")
+            mode = self._follower.mode
+            instead = ": call `rearm`" if mode in (Mode.STOPPED, Mode.FAULT) else ""
+            raise DriverError("not_paused", f"expected a pause to end, it is {mode}{instead}")
         return f"resumed: {self._follower.mode}"
 
     def _on_scaling(self, message: SpeedScalingFactor) -> None:
