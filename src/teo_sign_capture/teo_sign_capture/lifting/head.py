@@ -70,8 +70,8 @@ def lift_head(places: Array) -> tuple[Array, Array]:
 def _fit(points: Array, seen: NDArray[np.bool_], before: Array) -> tuple[Array, Array]:
     """Turn as a rotation vector, and the five points turned. Shapes (3,) and (5, 3).
 
-    By Levenberg and Marquardt's method. The slopes are written out: a film of three seconds asks for 150 fits, in
-    which SciPy's `least_squares` takes a second, nearly all of it bookkeeping.
+    By Levenberg and Marquardt's method. The slopes are written out: a film of three seconds asks for 150
+    fits, in which SciPy's `least_squares` takes a second, nearly all of it bookkeeping.
     """
     wanted = points[seen] - points[seen].mean(axis=0)
     x = np.append(before, 0.0)
