@@ -41,6 +41,7 @@ from teo_synthetic_signer.script.script_file import read_script
 BODIES |= random_people(3, 19_447, "pupil")
 BODIES |= random_people(3, 52_301, "teacher")
 BODIES |= random_people(3, 70_117, "guest")
+BODIES |= random_people(3, 84_131, "visitor")
 
 _RATE = 25.0  # [Hz]
 _QUALITY = (
@@ -85,19 +86,28 @@ KNOWN_DEPTHS = Draw(
     distance=2.2,
     without=(KNOWN, KNOWN_SINCE, KNOWN_LAST),
 )
-# Never looked at: other signs and people. Looked at, it is known: draw another.
-NEW = Draw(
+# Other signs and people again, looked at since; nothing was chosen on them.
+KNOWN_GUESTS = Draw(
     seed=61_553,
     signs=18,
     bodies=("guest_0", "guest_1", "guest_2"),
     distance=1.9,
     without=(KNOWN, KNOWN_SINCE, KNOWN_LAST, KNOWN_DEPTHS),
 )
+# Looked at once, lifted once and twice: other signs and people. Who changes something draws another.
+NEW = Draw(
+    seed=97_003,
+    signs=24,
+    bodies=("visitor_0", "visitor_1", "visitor_2"),
+    distance=2.1,
+    without=(KNOWN, KNOWN_SINCE, KNOWN_LAST, KNOWN_DEPTHS, KNOWN_GUESTS),
+)
 DRAWS = {
     "known": KNOWN,
     "known since": KNOWN_SINCE,
     "known last": KNOWN_LAST,
     "known, depths chosen on them": KNOWN_DEPTHS,
+    "known, nothing chosen on them": KNOWN_GUESTS,
     "new": NEW,
 }
 

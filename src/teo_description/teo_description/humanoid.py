@@ -435,7 +435,13 @@ def joint_directions(urdf: ET.Element) -> Mapping[str, Array]:
 def robot_folders() -> tuple[Path, ...]:
     """Where robots are looked for, one's own first."""
     base = os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share"
-    return Path(base) / "teo" / "robots", package_path("teo_description", "robots")
+    return Path(base) / "teo" / "robots", _own_folder()
+
+
+@cache
+def _own_folder() -> Path:
+    """Looked for once: every entry of a table asks for its robot."""
+    return package_path("teo_description", "robots")
 
 
 def available_robots() -> tuple[str, ...]:

@@ -29,7 +29,14 @@ Bags = Annotated[
         "GLOSS, or GLOSS_1, GLOSS_2."
     ),
 ]
-Gloss = Annotated[str | None, typer.Option(help="Name of the sign; not with a folder.")]
+
+
+def upper_case(gloss: str | None) -> str | None:
+    """A gloss as it is written, however it was typed."""
+    return gloss and gloss.upper()
+
+
+Gloss = Annotated[str | None, typer.Option(help="Name of the sign; not with a folder.", callback=upper_case)]
 Start = Annotated[float | None, typer.Option(help="Look at the recording from this second on.")]
 End = Annotated[float | None, typer.Option(help="Look at the recording up to this second.")]
 TableDirectory = Annotated[

@@ -23,6 +23,7 @@ from teo_sign_capture.cli.capture import (
     StandingOption,
     Start,
     TableDirectory,
+    upper_case,
 )
 from teo_sign_capture.cli.reporting import fail, tell
 from teo_signs.errors import LutError
@@ -37,7 +38,9 @@ def import_pose(
     file: Annotated[
         Path | None, typer.Argument(help="A .pose file: MediaPipe Holistic's or OpenPose's points.")
     ] = None,
-    gloss: Annotated[str | None, typer.Option(help="Name of the sign in a .pose file.")] = None,
+    gloss: Annotated[
+        str | None, typer.Option(help="Name of the sign in a .pose file.", callback=upper_case)
+    ] = None,
     signwriting: Annotated[
         Path | None,
         typer.Option(help="A dictionary in SignWriting: SignPuddle's .spml, or a TSV of term and FSW."),

@@ -22,6 +22,7 @@ from teo_sign_capture.cli.capture import (
     Replace,
     StandingOption,
     TableDirectory,
+    upper_case,
 )
 from teo_sign_capture.cli.reporting import fail, tell
 from teo_signs.errors import LutError
@@ -35,7 +36,7 @@ _output = Console(highlight=False)
 
 
 def record(
-    gloss: Annotated[str, typer.Option(help="Name of the sign.")],
+    gloss: Annotated[str, typer.Option(help="Name of the sign.", callback=upper_case)],
     countdown: Annotated[float, typer.Option(help="Seconds until the sign is to begin.")] = 3.0,
     lut: TableDirectory = None,
     replace: Replace = False,

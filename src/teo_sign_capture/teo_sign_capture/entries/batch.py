@@ -44,6 +44,8 @@ _CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer, or has no worke
 def find_jobs(folder: Path) -> list[Job]:
     """The signs of a folder: each recording, or sub-folder of recordings, is named after its gloss, by gloss.
 
+    Names may be in lower case, as telephones and file systems like them.
+
     Raises:
         LutError: "no_bag" if there are none.
     """
@@ -56,7 +58,7 @@ def find_jobs(folder: Path) -> list[Job]:
         elif path.is_dir():
             bags = [inside for inside in sorted(path.iterdir()) if is_recording(inside)]
             if bags:
-                takes.setdefault(gloss_key(path.name), []).extend(bags)
+                takes.setdefault(_gloss(path.name), []).extend(bags)
     if not takes:
         raise LutError(
             "no_bag",
@@ -191,7 +193,11 @@ def workers(count: int, dask: str | None) -> Iterator[Executor]:
 
 def _gloss_of(path: Path) -> str:
     name = path.stem if path.is_file() else path.name
-    return gloss_key(_TAKE.sub("", name) or name)
+    return _gloss(_TAKE.sub("", name) or name)
+
+
+def _gloss(name: str) -> str:
+    return gloss_key(name).upper()
 
 
 def _job(path: Path, line: int, row: dict[str, str | None]) -> Job:
@@ -209,7 +215,7 @@ def _job(path: Path, line: int, row: dict[str, str | None]) -> Job:
     if cells["hands"] and cells["hands"] not in get_args(Handedness):
         raise _bad_manifest(path, line, f"hands of {', '.join(get_args(Handedness))}", cells["hands"])
     return Job(
-        gloss=gloss_key(cells["gloss"]),
+        gloss=_gloss(cells["gloss"]),
         bags=(path.parent / cells["bag"],),
         cut=cut,
         handedness=cells["hands"] or None,  # type: ignore[arg-type]  # checked above

@@ -14,6 +14,8 @@ around what was measured of known takes (`bench/recognition.py`) those by which 
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from teo_common.arrays import Array
@@ -59,7 +61,7 @@ def sign_appearance(robot: Robot, sign: Sign) -> Array:
     """What a sign of the table shows. Shape (MOMENTS, 2 hands of 16 numbers)."""
     moments = np.linspace(0.0, sign.duration, MOMENTS)
     positions = np.column_stack([np.interp(moments, sign.times, column) for column in sign.knots.T])
-    chain = ArmKinematics(robot)
+    chain = _arm_of(robot)
     hands: dict[str, Array] = {}
     humanoid = robot.humanoid
     for side in SIDES:
@@ -129,6 +131,12 @@ def demonstration_appearance(
         shown = (_wanted(free.goals[side], bends) + _of_arm(free.poses(side, free.arms), bends)) / 2.0
         hands[side] = np.column_stack([np.interp(moments, track.times, column) for column in shown.T])
     return _both(hands)
+
+
+@cache
+def _arm_of(robot: Robot) -> ArmKinematics:
+    """Made once: for each sign of a table it would take more than half of its time."""
+    return ArmKinematics(robot)
 
 
 def _wanted(goals: HandGoals, bends: Array) -> Array:

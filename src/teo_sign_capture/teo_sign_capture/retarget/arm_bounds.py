@@ -12,7 +12,6 @@ from functools import cache
 from typing import Literal
 
 import numpy as np
-from scipy.stats import qmc
 
 from teo_common.arrays import Array
 from teo_description.humanoid import Humanoid
@@ -110,6 +109,8 @@ def search_starts(humanoid: Humanoid) -> Array:
     arms = humanoid.file.signing_arms
     if arms is not None:
         return np.vstack([easy_arm(humanoid), np.radians([arms.spelling_deg, *arms.starts_deg])])
+    from scipy.stats import qmc  # here: a second that robots whose arms have given starts do without
+
     lower, upper = arm_bounds(humanoid, "right")
     # Evenly spread, the same ones each time (J. H. Halton, Numerische Mathematik 2, 1960).
     spread = qmc.Halton(len(lower), scramble=False).random(_SAMPLED)

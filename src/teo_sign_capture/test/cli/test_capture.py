@@ -135,6 +135,12 @@ def test_a_trial_leaves_the_table_alone_and_knows_what_it_holds(
     assert run("capture", bag, "--gloss", "SIGNO", "--trial", trial, "--no-draw").exit_code == 0
 
 
+def test_a_gloss_may_be_typed_in_lower_case(tmp_path: Path) -> None:
+    refused = run("capture", tmp_path / "nowhere.mp4", "--gloss", "seña", "--lut", tmp_path, "--json")
+    (outcome,) = lines(refused.stdout)
+    assert (outcome["code"], outcome["gloss"]) == ("no_bag", "SEÑA")
+
+
 def test_a_program_reads_why_a_sign_is_refused(tmp_path: Path) -> None:
     # Between two places before the body: the recording begins and ends within the sign.
     moves = [(-1.0, -0.5, OUT), (0.3, 0.9, (0.28, -0.06, 0.02)), (1.1, 1.7, OUT)]

@@ -51,6 +51,12 @@ def test_names_of_bags_and_folders_are_glosses_and_takes(folder: Path) -> None:
     }
 
 
+def test_names_may_be_in_lower_case(tmp_path: Path) -> None:
+    for name in ("casa_1.mp4", "CASA_2.mp4", "Buenos días.mp4"):
+        (tmp_path / name).write_bytes(b"")
+    assert {job.gloss: len(job.bags) for job in find_jobs(tmp_path)} == {"BUENOS_DÍAS": 1, "CASA": 2}
+
+
 def test_a_ros_bag_folder_is_one_take(tmp_path: Path) -> None:
     write_bag(tmp_path / "BUENOS_DÍAS_2" / "x_0.mcap", signing(duration=0.1))
     (tmp_path / "BUENOS_DÍAS_2" / "metadata.yaml").write_text("")

@@ -214,10 +214,11 @@ class DepthLookup:
         height, width = depth.shape
         inside = np.all((pixels >= -0.5) & (pixels < [width - 0.5, height - 0.5]), axis=1)
         centres = np.where(inside[:, None], pixels, 0.0)
-        places = np.rint(centres[:, None] + radii[:, None, None] * _OFFSETS).astype(np.int64)
-        columns, rows = places[..., 0], places[..., 1]
+        columns, rows = (
+            np.rint(centres[:, i, None] + radii[:, None] * _OFFSETS[:, i]).astype(np.int64) for i in (0, 1)
+        )
         seen = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height) & inside[:, None]
-        values = depth[np.where(seen, rows, 0), np.where(seen, columns, 0)].astype(np.float64)
+        values = depth.take(np.where(seen, rows * width + columns, 0)).astype(np.float64)
         seen &= (values >= self.nearest) & (values <= self.farthest)  # NaN is neither
         return np.where(seen, values, np.inf)
 

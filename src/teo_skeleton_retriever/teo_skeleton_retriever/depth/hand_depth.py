@@ -208,9 +208,8 @@ def _hidden(bends: FloatArray, depths: FloatArray) -> BoolArray:
     """Which keypoints another part of the same hand hides. Shape (k, 21)."""
     points = bends * depths[..., None]
     parts = np.concatenate([points, (points[:, CHILD] + points[:, PARENT]) / 2.0], axis=1)
-    away = parts[:, None, :, :] - points[:, :, None, :]
-    beside = away[..., 0] ** 2 + away[..., 1] ** 2 < _FINGER**2
-    hidden: BoolArray = np.asarray((beside & (away[..., 2] < -_FINGER)).any(axis=2))
+    x, y, z = (parts[:, None, :, i] - points[:, :, None, i] for i in range(3))
+    hidden: BoolArray = np.asarray(((x**2 + y**2 < _FINGER**2) & (z < -_FINGER)).any(axis=2))
     return hidden
 
 

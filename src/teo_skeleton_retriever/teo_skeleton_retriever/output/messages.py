@@ -65,19 +65,16 @@ def _keypoint_messages(keypoints: Keypoints3D, names: Sequence[str]) -> list[Key
     points = keypoints.points.tolist()
     confidences, statuses = keypoints.confidence.tolist(), keypoints.status.tolist()
     sigmas, pixels = keypoints.sigma.astype(np.float32), keypoints.pixels.astype(np.float32)
-    return [
-        Keypoint3D(
-            name=name,
-            position=Point(x=point[0], y=point[1], z=point[2]),
-            sigma=sigma,
-            pixel=pixel,
-            confidence=confidence,
-            status=status,
-        )
-        for name, point, sigma, pixel, confidence, status in zip(
-            names, points, sigmas, pixels, confidences, statuses, strict=True
-        )
-    ]
+    messages = []
+    for name, point, sigma, pixel, confidence, status in zip(
+        names, points, sigmas, pixels, confidences, statuses, strict=True
+    ):
+        message = Keypoint3D(name=name, sigma=sigma, pixel=pixel, confidence=confidence, status=status)
+        # The message has made a point already: a second one would take a sixth of the time.
+        position = message.position
+        position.x, position.y, position.z = point
+        messages.append(message)
+    return messages
 
 
 def _pose(frame: BodyFrame | None) -> tuple[Pose, int]:
