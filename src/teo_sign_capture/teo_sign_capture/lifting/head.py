@@ -68,8 +68,8 @@ def lift_head(places: Array) -> tuple[Array, Array]:
 def _fit(points: Array, seen: NDArray[np.bool_], before: Array) -> tuple[Array, Array]:
     """Turn as a rotation vector, and the five points turned. Shapes (3,) and (5, 3).
 
-    The slopes are written out: a film of three seconds asks for 150 fits, and finding them by differences takes
-    a second.
+    The slopes are written out: a film of three seconds asks for 150 fits, and finding them by differences
+    takes a second.
     """
     wanted = points[seen] - points[seen].mean(axis=0)
     spread = np.array([*(_TURN,) * 3, *(_STEP,) * 3, _SIZE])
