@@ -16,7 +16,8 @@ from catkin_pkg.package import parse_package
 SOURCES = Path(__file__).parents[1] / "src"
 PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/setup.py"))
 
-# Import name: rosdep's key (None: it has none, pip installs it) and PyPI's name (None: it comes with ROS).
+# Import name: rosdep's key (None: none of a package of Ubuntu, pip installs it) and PyPI's name (None: it comes
+# with ROS).
 ROS = (
     "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros",
     "lifecycle_msgs", "rcl_interfaces", "rclpy", "rosgraph_msgs", "rosidl_parser", "sensor_msgs", "std_msgs",
@@ -36,11 +37,11 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "dtaidistance": (None, "dtaidistance"),
     "embreex": (None, "embreex"),
     "fast_simplification": (None, "fast-simplification"),
-    "flatbuffers": (None, "flatbuffers"),
-    "fontTools": (None, "fonttools"),
+    "flatbuffers": ("python3-flatbuffers", "flatbuffers"),
+    "fontTools": ("python3-fonttools", "fonttools"),
     "google": ("python3-protobuf", "protobuf"),
     "lazy_loader": (None, "lazy-loader"),
-    "lz4": ("python3-lz4", "lz4"),
+    "lz4": (None, "lz4"),
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "mcap": (None, "mcap"),
     "mediapipe": (None, "mediapipe"),
@@ -56,7 +57,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "rosbags": (None, "rosbags"),
     "ruckig": (None, "ruckig"),
     "sacrebleu": (None, "sacrebleu"),
-    "segno": (None, "segno"),
+    "segno": ("python3-segno", "segno"),
     "signwriting": (None, "signwriting"),
     "safetensors": (None, "safetensors"),
     "scipy": ("python3-scipy", "scipy"),

@@ -31,8 +31,8 @@ from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.metadata import read_metadata
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
-PATIENCE = 20.0
-"""Longest time that anything may take [s]."""
+PATIENCE = 120.0
+"""Longest time that anything may take [s], on a machine with ten things to do."""
 JOINTS = [f"Joint{i:02d}" for i in range(40)]
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=1000)
