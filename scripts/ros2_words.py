@@ -22,8 +22,8 @@ _HEAD = """\
 Every command, verb and option of ros2cli 0.32 and rosbag2 0.26 (ROS 2 Jazzy), and whether this package's
 `ros2` has it. `scripts/ros2_words.py` makes this page from the genuine command's words
 ([genuine_words.yaml](test/golden/genuine_words.yaml)) and from this one's own parsers; a test compares them.
-Every verb has `-h` besides. `--no-daemon` is accepted: there is no daemon. An option that is not there is refused
-with the usage and status 2.
+Every verb has `-h` besides. `--no-daemon` is accepted: there is no daemon. A verb or an option that is not
+there is refused with the usage and status 2.
 
 | command | there | options: yes | options: no | only here |
 |---|---|---|---|---|

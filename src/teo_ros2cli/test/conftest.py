@@ -20,7 +20,7 @@ import pytest
 from teo_ros2cli.packages import package_prefix
 
 PATIENCE = 120.0
-"""Longest time that anything may take [s]: on a machine with ten things to do, a command takes half a minute."""
+"""Longest time that anything may take [s]; a machine with ten things to do takes half a minute a command."""
 
 
 def _command() -> Path:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`ros2 component` with a container that answers as one of rclcpp_components does; it is a node of the test."""
+"""`ros2 component` with a node of the test's own that answers as a container of rclcpp_components does."""
 
 from __future__ import annotations
 
