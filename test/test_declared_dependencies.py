@@ -16,8 +16,8 @@ from catkin_pkg.package import parse_package
 SOURCES = Path(__file__).parents[1] / "src"
 PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/setup.py"))
 
-# Import name: rosdep's key (None: it has none for a package of Ubuntu, pip installs it) and PyPI's name (None:
-# it comes with ROS).
+# Import name: rosdep's key (None: it has none for a package of Ubuntu, pip installs it) and PyPI's name
+# (None: it comes with ROS).
 ROS = (
     "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros",
     "lifecycle_msgs", "rcl_interfaces", "rclpy", "rosgraph_msgs", "rosidl_parser", "sensor_msgs", "std_msgs",
@@ -71,9 +71,9 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "yaml": ("python3-yaml", "PyYAML"),
     "zstandard": (None, "zstandard"),
 }
-# The keys of rosdep/python.yaml that give a package on Ubuntu 24.04, and packages of jazzy/distribution.yaml, as
-# far as some package.xml names them: github.com/ros/rosdistro, looked up in a copy of 2025 (commit 30d139d7 of
-# its fork InvincibleRMC/rosdistro).
+# The keys of rosdep/python.yaml that give a package on Ubuntu 24.04, and packages of jazzy/distribution.yaml,
+# as far as some package.xml names them: github.com/ros/rosdistro, looked up in a copy of 2025 (commit 30d139d7
+# of its fork InvincibleRMC/rosdistro).
 ROSDEP_KEYS = frozenset(
     f"python3-{name}"
     for name in (
@@ -83,8 +83,8 @@ ROSDEP_KEYS = frozenset(
 )  # fmt: skip
 JAZZY = frozenset(
     (
-        *ROS, "action_msgs", "ament_cmake", "pinocchio", "rosidl_default_generators", "rosidl_default_runtime",
-        "shape_msgs",
+        *ROS, "action_msgs", "ament_cmake", "pinocchio", "rosidl_default_generators",
+        "rosidl_default_runtime", "shape_msgs",
     )
 )  # fmt: skip
 # Declared for another reason than an import, and why.
