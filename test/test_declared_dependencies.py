@@ -72,8 +72,8 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "zstandard": (None, "zstandard"),
 }
 # The keys of rosdep/python.yaml that give a package on Ubuntu 24.04, and packages of jazzy/distribution.yaml,
-# as far as some package.xml names them: github.com/ros/rosdistro, looked up in a copy of 2025 (commit 30d139d7
-# of its fork InvincibleRMC/rosdistro).
+# as far as some package.xml names them: github.com/ros/rosdistro, looked up in a copy of 2025 (commit
+# 30d139d7 of its fork InvincibleRMC/rosdistro).
 ROSDEP_KEYS = frozenset(
     f"python3-{name}"
     for name in (
