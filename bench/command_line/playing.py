@@ -43,7 +43,7 @@ _BEGIN = 1_760_000_000 * SECOND
 _LENGTH = 30.0  # of the bag [s]
 _WAIT = 60.0  # [s] for what is to come
 # Prints how late it wakes [s], at moments a hundredth of a second apart until it is ended.
-_SLEEPER = """
+SLEEPER = """
 import time
 begin, i = time.monotonic(), 0
 while True:
@@ -123,7 +123,7 @@ def _played(program: str, bag: Path, times: dict[str, NDArray[np.int64]], rate: 
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        sleeper = subprocess.Popen([sys.executable, "-c", _SLEEPER], stdout=subprocess.PIPE, text=True)
+        sleeper = subprocess.Popen([sys.executable, "-c", SLEEPER], stdout=subprocess.PIPE, text=True)
         deadline = time.monotonic() + _LENGTH / rate + _WAIT
         while player.poll() is None and time.monotonic() < deadline:
             executor.spin_once(timeout_sec=0.1)

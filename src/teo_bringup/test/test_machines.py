@@ -21,7 +21,7 @@ from teo_bringup.network.access import read_table
 REASON = missing(*PROGRAMS)
 pytestmark = pytest.mark.skipif(bool(REASON), reason=REASON)
 
-PATIENCE = 120.0  # [s] for the robot to come to rest on a loaded machine
+PATIENCE = 300.0  # [s] for the robot to come to rest on a loaded machine
 CUT = 5.0  # [s]
 ATTEMPT = 6  # [s] that the intruder tries: two trajectories, each with time to be executed
 GRAPH = """
