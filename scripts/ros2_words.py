@@ -22,11 +22,22 @@ _HEAD = """\
 Every command, verb and option of ros2cli 0.32 and rosbag2 0.26 (ROS 2 Jazzy), and whether this package's
 `ros2` has it. `scripts/ros2_words.py` makes this page from the genuine command's words
 ([genuine_words.yaml](test/golden/genuine_words.yaml)) and from this one's own parsers; a test compares them.
-Every verb has `-h` besides. `--no-daemon` is accepted: there is no daemon.
+Every verb has `-h` besides. `--no-daemon` is accepted: there is no daemon. A verb or an option that is not
+there is refused with the usage and status 2.
 
 | command | there | options: yes | options: no | only here |
 |---|---|---|---|---|
 """
+# Why a verb is not there, by command and verb; verb "" is for all of a command.
+_ABSENT = {
+    ("bag", "burst"): "`play --start-paused` and the key for the next message do it",
+    ("bag", "list"): "of plugins, of which there are none",
+    ("component", "standalone"): "starts a container of `rclcpp_components`, which is not among the wheels",
+    ("doctor", "hello"): "`multicast` and `topic pub` from one machine to the other show as much",
+    ("launch", ""): "`launch` is not among the wheels; `ros2 run teo_bringup up` starts nodes without",
+    ("pkg", "create"): "its templates belong to `ros2pkg`",
+    ("security", ""): "the wheels' Fast DDS has no security plugins",
+}
 
 
 def words_table() -> str:
@@ -41,13 +52,19 @@ def words_table() -> str:
         theirs, ours = wanted.get(words, []), own.get(words)
         cells = [
             f"`ros2 {' '.join(filter(None, words))}`",
-            "no" if ours is None else "yes" if words in wanted else "only here",
+            _there(words, ours is not None, words in wanted),
             _list(option for option in theirs if ours is not None and option in ours),
             _list(option for option in theirs if ours is None or option not in ours),
             _list(option for option in ours or () if option not in theirs),
         ]
         rows.append(f"| {' | '.join(cells)} |\n")
     return _HEAD + "".join(rows)
+
+
+def _there(words: tuple[str, str], ours: bool, theirs: bool) -> str:
+    if ours:
+        return "yes" if theirs else "only here"
+    return f"no: {_ABSENT.get(words) or _ABSENT[words[0], '']}"
 
 
 def _own(entries: Mapping[str, Entry], before: str = "") -> Iterator[tuple[tuple[str, str], list[str]]]:

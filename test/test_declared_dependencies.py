@@ -16,7 +16,8 @@ from catkin_pkg.package import parse_package
 SOURCES = Path(__file__).parents[1] / "src"
 PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/setup.py"))
 
-# Import name: rosdep's key (None: it has none, pip installs it) and PyPI's name (None: it comes with ROS).
+# Import name: rosdep's key (None: it has none for a package of Ubuntu, pip installs it) and PyPI's name
+# (None: it comes with ROS).
 ROS = (
     "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros",
     "lifecycle_msgs", "rcl_interfaces", "rclpy", "rosgraph_msgs", "rosidl_parser", "sensor_msgs", "std_msgs",
@@ -36,11 +37,11 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "dtaidistance": (None, "dtaidistance"),
     "embreex": (None, "embreex"),
     "fast_simplification": (None, "fast-simplification"),
-    "flatbuffers": (None, "flatbuffers"),
-    "fontTools": (None, "fonttools"),
+    "flatbuffers": ("python3-flatbuffers", "flatbuffers"),
+    "fontTools": ("python3-fonttools", "fonttools"),
     "google": ("python3-protobuf", "protobuf"),
     "lazy_loader": (None, "lazy-loader"),
-    "lz4": ("python3-lz4", "lz4"),
+    "lz4": (None, "lz4"),
     "matplotlib": ("python3-matplotlib", "matplotlib"),
     "mcap": (None, "mcap"),
     "mediapipe": (None, "mediapipe"),
@@ -56,7 +57,7 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "rosbags": (None, "rosbags"),
     "ruckig": (None, "ruckig"),
     "sacrebleu": (None, "sacrebleu"),
-    "segno": (None, "segno"),
+    "segno": ("python3-segno", "segno"),
     "signwriting": (None, "signwriting"),
     "safetensors": (None, "safetensors"),
     "scipy": ("python3-scipy", "scipy"),
@@ -70,6 +71,22 @@ DECLARED_AS: dict[str, tuple[str | None, str | None]] = {
     "yaml": ("python3-yaml", "PyYAML"),
     "zstandard": (None, "zstandard"),
 }
+# The keys of rosdep/python.yaml that give a package on Ubuntu 24.04, and packages of jazzy/distribution.yaml,
+# as far as some package.xml names them: github.com/ros/rosdistro, looked up in a copy of 2025 (commit
+# 30d139d7 of its fork InvincibleRMC/rosdistro).
+ROSDEP_KEYS = frozenset(
+    f"python3-{name}"
+    for name in (
+        "aiohttp", "argcomplete", "flatbuffers", "fonttools", "hypothesis", "matplotlib", "numpy", "opencv",
+        "pil", "protobuf", "pydantic", "pytest", "rich", "scipy", "segno", "typer", "yaml",
+    )
+)  # fmt: skip
+JAZZY = frozenset(
+    (
+        *ROS, "action_msgs", "ament_cmake", "pinocchio", "rosidl_default_generators",
+        "rosidl_default_runtime", "shape_msgs",
+    )
+)  # fmt: skip
 # Declared for another reason than an import, and why.
 NOT_IMPORTED = {
     "teo_bringup": {"teo_lut_executor", "teo_sign_translator", "teo_sim_driver"},  # it starts them
@@ -149,6 +166,18 @@ def test_everything_declared_is_imported(package: str) -> None:
     keys, names = {key for key, _ in used}, {name for _, name in used}
     assert rosdep_keys(package) - keys - NOT_IMPORTED.get(package, set()) == set()
     assert pypi_names(package) - names - NOT_IMPORTED.get(package, set()) == set()
+
+
+def test_rosdep_knows_every_key() -> None:
+    keys = {
+        (element.text or "").strip()
+        for path in SOURCES.glob("*/package.xml")
+        for element in ET.parse(path).getroot()
+        if element.tag.endswith("depend")
+    }
+    own = {path.parent.name for path in SOURCES.glob("*/package.xml")}
+    assert keys - own - ROSDEP_KEYS - JAZZY == set()
+    assert ROSDEP_KEYS - keys == set()
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -23,7 +23,6 @@ from std_srvs.srv import SetBool
 
 from command_line.playing import in_domain, own_command
 
-_DOMAIN = "23"
 INTERRUPTS, _SEED = 50, 5
 _LATEST = 3.0  # [s] after its start that a command is interrupted
 _PATIENCE = 20.0  # [s] that it gets to end
@@ -65,7 +64,7 @@ def measure(interrupts: int = INTERRUPTS, seed: int = _SEED, command: str = "") 
     bad: list[str] = []
     early = 0
     statuses: Counter[int] = Counter()
-    with in_domain(_DOMAIN) as (node, executor), tempfile.TemporaryDirectory() as folder:
+    with in_domain() as (node, executor), tempfile.TemporaryDirectory() as folder:
         publisher = node.create_publisher(String, "text", 10)
         node.create_timer(0.05, lambda: publisher.publish(String(data="x")))
         node.create_service(SetBool, "switch", lambda _request, response: response)

@@ -22,6 +22,7 @@ from typing import Any
 
 import numpy as np
 import rclpy
+import reservation
 from numpy.typing import NDArray
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -38,12 +39,11 @@ from teo_ros2cli.packages import package_prefix
 
 KIND = "std_msgs/msg/String"
 SECOND = 1_000_000_000
-_DOMAIN = "21"
 _BEGIN = 1_760_000_000 * SECOND
 _LENGTH = 30.0  # of the bag [s]
 _WAIT = 60.0  # [s] for what is to come
 # Prints how late it wakes [s], at moments a hundredth of a second apart until it is ended.
-_SLEEPER = """
+SLEEPER = """
 import time
 begin, i = time.monotonic(), 0
 while True:
@@ -107,7 +107,7 @@ def _make(bag: Path) -> dict[str, NDArray[np.int64]]:
 def _played(program: str, bag: Path, times: dict[str, NDArray[np.int64]], rate: float) -> list[Figure]:
     came: dict[str, list[tuple[int, int]]] = {topic: [] for topic in times}
     total = sum(map(len, times.values()))
-    with in_domain(_DOMAIN) as (node, executor):
+    with in_domain() as (node, executor):
         for topic in times:
 
             def note(_data: bytes, info: dict[str, Any], topic: str = topic) -> None:
@@ -123,7 +123,7 @@ def _played(program: str, bag: Path, times: dict[str, NDArray[np.int64]], rate: 
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
-        sleeper = subprocess.Popen([sys.executable, "-c", _SLEEPER], stdout=subprocess.PIPE, text=True)
+        sleeper = subprocess.Popen([sys.executable, "-c", SLEEPER], stdout=subprocess.PIPE, text=True)
         deadline = time.monotonic() + _LENGTH / rate + _WAIT
         while player.poll() is None and time.monotonic() < deadline:
             executor.spin_once(timeout_sec=0.1)
@@ -163,7 +163,7 @@ def _short(program: str, bag: Path) -> Figure:
         writer.write(topic, _BEGIN + i, _BEGIN + i, serialize_message(String(data="once")))
     writer.close()
     came: list[bytes] = []
-    with in_domain(_DOMAIN) as (node, executor):
+    with in_domain() as (node, executor):
         for topic in topics:
             node.create_subscription(String, topic, came.append, QoSProfile(depth=100), raw=True)
         for _ in range(_PLAYS):
@@ -188,10 +188,16 @@ def _errors(what: str, late: NDArray[np.float64]) -> Figure:
 
 
 @contextmanager
-def in_domain(domain: str) -> Iterator[tuple[Node, SingleThreadedExecutor]]:
-    """A node of this process, and what spins it, in a DDS domain that child processes share."""
-    os.environ["ROS_DOMAIN_ID"] = domain
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+def in_domain() -> Iterator[tuple[Node, SingleThreadedExecutor]]:
+    """A node of this process, and what spins it, in a DDS domain of its own that child processes share."""
+    with reservation.domain():
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        with _node() as found:
+            yield found
+
+
+@contextmanager
+def _node() -> Iterator[tuple[Node, SingleThreadedExecutor]]:
     context = rclpy.Context()
     rclpy.init(args=[], context=context)
     node = rclpy.create_node("bench", context=context)

@@ -17,7 +17,6 @@ from report import Figure
 
 from command_line.playing import in_domain, own_command
 
-_DOMAIN = "24"
 _TEXTS = 20
 _LINGER = 2.0  # [s] for the last text to come
 _RELIABILITIES = ("RELIABLE", "BEST_EFFORT", "BEST_EFFORT")
@@ -45,7 +44,7 @@ def measure(command: str = "") -> list[Figure]:
 
 
 def _published(program: str, when: str, burners: int) -> Figure:
-    with in_domain(_DOMAIN):
+    with in_domain():
         listeners = [
             subprocess.Popen([sys.executable, "-c", _LISTENER, kind], stdout=subprocess.PIPE, text=True)
             for kind in _RELIABILITIES

@@ -25,7 +25,6 @@ from teo_ros2cli.bags.metadata import TopicRecord, read_metadata
 from teo_ros2cli.bags.writer import BagWriter
 from teo_ros2cli.definitions import schema_of
 
-_DOMAIN = "22"
 _SIZES = ((640, 480), (1280, 720))
 _RATE, _SECONDS = 30, 10
 _LARGE = 2 * 1000**3  # bytes of the large bag
@@ -79,7 +78,7 @@ def measure(command: str = "") -> list[Figure]:
 
 
 def _recorded(program: str, bag: Path, width: int, height: int, preset: str) -> Figure:
-    with in_domain(_DOMAIN):
+    with in_domain():
         count = _RATE * _SECONDS
         recorder = subprocess.Popen(
             [program, "bag", "record", "-a", "-o", str(bag), "--storage-preset-profile", preset],

@@ -38,7 +38,8 @@ class Seen(NamedTuple):
     named: dict[str, int]
     """Reasons that the executor gave since the start, and how often."""
     signing: bool
-    at_rest: bool
+    unrest: str
+    """As `Witness.unrest`."""
     fastest: float
     """Greatest speed of a joint over its limit since the start [1]."""
     outside: float
@@ -49,6 +50,11 @@ class Seen(NamedTuple):
     """Most publishers of `joint_trajectory` at once."""
     gap: float
     """Longest time between joint states since the start [s]."""
+
+    @property
+    def at_rest(self) -> bool:
+        """As `Witness.at_rest`."""
+        return not self.unrest
 
 
 class Witness(Node):
@@ -154,7 +160,7 @@ class _Teller(Witness):
             outcomes=list(self.accounted.values()),
             named=self.named,
             signing=self.told is not None and self.told.state == ExecutorStatus.STATE_SIGNING,
-            at_rest=self.at_rest,
+            unrest=self.unrest,
             fastest=self._greatest["fastest"],
             outside=self._greatest["outside"],
             trunk=self._greatest["trunk"],

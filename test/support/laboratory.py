@@ -23,7 +23,7 @@ INTRUDER = {"intruder": "192.168.10.66"}
 # What the page needs beside namespaces.
 PROGRAMS = ("wg", "wireguard-go")
 TEXT = "ros2 topic pub --once /text std_msgs/msg/String \"{data: 'Hola'}\""
-_PATIENCE = 180.0  # [s] for all nodes to start, on a loaded machine
+_PATIENCE = 600.0  # [s] for all nodes to start, on a loaded machine
 _WITNESS = "exec python -m nodes.witness"
 _ENTER = "ip netns exec teo bash"
 

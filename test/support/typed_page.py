@@ -59,7 +59,7 @@ class Shell:
         )
         threading.Thread(target=self._listen, daemon=True).start()
 
-    def type(self, text: str, *, timeout: float = 60.0) -> None:
+    def type(self, text: str, *, timeout: float = 180.0) -> None:
         """Type a block and wait until it is done; `text` that ends with `&` is done at once.
 
         Args:

@@ -14,14 +14,15 @@ from pathlib import Path
 import pytest
 from hosts import missing
 from intruder import TURN
-from laboratory import PROGRAMS, ROOT, Laboratory
+from laboratory import PAGE, PROGRAMS, ROOT, Laboratory
+from typed_page import blocks_of
 
 from teo_bringup.network.access import read_table
 
 REASON = missing(*PROGRAMS)
 pytestmark = pytest.mark.skipif(bool(REASON), reason=REASON)
 
-PATIENCE = 120.0  # [s] for the robot to come to rest on a loaded machine
+PATIENCE = 300.0  # [s] for the robot to come to rest on a loaded machine
 CUT = 5.0  # [s]
 ATTEMPT = 6  # [s] that the intruder tries: two trajectories, each with time to be executed
 GRAPH = """
@@ -117,3 +118,17 @@ def test_what_a_late_lossy_and_cut_network_loses_is_named_and_the_robot_keeps_it
     assert after.outcomes[0] == "signed" or after.outcomes[0] in after.named
     assert later.fastest < 1.001  # stamps are whole nanoseconds, positions are not
     assert later.outside <= 0.0
+
+
+def test_machines_that_know_the_pages_discovery_server_alone_hear_each_other(laboratory: Laboratory) -> None:
+    (server,) = (block.text for block in blocks_of(PAGE) if "discovery_server" in block.text)
+    (client,) = (block.text for block in blocks_of(PAGE) if "network client" in block.text)
+    laboratory.shell("robot").type(server.rstrip() + " &")
+    speaker, hearer = laboratory.shell("workstation"), laboratory.shell("laptop")
+    for shell in (speaker, hearer):
+        shell.type(client)
+    speaker.type("ros2 topic pub -r 5 /greeting std_msgs/msg/String \"{data: 'buenos días'}\" &")
+    hearer.type(
+        f"timeout {PATIENCE:.0f} ros2 topic echo --once /greeting std_msgs/msg/String", timeout=PATIENCE
+    )
+    assert "data: buenos días" in hearer.said

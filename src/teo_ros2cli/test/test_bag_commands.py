@@ -9,6 +9,7 @@ import os
 import pty
 import signal
 import subprocess
+import sys
 import termios
 import time
 from collections.abc import Callable
@@ -18,6 +19,7 @@ from typing import Any
 import pytest
 import yaml
 from builtin_interfaces.msg import Time
+from command_line.playing import SLEEPER
 from mcap_ros2.reader import read_ros2_messages
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -31,8 +33,8 @@ from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.metadata import read_metadata
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
-PATIENCE = 20.0
-"""Longest time that anything may take [s]."""
+PATIENCE = 120.0
+"""Longest time that anything may take [s], on a machine with ten things to do."""
 JOINTS = [f"Joint{i:02d}" for i in range(40)]
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DEEP = QoSProfile(depth=1000)
@@ -142,12 +144,22 @@ def test_a_recorded_bag_plays_as_it_was(graph: Any, start: Any, tmp_path: Path) 
     graph.node.destroy_publisher(states)
     graph.node.destroy_publisher(description)
 
-    again = start("bag", "record", "-a", "-x", "rosout|parameter", "-o", str(tmp_path / "second"))
-    again.wait_for_line("Recording...")
-    player = start(
-        "bag", "play", str(tmp_path / "first"), "--delay", "1.5", "--remap", "/joint_states:=/played"
+    sleeper = start("-c", SLEEPER, program=sys.executable)
+    # Who listens before the bag is played misses nothing; so far nobody publishes what this recorder records.
+    graph.node.create_subscription(JointState, "played", lambda _: None, DEEP)
+    again = start(
+        "bag",
+        "record",
+        "-a",
+        "-x",
+        "rosout|parameter",
+        "--include-unpublished-topics",
+        "-o",
+        str(tmp_path / "second"),
     )
-    wait_recording(again, "/played", "/robot_description")
+    wait_recording(again, "/played")
+    player = start("bag", "play", str(tmp_path / "first"), "--remap", "/joint_states:=/played")
+    wait_recording(again, "/robot_description")
     assert player.finish() == 0
     assert "Set rate to 1" in player.text
     assert "Played 151 messages." in player.text
@@ -160,11 +172,13 @@ def test_a_recorded_bag_plays_as_it_was(graph: Any, start: Any, tmp_path: Path) 
     assert [m.data for m in second.messages(topics=["/robot_description"])] == [
         m.data for m in first.messages(topics=["/robot_description"])
     ]
-    # Published at the distances of reception, on a machine that others use as well.
+    # Published at the distances of reception, as well as a process keeps time that does nothing besides.
     wanted = [(m.log_time - sent[0].log_time) * 1e-9 for m in sent]
     found = [(m.publish_time - came[0].publish_time) * 1e-9 for m in came]
     errors = sorted(abs(a - b) for a, b in zip(wanted, found, strict=True))
-    assert errors[len(errors) // 2] < 0.005
+    sleeper.stop(signal.SIGKILL)
+    late = sorted(float(line) for line in sleeper.lines[:-1])
+    assert errors[len(errors) // 2] < 0.005 + late[len(late) // 2]
     played = {topic.name: topic.offered_qos[0].durability for topic, _ in second.metadata.topics}
     assert played == {"/played": "volatile", "/robot_description": "transient_local"}
 
@@ -172,20 +186,25 @@ def test_a_recorded_bag_plays_as_it_was(graph: Any, start: Any, tmp_path: Path) 
 def test_playing_is_faster_partial_and_repeated_on_request(
     graph: Any, start: Any, ros2: Command, tmp_path: Path
 ) -> None:
-    make_text_bag(tmp_path / "bag", 20, step=100_000_000)
+    make_text_bag(tmp_path / "bag", 20, step=1_000_000_000)
     came: list[str] = []
-    graph.node.create_subscription(String, "text", lambda message: came.append(message.data), DEEP)
-    started = time.monotonic()
-    done = ros2("bag", "play", str(tmp_path / "bag"), "-r", "20", "-d", "1", "--start-offset", "0.95")
+    moments: list[int] = []
+
+    def note(message: String, info: dict[str, Any]) -> None:
+        came.append(message.data)
+        moments.append(info["source_timestamp"])
+
+    graph.node.create_subscription(String, "text", note, DEEP)
+    done = ros2("bag", "play", str(tmp_path / "bag"), "-r", "200", "-d", "1", "--start-offset", "9.5")
     assert done.returncode == 0
-    assert time.monotonic() - started < 10
-    graph.wait_until(lambda: len(came) == 10, "the second half came")
+    graph.wait_until(lambda: len(moments) == 10, "the second half came")
     assert came == [str(i) for i in range(10, 20)]
+    assert (moments[-1] - moments[0]) * 1e-9 < 4.5  # 9 as recorded, 0.045 on a machine that keeps up
     came.clear()
-    part = ros2("bag", "play", str(tmp_path / "bag"), "-r", "20", "-d", "1", "--playback-duration", "0.55")
+    part = ros2("bag", "play", str(tmp_path / "bag"), "-r", "200", "-d", "1", "--playback-duration", "5.5")
     assert "Played 6 messages." in part.stderr
     came.clear()
-    loop = start("bag", "play", str(tmp_path / "bag"), "-l", "-r", "50", "--topics", "/text", "/nothing")
+    loop = start("bag", "play", str(tmp_path / "bag"), "-l", "-r", "500", "--topics", "/text", "/nothing")
     loop.wait_for_line("Topic '/nothing' is not in the bag; it holds /text")
     graph.wait_until(lambda: came.count("5") >= 2, "it came twice")
     assert loop.stop() == 0

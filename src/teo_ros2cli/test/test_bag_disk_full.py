@@ -37,7 +37,7 @@ except Ros2CliError as error:
 def test_of_a_bag_that_filled_the_disk_all_is_read_that_found_room(tmp_path: Path) -> None:
     bag = tmp_path / "bag"
     done = subprocess.run(
-        [sys.executable, "-c", FULL_DISK, str(bag)], capture_output=True, text=True, timeout=30, check=True
+        [sys.executable, "-c", FULL_DISK, str(bag)], capture_output=True, text=True, timeout=120, check=True
     )
     assert done.stdout.startswith(
         "bag_unwritable The bag cannot be written: [Errno 27] File too large. What "

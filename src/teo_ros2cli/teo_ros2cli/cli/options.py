@@ -103,6 +103,14 @@ def key_value(text: str) -> tuple[str, str]:
     return key, value
 
 
+def assignment(text: str) -> tuple[str, str]:
+    """Read `name:=value`."""
+    name, separator, value = text.partition(":=")
+    if not separator or not name:
+        raise argparse.ArgumentTypeError(f"expected NAME:=VALUE, got {text!r}")
+    return name, value
+
+
 def full_name(topic: str) -> str:
     """Return a topic name with the slash that full names begin with."""
     return topic if topic.startswith("/") else f"/{topic}"

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,6 +18,10 @@ from teo_ros2cli.graph.qos import from_record, to_record
 QUEUE_DEPTH = 1000
 # Messages whose identity is kept to know one that comes a second time: more than any latched topic keeps.
 _REMEMBERED = 2000
+
+# Time that a replaced subscription goes on receiving [s]: what was on its way to it, a latched message above
+# all, comes again with the next heartbeat, which Fast DDS sends every 3 s.
+_OVERLAP = 5.0
 
 # Takes a message (bytes if raw) and rclpy's information on it.
 Receiver = Callable[[Any, dict[str, Any]], None]
@@ -71,9 +76,13 @@ class AdaptiveSubscription:
         self._repetitions = _Repetitions() if self._blind else None
         self.request = fixed if fixed is not None else self._fitting(self.offers)
         self._subscription = self._subscribe()
+        # Replaced ones, each with the moment of the steady clock at which it ends [s].
+        self._retiring: list[tuple[Any, float]] = []
 
     def adapt(self) -> None:
         """Look at the publishers, and replace the subscription if it does not fit them."""
+        if self._retiring and time.monotonic() >= self._retiring[0][1]:
+            self._end(self._retiring.pop(0)[0])
         offers = self._offers()
         if not offers:
             return
@@ -95,11 +104,13 @@ class AdaptiveSubscription:
 
     def drain(self) -> None:
         """Pass on what still waits in the middleware."""
-        self._drain(self._subscription)
+        for subscription in (*(old for old, _ in self._retiring), self._subscription):
+            self._drain(subscription)
 
     def destroy(self) -> None:
         """End the subscription."""
-        self._node.destroy_subscription(self._subscription)
+        for subscription in (*(old for old, _ in self._retiring), self._subscription):
+            self._node.destroy_subscription(subscription)
 
     def _offers(self) -> tuple[QosRecord, ...]:
         publishers = self._node.get_publishers_info_by_topic(self._topic)
@@ -112,12 +123,16 @@ class AdaptiveSubscription:
         return adapted.profile
 
     def _replace(self, request: QosRecord) -> None:
-        # For a moment both subscriptions receive: what comes twice is known from here on.
+        # For a while both subscriptions receive: what comes twice is known from here on.
         self._repetitions = self._repetitions or _Repetitions()
         old, self.request = self._subscription, request
         self._subscription = self._subscribe()
         self._drain(old)
-        self._node.destroy_subscription(old)
+        self._retiring.append((old, time.monotonic() + _OVERLAP))
+
+    def _end(self, subscription: Any) -> None:
+        self._drain(subscription)
+        self._node.destroy_subscription(subscription)
 
     def _subscribe(self) -> Any:
         from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
