@@ -129,7 +129,8 @@ class Player:
 
         It begins when the subscriptions that are there have matched, so that they get the first messages.
         """
-        settle(self._node, publishers=self._publishers.values(), stopped=self._stopped)
+        clock = () if self._clock is None else (self._clock.publisher,)
+        settle(self._node, publishers=(*self._publishers.values(), *clock), stopped=self._stopped)
         while not self._stopped():
             self._play_once()
             if not self._settings.loop or not self._publishers or not self._bag.metadata.messages:
@@ -241,10 +242,10 @@ class _ClockPublisher:
     def __init__(self, node: Any) -> None:
         from rosgraph_msgs.msg import Clock
 
-        self._publisher = node.create_publisher(Clock, "/clock", 10)
+        self.publisher = node.create_publisher(Clock, "/clock", 10)
         self._message = Clock()
 
     def publish(self, nanoseconds: int) -> None:
         stamp = self._message.clock
         stamp.sec, stamp.nanosec = divmod(nanoseconds, 1_000_000_000)
-        self._publisher.publish(self._message)
+        self.publisher.publish(self._message)
