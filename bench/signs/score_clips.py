@@ -183,7 +183,7 @@ def measure(robot: Robot, name: str, draw: Draw) -> list[Figure]:
 
 
 def performed(draw: Draw, *, swung: bool = False) -> Iterator[Performed]:
-    """Performances of a draw; without those that a body cannot make, and swung ones of held postures."""
+    """Performances of a draw that a body can make; swung ones without held postures and arcs."""
     signers = {body: Signer(body) for body in draw.bodies}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "score.yaml"
@@ -191,8 +191,8 @@ def performed(draw: Draw, *, swung: bool = False) -> Iterator[Performed]:
             script = yaml.safe_load(performance(score).text)
             keys = script["keys"][1:-1]  # without the hands that hang
             if swung:
-                if len(keys) == 1:  # a posture that is held
-                    continue
+                if len(keys) == 1 or any("bulge" in key for key in (keys[0], keys[-1])):
+                    continue  # a posture that is held, or an arc, which a script lets end only at a stop
                 for key in (keys[0], keys[-1]):
                     key.pop("hold", None)
                     key["through"] = True

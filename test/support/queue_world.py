@@ -61,7 +61,8 @@ class World:
         self.path: list[tuple[np.ndarray, np.ndarray]] = []  # positions and velocities of every tick
         self.lag = 0.0  # of the robot behind what it was sent [s]
         self.pace = 1.0  # path time per time
-        self.refused = 0  # motions that began elsewhere
+        self.delay = 0.0  # of motions on their way to the driver [s]
+        self.refused = 0  # motions that began elsewhere, or came too late
         self._motions: list[tuple[float, Plan]] = []  # by the path time at which each begins
         self._stop: tuple[float, float, np.ndarray, np.ndarray] | None = None
         self._path_time = 0.0
@@ -91,7 +92,8 @@ class World:
                     earlier = event.samples.times[-1] - event.plan.duration  # than the plan begins
                     begin = self._path_time + (event.start - self.now) * self.pace + earlier
                     here = self._position_at(begin - earlier)
-                    if np.abs(event.samples.positions[0] - here).max() > START_TOLERANCE:
+                    late = event.start < self.now + self.delay
+                    if late or np.abs(event.samples.positions[0] - here).max() > START_TOLERANCE:
                         self._refuse(event.number)
                         continue
                     self._motions = [item for item in self._motions if item[0] < begin] + [
@@ -114,7 +116,7 @@ class World:
 
     def _refuse(self, number: int) -> None:
         self.refused += 1
-        refusal = "[start_mismatch] the robot will be elsewhere then"
+        refusal = "[start_mismatch] the robot is elsewhere then"
         self._answers.append((self.now, lambda: self.queue.driver_refused(number, refusal, self.now)))
 
     def _plan(self, wanted: PlanWanted | ReturnWanted) -> None:

@@ -349,3 +349,32 @@ def test_a_sentence_that_is_canceled_in_a_pause_does_not_go_on_when_the_pause_en
     np.testing.assert_allclose(back.start.position, here, atol=0.2)
     assert world.finished() == [(first, Outcome.CANCELED), (second, Outcome.SUCCESS)]
     assert world.refused == 0
+
+
+def test_motions_that_reach_the_driver_late_are_sent_earlier(world: World) -> None:
+    world.delay = 0.3
+    tickets = [world.sign(text) for text in ("TÚ", "A-N")]
+    world.run_until(lambda: len(world.finished()) == len(tickets))
+    assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
+    assert world.refused == 1
+
+
+def test_a_robot_whose_driver_hears_late_goes_to_rest_all_the_same(world: World) -> None:
+    ticket = world.sign("A-N-A-N")
+    world.run(3.0)
+    world.delay = 1.0
+    world.cancel(ticket)
+    world.run_until(lambda: world.activities()[-1] == Activity.IDLE)
+    assert world.finished() == [(ticket, Outcome.CANCELED)]
+    np.testing.assert_allclose(world.positions, REST, atol=0.02)
+
+
+def test_a_driver_that_takes_no_way_to_rest_is_told_so_and_left_alone(world: World) -> None:
+    ticket = world.sign("A-N-A-N")
+    world.run(3.0)
+    world.delay = 10.0
+    world.cancel(ticket)
+    world.run(30.0)
+    assert world.finished() == [(ticket, Outcome.CANCELED)]
+    assert any(status.code == "trajectory_refused" for status in world.statuses())
+    assert world.refused <= 6

@@ -147,6 +147,15 @@ class Interruption:
         error = PlanError(error.code, f"{error}; the sentence will be signed again")
         return [*self._work.announcements.name(current.sentence, error, Activity.FAULT), *halting]
 
+    def return_again(self, error: PlanError) -> list[Event]:
+        """The robot does not go to rest as it was sent: stop it, and try again."""
+        current = self._work.current
+        again = PlanError(error.code, f"{error}; the way to rest will be tried again")
+        named = self._work.announcements.name(
+            None if current is None else current.sentence, again, Activity.FAULT
+        )
+        return named + self.stop_all(follows=False)
+
     def _end(self, outcome: Outcome, error: PlanError) -> list[Event]:
         """End the current sentence and say why; one that has not begun waits again."""
         current, self._work.current = self._work.current, None

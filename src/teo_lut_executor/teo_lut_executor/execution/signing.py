@@ -20,6 +20,10 @@ from teo_signs.errors import PlanError
 # the points that have passed, or refuses it.
 _START_LEAD = 0.1
 
+# After a refusal four times as much, 1.6 s at most: a starved machine that was late once will be late again,
+# and the three ways to rest that are tried get all of it.
+_LEAD_GROWTH, _MOST_LEAD = 4.0, 1.6
+
 # How often the way to rest is tried after an interrupted sentence, before the robot is left where it is.
 _MOST_RETURNS = 3
 
@@ -39,6 +43,7 @@ class Signing:
         """
         self._work = work
         self._interruption = interruption
+        self._lead = _START_LEAD
 
     def step(self) -> list[Event]:
         """Notice what time has brought."""
@@ -128,7 +133,8 @@ class Signing:
                 return self._ask_from_end(current, motion)
             return self._interruption.give_up(error)
         if motion is not None and motion.number == number:
-            return self._interruption.give_up(error)
+            self._lead = min(self._lead * _LEAD_GROWTH, _MOST_LEAD)
+            return self._give_up(error)
         self._work.halt.owe(number)
         return []
 
@@ -159,8 +165,8 @@ class Signing:
         """Send a motion that begins at a standstill."""
         situation, current = self._work.situation, self._work.current
         opens = self._work.motions.present is None
-        start = situation.now + _START_LEAD
-        events = self._send(plan, plan.samples, start, elapsed=-_START_LEAD * situation.pace)
+        start = situation.now + self._lead
+        events = self._send(plan, plan.samples, start, elapsed=-self._lead * situation.pace)
         if not opens or current is None or current.canceled:
             return events
         self._work.phase = Phase.SIGNING
@@ -220,6 +226,7 @@ class Signing:
         situation, continues = self._work.situation, self._work.motions.continuation is not None
         robot, age = situation.robot, situation.age * situation.pace
         if motion.is_reached(robot, age) and not continues:
+            self._lead = _START_LEAD
             if current is not None and not current.canceled and current.plan is not motion.motion:
                 if current.plan is None or situation.hindrance:
                     return []
@@ -234,8 +241,12 @@ class Signing:
         problem = motion.problem(robot, age)
         if problem is None or (problem.code == "not_reached" and continues):
             return []
-        if self._work.phase is Phase.RETURNING:
-            self._work.returns += 1
-            if self._work.returns >= _MOST_RETURNS:
-                return self._interruption.stay(problem)
-        return self._interruption.give_up(problem)
+        return self._give_up(problem)
+
+    def _give_up(self, error: PlanError) -> list[Event]:
+        if self._work.phase is not Phase.RETURNING:
+            return self._interruption.give_up(error)
+        self._work.returns += 1
+        if self._work.returns >= _MOST_RETURNS:
+            return self._interruption.stay(error)
+        return self._interruption.return_again(error)
