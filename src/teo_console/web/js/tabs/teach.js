@@ -48,13 +48,13 @@ export async function mount(element, context) {
     recording = null;
   }
 
-  /** Deletes the film, here and on this machine. */
+  /** Deletes the film, on this machine and then here: what a page shows no more is gone. */
   async function discard() {
     shown.close();
     shown = { close() {} };
-    result.replaceChildren(explained(t));
     if (recording) await api.delete(`/api/recordings/${recording}`).catch(() => {}); // it may be gone already
     recording = null;
+    result.replaceChildren(explained(t));
   }
 
   element.append(
