@@ -55,8 +55,8 @@ LISTENERS = {
     "joint_states": {"executor", "rosbag2_recorder", "demo_spectator"},
     "executor_status": {"rosbag2_recorder", "demo_spectator"},
 }
-START_TIMEOUT = 30.0  # [s] for every process to be there: a loaded machine takes 10 s
-TRANSLATION_TIMEOUT = 10.0  # [s] from the text to its tokens: a slow machine takes 1 s
+START_TIMEOUT = 120.0  # [s] for every process to be there: 3 s; 30 beside ten times what a machine can do
+TRANSLATION_TIMEOUT = 30.0  # [s] from the text to its tokens: a slow machine takes 1 s
 # [s] that a sentence may take: a thousand letters at two seconds each, the most that one message holds.
 SIGNING_TIMEOUT = 2000.0
 KINDS = {

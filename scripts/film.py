@@ -47,8 +47,11 @@ class LiveFilm:
 
 
 def _draw(path: Path, robot: str, frames: multiprocessing.Queue[_Frame | None]) -> None:
-    renderer = Renderer(Robot.load(robot))
+    renderer, frame = Renderer(Robot.load(robot)), frames.get()
+    if frame is None:  # nothing was signed, and whoever waited for it says why
+        return
     with MotionVideo(path, frames_per_second=FRAMES_PER_SECOND) as video:
-        while (frame := frames.get()) is not None:
+        while frame is not None:
             positions, caption = frame
             video.add(renderer.render(positions), caption)
+            frame = frames.get()
