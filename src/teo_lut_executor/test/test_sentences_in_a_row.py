@@ -243,7 +243,7 @@ def test_a_driver_that_does_not_take_a_joined_sentence_gets_it_from_rest(world: 
 def test_why_the_driver_refuses_is_told(world: World) -> None:
     world.follows = lambda _: False
     ticket = world.sign("A")
-    for count in (1, 2):
+    for count in (1, 2, 3, 4):  # with more and more time to reach the driver
         world.run_until(lambda count=count: len(world.sent) == count)  # type: ignore[misc]
         world.take(world.queue.driver_refused(world.sent[-1].number, "[held_joint] no", world.now))
     assert world.finished() == [(ticket, Outcome.NOT_REACHED)]
@@ -351,12 +351,17 @@ def test_a_sentence_that_is_canceled_in_a_pause_does_not_go_on_when_the_pause_en
     assert world.refused == 0
 
 
-def test_motions_that_reach_the_driver_late_are_sent_earlier(world: World) -> None:
-    world.delay = 0.3
+@pytest.mark.parametrize(
+    ("delay", "refused"), [(0.3, 1), (1.0, 4)]
+)  # 0.1 s, 0.4 s; 0.5 s before the seam; 0.4 s
+def test_motions_that_reach_the_driver_late_are_sent_earlier(
+    world: World, delay: float, refused: int
+) -> None:
+    world.delay = delay
     tickets = [world.sign(text) for text in ("TÚ", "A-N")]
     world.run_until(lambda: len(world.finished()) == len(tickets))
     assert world.finished() == [(ticket, Outcome.SUCCESS) for ticket in tickets]
-    assert world.refused == 1
+    assert world.refused == refused
 
 
 def test_a_robot_whose_driver_hears_late_goes_to_rest_all_the_same(world: World) -> None:

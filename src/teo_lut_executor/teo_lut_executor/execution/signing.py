@@ -21,7 +21,7 @@ from teo_signs.errors import PlanError
 _START_LEAD = 0.1
 
 # After a refusal four times as much, 1.6 s at most: a starved machine that was late once will be late again,
-# and the three ways to rest that are tried get all of it.
+# and the three ways to rest that are tried get all of it. After a motion that came to its end, a quarter again.
 _LEAD_GROWTH, _MOST_LEAD = 4.0, 1.6
 
 # How often the way to rest is tried after an interrupted sentence, before the robot is left where it is.
@@ -133,7 +133,10 @@ class Signing:
                 return self._ask_from_end(current, motion)
             return self._interruption.give_up(error)
         if motion is not None and motion.number == number:
-            self._lead = min(self._lead * _LEAD_GROWTH, _MOST_LEAD)
+            current, before = self._work.current, self._lead
+            self._lead = min(before * _LEAD_GROWTH, _MOST_LEAD)
+            if current is not None and self._lead > before and self._work.situation.robot.is_still:
+                current.attempts -= 1  # nothing of it was seen: it costs nobody anything to begin again
             return self._give_up(error)
         self._work.halt.owe(number)
         return []
@@ -226,11 +229,11 @@ class Signing:
         situation, continues = self._work.situation, self._work.motions.continuation is not None
         robot, age = situation.robot, situation.age * situation.pace
         if motion.is_reached(robot, age) and not continues:
-            self._lead = _START_LEAD
             if current is not None and not current.canceled and current.plan is not motion.motion:
                 if current.plan is None or situation.hindrance:
                     return []
                 return self._depart(current.plan)  # that was its opening
+            self._lead = max(self._lead / _LEAD_GROWTH, _START_LEAD)
             if self._work.phase is Phase.RETURNING:
                 return self._interruption.rested()
             assert current is not None
