@@ -21,7 +21,7 @@ from teo_signs.errors import PlanError
 _START_LEAD = 0.1
 
 # After a refusal four times as much, 1.6 s at most: a starved machine that was late once will be late again,
-# and the three ways to rest that are tried get all of it. After a motion that came to its end, a quarter again.
+# and the three ways to rest that are tried get all of it. After a motion that came to its end, a quarter.
 _LEAD_GROWTH, _MOST_LEAD = 4.0, 1.6
 
 # How often the way to rest is tried after an interrupted sentence, before the robot is left where it is.
