@@ -104,7 +104,7 @@ class Graph:
     directory: Path
     utterances: int = field(default=0)
 
-    def spin_until(self, condition: Callable[[], bool], timeout: float = 30.0) -> None:
+    def spin_until(self, condition: Callable[[], bool], timeout: float = 90.0) -> None:
         deadline = time.monotonic() + timeout
         while not condition():
             assert time.monotonic() < deadline, f"not within {timeout} s"
