@@ -9,7 +9,7 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -21,16 +21,14 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 from rclpy.action import ActionClient
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from sensor_msgs.msg import JointState
+from small_robot import Graph, SmallRobot
 from std_srvs.srv import Trigger
-from teo_names import COMMANDED_JOINTS, HEAD, HOME, joint_limits
+from teo_names import COMMANDED_JOINTS, HEAD, joint_limits
 from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
-from trajectory_msgs.msg import JointTrajectory
 
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import Sentence
@@ -42,103 +40,6 @@ from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
 
 REST = load_humanoid().ready
-
-RATE = 100.0  # joint states a second [Hz]
-
-
-class SmallRobot(Node):
-    """Goes from point to point in straight lines from a motion's stamp on; keeps what the executor said."""
-
-    def __init__(self, context: Context) -> None:
-        super().__init__("small_robot", context=context)
-        self.positions = np.array([HOME[name] for name in COMMANDED_JOINTS])
-        self.silent = False
-        self.received: list[JointTrajectory] = []
-        self.statuses: list[ExecutorStatus] = []
-        self.path: list[tuple[float, np.ndarray]] = []  # time [s] and positions [rad] of every step
-        self._times = np.zeros(1)  # [s], of the clock
-        self._points = self.positions[None]
-        self._states = self.create_publisher(JointState, "joint_states", 10)
-        self.create_subscription(JointTrajectory, "joint_trajectory", self._on_trajectory, 10)
-        latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self.create_subscription(ExecutorStatus, "executor_status", self.statuses.append, latched)
-        self.tokens = self.create_publisher(SignSentence, "sign_tokens", 1000)
-        self.create_timer(1.0 / RATE, self._step)
-
-    def _now(self) -> float:
-        return self.get_clock().now().nanoseconds * 1e-9
-
-    def _on_trajectory(self, message: JointTrajectory) -> None:
-        assert tuple(message.joint_names) == COMMANDED_JOINTS
-        self.received.append(message)
-        stamp = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
-        begin = stamp or self._now()
-        here, before = self._at(begin), self._times < begin
-        points = np.array([point.positions for point in message.points])
-        times = [point.time_from_start.sec + point.time_from_start.nanosec * 1e-9 for point in message.points]
-        self._times = np.concatenate([self._times[before], [begin], begin + np.array(times)])
-        self._points = np.concatenate([self._points[before], here[None], points])
-
-    def _step(self) -> None:
-        now = self._now()
-        before, self.positions = self.positions, self._at(now)
-        self.path.append((now, self.positions))
-        if self.silent:
-            return
-        message = JointState(name=list(COMMANDED_JOINTS), position=self.positions.tolist())
-        message.velocity = ((self.positions - before) * RATE).tolist()
-        self._states.publish(message)
-
-    def _at(self, now: float) -> np.ndarray:
-        return np.array([np.interp(now, self._times, column) for column in self._points.T])
-
-    def states(self) -> list[int]:
-        return [status.state for status in self.statuses]
-
-
-@dataclass
-class Graph:
-    node: ExecutorNode
-    robot: SmallRobot
-    executor: SingleThreadedExecutor
-    directory: Path
-    utterances: int = field(default=0)
-
-    def spin_until(self, condition: Callable[[], bool], timeout: float = 90.0) -> None:
-        deadline = time.monotonic() + timeout
-        while not condition():
-            assert time.monotonic() < deadline, f"not within {timeout} s"
-            self.executor.spin_once(timeout_sec=0.1)
-
-    def rest(self, signed: int) -> None:
-        """Spin until so many sentences have been signed, and nothing is left to do."""
-        states = self.robot.states
-        self.spin_until(lambda: states().count(ExecutorStatus.STATE_SIGNING) >= signed)
-        self.spin_until(lambda: states()[-1] == ExecutorStatus.STATE_IDLE)
-
-    def refused(self) -> list[tuple[str, str]]:
-        """Code and utterance of everything that was refused."""
-        refused = [s for s in self.robot.statuses if s.state == ExecutorStatus.STATE_REFUSED]
-        return [(status.code, status.utterance_id) for status in refused]
-
-    def wait(self, future: Any) -> Any:
-        self.spin_until(future.done)
-        return future.result()
-
-    def sentence(self, text: str, scale: float = 1.0) -> SignSentence:
-        self.utterances += 1
-        tokens = [
-            SignToken(
-                gloss=token.gloss, kind=int(token.kind), duration_scale=scale, word_index=token.word_index
-            )
-            for token in parse_printed(text)
-        ]
-        return SignSentence(utterance_id=f"text {self.utterances}", sentence_count=1, tokens=tokens)
-
-    def publish(self, message: SignSentence) -> None:
-        self.spin_until(lambda: self.robot.tokens.get_subscription_count() > 0)
-        self.robot.tokens.publish(message)
-
 
 # Short signs near rest, so that a sentence takes about a second.
 QUICK = ("NOD", "TURN", "LOOK")
