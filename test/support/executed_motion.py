@@ -4,14 +4,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from queue_world import World
 from teo_names import COMMANDED_JOINTS, joint_limits
+from trajectory_msgs.msg import JointTrajectory
 
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
-from teo_lut_executor.execution.events import TrajectoryReady
-from teo_lut_executor.node.messages import to_trajectory
+from teo_lut_executor.execution.events import StopReady, TrajectoryReady
+from teo_lut_executor.node.messages import to_stop, to_trajectory
 from teo_motion.trajectory.limits import MotionLimits
 from teo_sim_driver.joint_follower import JointFollower
 
@@ -26,14 +29,13 @@ def executed(world: World) -> Array:
     """
     limits, start = joint_limits(COMMANDED_JOINTS), load_humanoid().ready.copy()
     follower = JointFollower(limits=limits, start=start, period=0.001)
-    sent = [event for event in world.events if isinstance(event, TrajectoryReady)]
-    # Each half a period before it begins: what the sender did not know by then must not matter. One that is
-    # overtaken by the next before it begins comes with that: in the order in which they were sent.
-    begin = np.array([event.start for event in sent]) - 0.01
+    # A motion with a time half a period before that: what the sender did not know by then must not matter. One
+    # that is overtaken by the next before it begins comes with that: in the order in which they were sent.
+    begin = np.array([time - (0.01 if _is_timed(event) else 0.0) for time, event in world.taken])
     come = np.minimum.accumulate(begin[::-1])[::-1]
     messages = [
-        (round(time * 1e9), to_trajectory(world.planner.limits.names, event.samples, start=event.start))
-        for time, event in zip(come, sent, strict=True)
+        (round(time * 1e9), _message(world.planner.limits.names, event))
+        for time, (_, event) in zip(come, world.taken, strict=True)
     ]
     path, now, end = [], messages[0][0], round(world.now * 1e9)
     while now < end:
@@ -43,6 +45,16 @@ def executed(world: World) -> Array:
         now += _STEP
     assert not messages
     return np.array(path)
+
+
+def _is_timed(event: TrajectoryReady | StopReady) -> bool:
+    return isinstance(event, TrajectoryReady) and event.start is not None
+
+
+def _message(names: Sequence[str], event: TrajectoryReady | StopReady) -> JointTrajectory:
+    if isinstance(event, StopReady):
+        return to_stop(names, event.end, event.lead)
+    return to_trajectory(names, event.samples, start=event.start)
 
 
 def most_of_limits(path: Array, limits: MotionLimits) -> Array:

@@ -35,6 +35,9 @@ from teo_signs.tokens import parse_printed
 
 TICK = 0.02
 
+# Ticks from one word of the driver's to the next while nothing changes: a tenth of a second.
+REPORT_TICKS = 5
+
 # A driver takes a motion that begins where the robot will be then, within so much [rad].
 START_TOLERANCE = 0.01
 
@@ -54,6 +57,7 @@ class World:
         )
         self.follows: Callable[[Plan], bool] = lambda _: True
         self.sent: list[TrajectoryReady] = []
+        self.taken: list[tuple[float, TrajectoryReady | StopReady]] = []  # by the driver, by when it begins
         self.stops: list[StopReady] = []
         self.events: list[Event] = []
         self.positions = load_humanoid().ready.copy()
@@ -62,7 +66,12 @@ class World:
         self.lag = 0.0  # of the robot behind what it was sent [s]
         self.pace = 1.0  # path time per time
         self.delay = 0.0  # of motions on their way to the driver [s]
+        self.accepts: Callable[[TrajectoryReady], bool] = lambda _: True
         self.refused = 0  # motions that began elsewhere, or came too late
+        self._mode: DriverMode | None = None  # what the driver was told to be, None: it moves or holds
+        self._told: tuple[object, ...] = ()  # of what it said last, what it says at once when it changes
+        self._ticks = 0
+        self._mail: list[tuple[float, TrajectoryReady | StopReady]] = []  # by when it reaches the driver
         self._motions: list[tuple[float, Plan]] = []  # by the path time at which each begins
         self._stop: tuple[float, float, np.ndarray, np.ndarray] | None = None
         self._path_time = 0.0
@@ -79,7 +88,10 @@ class World:
 
     def driver_says(self, mode: DriverMode, *, speed_scaling: float = 1.0) -> None:
         self.pace = 0.0 if mode is DriverMode.PAUSED else speed_scaling
-        self.take(self.queue.driver_state(DriverReport(mode=mode, speed_scaling=self.pace), self.now))
+        self._mode = None if mode in (DriverMode.HOLDING, DriverMode.MOVING) else mode
+        if self._mode not in (None, DriverMode.PAUSED):
+            self._motions, self.velocities = [], np.zeros_like(self.velocities)
+        self._report()
 
     def take(self, events: Iterable[Event]) -> None:
         for event in events:
@@ -89,22 +101,55 @@ class World:
             elif isinstance(event, TrajectoryReady):
                 self.sent.append(event)
                 if self.follows(event.plan):
-                    earlier = event.samples.times[-1] - event.plan.duration  # than the plan begins
-                    begin = self._path_time + (event.start - self.now) * self.pace + earlier
-                    here = self._position_at(begin - earlier)
-                    late = event.start < self.now + self.delay
-                    if late or np.abs(event.samples.positions[0] - here).max() > START_TOLERANCE:
-                        self._refuse(event.number)
-                        continue
-                    self._motions = [item for item in self._motions if item[0] < begin] + [
-                        (begin, event.plan)
-                    ]
-                    self._stop = None
+                    self._mail.append((self.now + self.delay, event))
             elif isinstance(event, StopReady):
                 self.stops.append(event)
-                if self._motions or self._stop:
-                    self._motions = []
-                    self._stop = self.now, event.lead, self.positions, event.end.position
+                self._mail.append((self.now + self.delay, event))
+        self._deliver()
+
+    def _deliver(self) -> None:
+        due = [event for when, event in self._mail if when <= self.now]
+        self._mail = [item for item in self._mail if item[0] > self.now]
+        for event in due:
+            if isinstance(event, TrajectoryReady):
+                self._go(event)
+            elif self._motions or self._stop:
+                self.taken.append((self.now, event))
+                self._motions = []
+                self._stop = self.now, event.lead, self.positions, event.end.position
+
+    def _go(self, event: TrajectoryReady) -> None:
+        earlier = event.samples.times[-1] - event.plan.duration  # than the plan begins
+        start = self.now if event.start is None else event.start
+        begin = self._path_time + (start - self.now) * self.pace + earlier
+        elsewhere = np.abs(event.samples.positions[0] - self._position_at(begin - earlier)).max()
+        if not self.accepts(event) or start < self.now or elsewhere > START_TOLERANCE:
+            self._refuse(event.number)
+            return
+        self._motions = [item for item in self._motions if item[0] < begin] + [(begin, event.plan)]
+        self._stop = None
+        self.taken.append((start, event))
+
+    def _report(self) -> None:
+        """What the driver says of itself: at once when it changes, and ten times a second while it moves."""
+        begun = [item for item in self._motions if item[0] <= self._path_time]
+        remaining = None
+        if begun and self._mode in (None, DriverMode.PAUSED):
+            begin, plan = begun[-1]
+            remaining = begin + plan.duration - self._path_time
+        moves = self._stop is not None or (remaining is not None and remaining > 0.0)
+        mode = self._mode or (DriverMode.MOVING if moves else DriverMode.HOLDING)
+        told = (mode, self.pace, begun[-1][0] if begun else None)
+        if told == self._told and (mode is not DriverMode.MOVING or self._ticks % REPORT_TICKS):
+            return
+        self._told = told
+        report = DriverReport(
+            mode=mode,
+            speed_scaling=self.pace,
+            stamp=self.now,
+            remaining=remaining if mode in (DriverMode.MOVING, DriverMode.PAUSED) else None,
+        )
+        self.take(self.queue.driver_state(report, self.now))
 
     def _position_at(self, path_time: float) -> np.ndarray:
         """Where what it was sent has the robot at a path time, if nothing new comes [rad]."""
@@ -160,12 +205,16 @@ class World:
     def tick(self) -> None:
         self.now += TICK
         self._path_time += TICK * self.pace
+        self._ticks += 1
+        self._deliver()
         before = self.positions
         if self._stop is not None:
             began, lead, here, end = self._stop
             share = min((self.now - began) / lead, 1.0)
             self.positions = here + (end - here) * (3.0 * share**2 - 2.0 * share**3)
             self.velocities = (self.positions - before) / TICK
+            if share == 1.0 and not self.velocities.any():
+                self._stop = None
         for begin, plan in self._motions:
             if self._path_time - self.lag >= begin:
                 self.positions, velocities = _sample(plan, self._path_time - self.lag - begin)
@@ -174,6 +223,7 @@ class World:
         if self.publishes_states:
             state = self.positions.tolist(), self.velocities.tolist()
             self.queue.joint_states(COMMANDED_JOINTS, *state, self.now)
+            self._report()
         self._answer()
         self.take(self.queue.step(self.now, obstacle=self.obstacle))
         self._answer()

@@ -44,8 +44,8 @@ class Interruption:
         return finished(job, Outcome.CANCELED, message=why)
 
     def interrupt(self, error: PlanError) -> list[Event]:
-        """Stop the robot and end the current sentence; one that has not begun waits again."""
-        if self._work.phase is Phase.RESTING:
+        """Stop the robot and end the sentence that it has begun; one that it has not begun waits again."""
+        if self._work.phase is Phase.RESTING and self._work.interrupted is None:
             return []
         return self._end(Outcome.CANCELED, error) + self.stop_all()
 
@@ -54,7 +54,8 @@ class Interruption:
         situation = self._work.situation
         if situation.driver is None or situation.block is None:
             return []
-        if self._work.phase in (Phase.RESTING, Phase.STOPPING) and self._work.current is None:
+        at_hand = self._work.current or self._work.interrupted
+        if self._work.phase in (Phase.RESTING, Phase.STOPPING) and at_hand is None:
             return []
         code, meaning = situation.block
         said = situation.driver.message
@@ -102,16 +103,18 @@ class Interruption:
         work, motion = self._work, self._work.motions.present
         work.halt.begin()
         situation = work.situation
-        way = brake(work.motions, situation.limits) if follows and situation.may_continue else None
+        departs = motion is not None and motion.awaited
+        known = follows and situation.may_continue and not departs
+        way = brake(work.motions, situation.limits) if known else None
         if way is not None:
             number = next(work.numbers)
             work.halt.expect(number, situation.clock_time(way.ahead + way.plan.duration))
             start = situation.now + situation.clock_time(way.ahead)
             return [TrajectoryReady(number=number, plan=way.plan, samples=way.samples, start=start)]
         moving = situation.robot.state()
-        if motion is not None and not situation.may_be_told:
+        if departs or (motion is not None and not situation.may_be_told):
             work.halt.owe()
-        if motion is not None:  # joint states tell no acceleration
+        if motion is not None and not departs:  # joint states tell no acceleration
             moving = replace(moving, acceleration=motion.state_at(motion.elapsed).acceleration)
         return [*work.halt.stop(moving, next(work.numbers))]
 
@@ -141,7 +144,7 @@ class Interruption:
         )
         if current is None or not again:
             return self._end(Outcome.NOT_REACHED, error) + self.stop_all(follows=False)
-        self._work.current, current.plan = None, None
+        self._work.current, current.plan, current.again = None, None, True
         halting = self.stop_all(follows=False)
         self._work.waiting.appendleft(current)
         error = PlanError(error.code, f"{error}; the sentence will be signed again")
@@ -157,11 +160,13 @@ class Interruption:
         return named + self.stop_all(follows=False)
 
     def _end(self, outcome: Outcome, error: PlanError) -> list[Event]:
-        """End the current sentence and say why; one that has not begun waits again."""
+        """End the sentence that was begun and say why; one that was not waits again."""
         current, self._work.current = self._work.current, None
+        if current is None and self._work.interrupted is not None:
+            current = self._work.waiting.popleft()
         if current is None:
             return []
-        if self._work.phase is Phase.PLANNING and not current.canceled:
+        if self._work.phase is Phase.PLANNING and not current.canceled and not current.again:
             self._work.waiting.appendleft(current)
             return []
         return self._work.announcements.refuse(current, outcome, error)

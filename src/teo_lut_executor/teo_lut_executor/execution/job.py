@@ -32,6 +32,7 @@ class Job:
     ticket: int
     sentence: Sentence
     attempts: int = 0  # how often it was begun
+    again: bool = False  # whether it was interrupted, and is to be signed again
     canceled: str = ""  # why it is to end early; empty if it is not
     plan: Plan | None = None
     planning_time: float = _PLANNING_TIME  # to be given when it is to continue another [s]

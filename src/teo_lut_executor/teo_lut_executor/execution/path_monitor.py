@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,10 @@ from teo_signs.errors import PlanError
 # another trajectory, the one before ours or one of somebody else.
 _SAME_TRAJECTORY = 0.5
 
+# A motion that begins when the driver has it is expected to have begun after this long [s]: a message was a
+# second on its way on two cores with a load of thirty.
+_DEPARTURE = 2.0
+
 
 @dataclass(kw_only=True, eq=False)
 class PathMonitor:
@@ -31,12 +36,14 @@ class PathMonitor:
         motion: What was sent.
         elapsed: Path time since its first sample [s]; negative before it.
         settings: What counts as followed and reached.
+        awaited: Whether it begins as soon as the driver has it, and the driver has not told yet that it has.
     """
 
     number: int
     motion: Plan
     elapsed: float
     settings: QueueSettings
+    awaited: bool = False
     _away_for: float = 0.0
     _was_away: bool = False
 
@@ -49,8 +56,9 @@ class PathMonitor:
     def synchronise(self, remaining: float) -> None:
         """Take the driver's word for the path time that is left to the end [s]."""
         elapsed = self.motion.duration - remaining
-        if abs(elapsed - self.elapsed) < _SAME_TRAJECTORY:
-            self.elapsed = elapsed
+        longest = math.inf if self.awaited else _SAME_TRAJECTORY
+        if -_SAME_TRAJECTORY < self.elapsed - elapsed < longest:
+            self.elapsed, self.awaited = elapsed, False
 
     def state_at(self, time: float) -> State:
         """State of the joints at a path time [s]."""
@@ -84,7 +92,7 @@ class PathMonitor:
         return PlanError("not_reached", message)
 
     def _path_problem(self, robot: RobotState, seen: float) -> PlanError | None:
-        if seen < 0.0:
+        if seen < 0.0 or (self.awaited and self.elapsed < _DEPARTURE):
             return None  # nothing was heard of the robot since
         # Of the samples the nearest: they are 0.02 s apart, in which no joint moves a tenth of the tolerance.
         nearest = int(np.searchsorted(self.motion.times, seen))

@@ -15,15 +15,6 @@ from teo_lut_executor.execution.work import Work
 from teo_motion.sentence.plan import Plan, Samples
 from teo_signs.errors import PlanError
 
-# A motion from a standstill is sent to start so much later [s]: the message's way to the driver, and its
-# check there; on two cores with a load of ten they took more than 0.05 s. A driver that gets it later drops
-# the points that have passed, or refuses it.
-_START_LEAD = 0.1
-
-# After a refusal four times as much, 1.6 s at most: a starved machine that was late once will be late again,
-# and the three ways to rest that are tried get all of it. After a motion that came to its end, a quarter.
-_LEAD_GROWTH, _MOST_LEAD = 4.0, 1.6
-
 # How often the way to rest is tried after an interrupted sentence, before the robot is left where it is.
 _MOST_RETURNS = 3
 
@@ -43,7 +34,6 @@ class Signing:
         """
         self._work = work
         self._interruption = interruption
-        self._lead = _START_LEAD
 
     def step(self) -> list[Event]:
         """Notice what time has brought."""
@@ -87,7 +77,8 @@ class Signing:
             return self._depart(plan) + self._work.tell()
         assert current is not None
         ahead = after - opening.elapsed
-        if after > 0.0 and (ahead < LEAST_AHEAD or not self._work.situation.may_continue):
+        may = self._work.situation.may_continue and not opening.awaited
+        if after > 0.0 and (ahead < LEAST_AHEAD or not may):
             return self._ask_from_end(current, opening)
         self._work.asked = 0
         current.plan = plan
@@ -133,10 +124,6 @@ class Signing:
                 return self._ask_from_end(current, motion)
             return self._interruption.give_up(error)
         if motion is not None and motion.number == number:
-            current, before = self._work.current, self._lead
-            self._lead = min(before * _LEAD_GROWTH, _MOST_LEAD)
-            if current is not None and self._lead > before and self._work.situation.robot.is_still:
-                current.attempts -= 1  # nothing of it was seen: it costs nobody anything to begin again
             return self._give_up(error)
         self._work.halt.owe(number)
         return []
@@ -165,12 +152,11 @@ class Signing:
         return [PlanWanted(number=self._work.asked, sentence=current.sentence, start=end)]
 
     def _depart(self, plan: Plan) -> list[Event]:
-        """Send a motion that begins at a standstill."""
-        situation, current = self._work.situation, self._work.current
-        opens = self._work.motions.present is None
-        start = situation.now + self._lead
-        events = self._send(plan, plan.samples, start, elapsed=-self._lead * situation.pace)
-        if not opens or current is None or current.canceled:
+        """Send a motion that begins at a standstill, as soon as the driver has it."""
+        current, opening = self._work.current, self._work.motions.present
+        self._work.motions.clear()
+        events = self._send(plan, plan.samples)
+        if opening is not None or current is None or current.canceled:
             return events
         self._work.phase = Phase.SIGNING
         return [*events, self._begun(current)]
@@ -182,9 +168,16 @@ class Signing:
         start = situation.now + situation.clock_time(ahead - float(samples.times[1]))
         return self._send(plan, samples, start, elapsed=-ahead)
 
-    def _send(self, plan: Plan, samples: Samples, start: float, *, elapsed: float) -> list[Event]:
-        number, settings = next(self._work.numbers), self._work.situation.settings
-        self._work.motions.add(PathMonitor(number=number, motion=plan, elapsed=elapsed, settings=settings))
+    def _send(
+        self, plan: Plan, samples: Samples, start: float | None = None, *, elapsed: float = 0.0
+    ) -> list[Event]:
+        number, situation = next(self._work.numbers), self._work.situation
+        awaited = start is None and situation.driver is not None
+        self._work.motions.add(
+            PathMonitor(
+                number=number, motion=plan, elapsed=elapsed, settings=situation.settings, awaited=awaited
+            )
+        )
         return [TrajectoryReady(number=number, plan=plan, samples=samples, start=start)]
 
     @staticmethod
@@ -197,7 +190,7 @@ class Signing:
         current, motion = self._work.current, self._work.motions.present
         if motion is None or current is None or current.plan is not motion.motion:
             return []
-        if self._work.motions.continuation is not None:
+        if self._work.motions.continuation is not None or motion.awaited:
             return []
         if not self._work.situation.may_join:
             self._work.joining.drop()
@@ -233,7 +226,6 @@ class Signing:
                 if current.plan is None or situation.hindrance:
                     return []
                 return self._depart(current.plan)  # that was its opening
-            self._lead = max(self._lead / _LEAD_GROWTH, _START_LEAD)
             if self._work.phase is Phase.RETURNING:
                 return self._interruption.rested()
             assert current is not None

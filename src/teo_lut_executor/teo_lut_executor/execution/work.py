@@ -55,6 +55,11 @@ class Work:
         self.astray = False
         self.returns = 0
 
+    @property
+    def interrupted(self) -> Job | None:
+        """The sentence that waits to be signed again, if any."""
+        return self.waiting[0] if self.waiting and self.waiting[0].again else None
+
     def tick(self, path_time: float, clock_set: float) -> None:
         """Let path time pass, and follow a clock that was set; both [s]."""
         self.halt.shift_clock(clock_set)

@@ -40,17 +40,19 @@ def to_sentence(message: SignSentence) -> Sentence:
     )
 
 
-def to_trajectory(names: Sequence[str], samples: Samples, *, start: float) -> JointTrajectory:
+def to_trajectory(names: Sequence[str], samples: Samples, *, start: float | None) -> JointTrajectory:
     """A motion as the driver takes it.
 
     Args:
         names: Joints.
         samples: The motion. The first is where the robot is by then, and is left out: the driver goes on
             from its own state.
-        start: When the robot is to be there [s], the message's stamp.
+        start: When the robot is to be there [s], the message's stamp; None for as soon as the driver has it
+            (stamp 0).
     """
     message = JointTrajectory(joint_names=list(names))
-    message.header.stamp = to_time(start)
+    if start is not None:
+        message.header.stamp = to_time(start)
     message.points = [
         _point(position, velocity, acceleration, time)
         for time, position, velocity, acceleration in zip(
