@@ -78,9 +78,9 @@ class _Robot:
         self._times = np.zeros(1)  # [s]
         self._points = np.array([[HOME[name] for name in COMMANDED_JOINTS]])
 
-    def take(self, message: JointTrajectory) -> None:
-        """Follow a trajectory from its stamp on."""
-        begin = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9
+    def take(self, message: JointTrajectory, now: float) -> None:
+        """Follow a trajectory from its stamp on, or at once if it has none."""
+        begin = message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 or now
         before = self._times < begin
         times = [p.time_from_start.sec + p.time_from_start.nanosec * 1e-9 for p in message.points]
         points = [p.positions for p in message.points]
@@ -113,7 +113,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
     def on_trajectory(message: JointTrajectory) -> None:
         inbox.arrived.append(time.perf_counter())
         inbox.trajectories.append(message)
-        robot.take(message)
+        robot.take(message, time.monotonic() + ahead)
 
     def on_echo(_: String) -> None:
         inbox.arrived.append(time.perf_counter())

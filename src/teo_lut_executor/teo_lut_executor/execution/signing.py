@@ -34,6 +34,7 @@ class Signing:
         """
         self._work = work
         self._interruption = interruption
+        self._early: tuple[int, Plan, float] | None = None  # came before the driver told of its opening
 
     def step(self) -> list[Event]:
         """Notice what time has brought."""
@@ -43,6 +44,9 @@ class Signing:
                 events += self._follow()
             case Phase.STOPPING:
                 events += self._interruption.await_standstill()
+        if self._early is not None:
+            number, plan, after = self._early
+            events += self.planned(number, plan, after)
         if self._work.phase is Phase.SIGNING:
             events += self._join()
         if self._work.phase is Phase.RESTING:
@@ -65,6 +69,7 @@ class Signing:
         """
         if self._work.joining.planned(number, plan):
             return self._join()
+        self._early = None
         if number != self._work.asked:
             return []
         current, opening = self._work.current, self._work.motions.present
@@ -77,8 +82,10 @@ class Signing:
             return self._depart(plan) + self._work.tell()
         assert current is not None
         ahead = after - opening.elapsed
-        may = self._work.situation.may_continue and not opening.awaited
-        if after > 0.0 and (ahead < LEAST_AHEAD or not may):
+        if after > 0.0 and opening.awaited and ahead >= LEAST_AHEAD:
+            self._early = number, plan, after
+            return []
+        if after > 0.0 and (ahead < LEAST_AHEAD or not self._work.situation.may_continue):
             return self._ask_from_end(current, opening)
         self._work.asked = 0
         current.plan = plan
