@@ -29,8 +29,8 @@ def executed(world: World) -> Array:
     """
     limits, start = joint_limits(COMMANDED_JOINTS), load_humanoid().ready.copy()
     follower = JointFollower(limits=limits, start=start, period=0.001)
-    # A motion with a time half a period before that: what the sender did not know by then must not matter. One
-    # that is overtaken by the next before it begins comes with that: in the order in which they were sent.
+    # A motion with a time comes half a period before that: what the sender did not know by then must not
+    # matter. One that is overtaken by the next before it begins comes with that: in the order of sending.
     begin = np.array([time - (0.01 if _is_timed(event) else 0.0) for time, event in world.taken])
     come = np.minimum.accumulate(begin[::-1])[::-1]
     messages = [
