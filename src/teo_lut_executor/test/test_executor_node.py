@@ -405,7 +405,8 @@ def test_each_sentence_is_signed_in_its_own_language_or_refused_while_languages_
         assert waiting.language == "", "that of the executor"
         for message in (first, early, waiting):
             graph.publish(message)
-        graph.spin_until(lambda: any(status.queued for status in graph.robot.statuses))
+        taken = ExecutorStatus.STATE_WAITING  # a refusal tells of sentences that wait as well
+        graph.spin_until(lambda: any(s.queued and s.state == taken for s in graph.robot.statuses))
         assert graph.refused() == [("other_language", early.utterance_id)]
         (result,) = graph.node.set_parameters([Parameter("language", value=other)])
         assert result.successful, result.reason
