@@ -19,8 +19,8 @@ from teo_signs.errors import PlanError
 # another trajectory, the one before ours or one of somebody else.
 _SAME_TRAJECTORY = 0.5
 
-# A motion that begins when the driver has it is expected to have begun after this long [s]: a message was a
-# second on its way on two cores with a load of thirty.
+# A motion that begins when the driver has it is expected to have begun after this long [s]: a message was
+# 0.6 s on its way on two cores with a load of twenty.
 _DEPARTURE = 2.0
 
 
