@@ -53,13 +53,13 @@ export class PoseTrack {
     return a.positions.map((value, joint) => value + share * (b.positions[joint] - value));
   }
 
-  /** The time from which on something moves, at or after a time; the live one if nothing does. */
+  /** The time from which on something moves, at or after a time; null if nothing does. */
   nextMovement(time) {
     for (let i = Math.max(this.#after(time), 1); i < this.#poses.length; i++) {
       const [a, b] = [this.#poses[i - 1], this.#poses[i]];
       if (a.positions.some((value, joint) => Math.abs(value - b.positions[joint]) > STILL)) return a.stamp;
     }
-    return this.live();
+    return null;
   }
 
   #after(time) {
@@ -98,7 +98,8 @@ export class ViewClock {
     else this.#time = Math.min(this.#time + passed * this.rate, live);
     if (this.rate !== 1) {
       const movement = this.#track.nextMovement(this.#time);
-      if (movement - this.#time > REST) this.#time = Math.min(movement - REST, live);
+      if (movement === null) this.#time = live;
+      else if (movement - this.#time > REST) this.#time = Math.min(movement - REST, live);
     }
     return this.#time;
   }

@@ -15,7 +15,7 @@ export function pictureControls({ live, settings, t }, view) {
   const mirror = h("button", { type: "button", id: "mirror", on: { click: () => reflect(!settings.get("mirrored")) } }, t("picture.mirror"));
   const rate = h("select", { id: "rate" });
   for (const each of RATES) rate.append(h("option", { value: String(each) }, t(`rate.${each}`)));
-  const behind = h("button", { type: "button", class: "quiet", hidden: true, on: { click: () => live.clock.toLive() } });
+  const behind = h("button", { type: "button", class: "quiet", hidden: true, on: { click: toLive } });
 
   function look(name) {
     settings.set("camera", name);
@@ -30,6 +30,10 @@ export function pictureControls({ live, settings, t }, view) {
   function setRate() {
     live.clock.rate = Number(rate.value);
     settings.set("viewRate", live.clock.rate);
+  }
+  function toLive() {
+    live.clock.toLive();
+    behind.hidden = true;
   }
   function showDelay() {
     if (!element.isConnected) return;
