@@ -27,6 +27,7 @@ LONG = 240_000
 
 def accessible(page: Page) -> None:
     """Nothing that axe-core finds stands in anybody's way."""
+    expect(page.locator("#content h1")).to_be_attached()  # the tab is there
     found = Axe().run(page).response["violations"]
     assert not found, json.dumps([(each["id"], [node["html"] for node in each["nodes"]]) for each in found])
 
