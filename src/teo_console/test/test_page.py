@@ -222,6 +222,7 @@ def test_no_tab_bars_anybody(new_page: NewPage, scheme: str) -> None:
     for tab in TABS:
         page.goto(f"{page.url.partition('#')[0]}#{tab}")
         expect(page.locator("#content")).to_have_attribute("data-tab", tab)
+        expect(page.locator("#content h1")).to_be_attached()
         results = Axe().run(page)
         assert results.violations_count == 0, f"{tab}: {results.generate_report()}"
 
