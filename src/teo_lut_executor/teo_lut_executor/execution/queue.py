@@ -103,7 +103,8 @@ class ExecutionQueue:
         self._tick(now)
         for job in self._waiting:
             if job.ticket == ticket:
-                return self._interruption.forget(job, "canceled before it began") + self._work.tell()
+                why = f"canceled before it began{' again' if job.again else ''}"
+                return self._interruption.forget(job, why) + self._work.tell()
         current = self._work.current
         if current is None or current.ticket != ticket:
             return []
