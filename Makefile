@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-# make setup | wheelhouse | run | demo TEXT="..." | test | commands | lint | bench | docs; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1
+# make setup | wheelhouse | run | demo TEXT="..." | test | slow | commands | lint | bench | docs; run and demo take ROBOT=gr1t2, LANGUAGE=ase, VIEW=1
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 TEXT ?= Hola, me llamo Ana. ¿Qué tal?
@@ -14,7 +14,7 @@ LANGUAGE ?= ssp
 SETUP := $(if $(VIEW),setup-view,setup-run)
 ENV := . ./env.sh &&
 
-.PHONY: help setup setup-run setup-view wheelhouse robots run demo test commands lint bench docs
+.PHONY: help setup setup-run setup-view wheelhouse robots run demo test slow commands lint bench docs
 
 help: ## what can be made
 	@grep -hE '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -37,9 +37,13 @@ demo: $(SETUP) ## sign TEXT="...": leaves the bag, a video and a film strip in O
 run: $(SETUP) ## start translator, executor and driver, until Ctrl-C; VIEW=1 with the page
 	@$(ENV) exec ros2 run teo_bringup up --robot "$$ROBOT" --language "$$LANGUAGE" $(if $(VIEW),translator executor driver console)
 
-test: setup ## all tests: first what keeps no time with others, then what meets them over DDS
-	@$(ENV) python -m pytest -m "not dds and not commands" --numprocesses 2 --dist loadfile
-	@$(ENV) python -m pytest -m "dds and not commands" --numprocesses 2 --dist loadfile
+test: setup ## the tests, without the slow ones: first what keeps no time with others, then what meets them over DDS
+	@$(ENV) python -m pytest -m "not dds and not commands and not slow" --numprocesses 2 --dist loadfile
+	@$(ENV) python -m pytest -m "dds and not commands and not slow" --numprocesses 2 --dist loadfile
+
+slow: setup ## the tests that take long
+	@$(ENV) python -m pytest -m "slow and not dds and not commands" --numprocesses 2 --dist worksteal
+	@$(ENV) python -m pytest -m "slow and dds and not commands" --numprocesses 2 --dist loadfile
 
 commands: setup ## the commands of every page, as they stand there
 	@$(ENV) python -m pytest -m commands --numprocesses 2 --dist worksteal

@@ -164,7 +164,10 @@ def test_limbs_are_commanded_side_by_side_until_the_whole_body_takes_over(bench,
     second.cancel_goal_async()
     status, _ = right.end(second)
     assert status == GoalStatus.STATUS_CANCELED
-    bench.commands.publish(one_way(duration=20.0, angle=-0.3))
+    whole = one_way(duration=20.0, angle=-0.3)
+    for point in whole.points:  # however far the arm is by now, it has time to get to the first of them
+        point.time_from_start.sec += 10
+    bench.commands.publish(whole)
     status, result = left.end(first)
     assert (status, result.error_code) == (GoalStatus.STATUS_ABORTED, Result.INVALID_GOAL)
     assert "topic" in result.error_string
