@@ -22,7 +22,7 @@ from teo_bringup.graph import NODES, Graph, GraphError, executable_of
 
 START_TIMEOUT = 120.0  # [s] for four processes on a loaded machine: four seconds on an idle one
 # For a robot to be stopped, re-armed and back at rest [s]: seconds on an idle machine.
-SETTLED_WITHIN = 30.0
+SETTLED_WITHIN = 60.0
 ORDERS = ("clear_queue", "stop", "rearm")
 
 

@@ -18,7 +18,7 @@ from playwright.sync_api import Page, WebSocket, expect
 
 from teo_console.protocol.poses import decode_pose
 
-PATIENCE = 45.0  # [s] for what a page shows, on a loaded machine
+PATIENCE = 90.0  # [s] for what a page shows, on a loaded machine
 DIFFERENT = 3.0  # mean difference of two pictures' pixels, of 255, above which they show different things
 
 # Notes every caption as it is lit.

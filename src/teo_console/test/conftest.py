@@ -16,7 +16,7 @@ from watched_page import Poses
 
 from teo_bringup.graph import Graph
 
-PATIENCE = 45_000  # [ms] for what a page waits for, likewise
+PATIENCE = 90_000  # [ms] for what a page waits for, likewise
 expect.set_options(timeout=PATIENCE)
 
 NewPage = Callable[..., Page]
