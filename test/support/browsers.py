@@ -5,9 +5,13 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import av
+import pytest
+from playwright.sync_api import Browser, sync_playwright
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 # WebGL 2 by the processor, and nothing that a browser does for itself in the background.
@@ -27,6 +31,18 @@ REST_BEFORE, REST_AFTER = 5.5, 8.0
 def browser_path() -> str | None:
     """A browser on the path; None if there is none."""
     return next(filter(None, map(shutil.which, BROWSERS)), None)
+
+
+@contextmanager
+def launched(*options: str) -> Iterator[Browser]:
+    """A browser without a window; without one there is nothing to test with."""
+    path = browser_path()
+    if path is None:
+        pytest.skip(f"no browser: install one of {', '.join(BROWSERS)}")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=[*OPTIONS, *options])
+        yield browser
+        browser.close()
 
 
 def seeing(film: Path) -> str:

@@ -7,17 +7,16 @@ from __future__ import annotations
 import json
 import re
 import urllib.request
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 
 import av
 import pytest
-from axe_playwright_python.sync_playwright import Axe
-from browsers import GREETING
+from browsers import GREETING, launched, seeing, write_camera_film
 from page_film import Film
-from playwright.sync_api import Page, expect
-from watched_page import wait_until_ready
+from playwright.sync_api import Browser, Page, expect
+from watched_page import accessible, photograph, wait_until_ready
 
 NewPage = Callable[..., Page]
 
@@ -25,43 +24,16 @@ NewPage = Callable[..., Page]
 LONG = 240_000
 
 
-def accessible(page: Page) -> None:
-    """Nothing that axe-core finds stands in anybody's way."""
-    expect(page.locator("#content h1")).to_be_attached()  # the tab is there
-    found = Axe().run(page).response["violations"]
-    assert not found, json.dumps([(each["id"], [node["html"] for node in each["nodes"]]) for each in found])
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """Its camera sees over and over: a person at rest, who greets, and is at rest again."""
+    path = tmp_path_factory.mktemp("camera") / "greeting.y4m"
+    write_camera_film(path)
+    with launched(seeing(path)) as browser:
+        yield browser
 
 
-def photograph(page: Page, pictures: Path, name: str) -> None:
-    """From its top, at the width of a desk and of a telephone."""
-    page.evaluate("window.scrollTo(0, 0)")
-    for width, where in ((1100, "desk"), (390, "phone")):
-        page.set_viewport_size({"width": width, "height": 800})
-        page.screenshot(path=pictures / f"{name}_{where}.png")
-    page.set_viewport_size({"width": 1100, "height": 760})
-
-
-def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_record(
-    new_page: NewPage, pictures: Path
-) -> None:
-    page = new_page(tab="dictionary")
-    page.fill("#search-word", "bíci")  # whatever the accents
-    page.select_option("#search-hand", "A")
-    expect(page.locator(".words button")).to_have_text(["BICICLETA"])
-    page.select_option("#search-hand", "B")
-    expect(page.locator(".words button")).to_have_count(0)
-    page.select_option("#search-hand", "A")
-    page.click(".words button")
-    expect(page.locator("dl")).to_contain_text("DILSE")
-    page.fill("#coverage-text", "La matrona tiene una bicicleta.")
-    page.click("form button[type=submit]")
-    expect(page.locator("form ol a")).to_have_text(["MATRONA"], timeout=LONG)
-    accessible(page)
-    photograph(page, pictures, "dictionary")
-    page.click("form ol a")
-    expect(page.locator("#teach-gloss")).to_have_value("MATRONA")
-
-
+@pytest.mark.slow
 def test_a_sign_is_filmed_looked_at_accepted_and_signed_and_then_practised(
     new_page: NewPage, pictures: Path, tmp_path: Path, film: Film
 ) -> None:
@@ -123,6 +95,7 @@ def practised(page: Page, word: str, film: Path) -> str | None:
     return page.locator("[data-verdict]").get_attribute("data-verdict")
 
 
+@pytest.mark.slow
 def test_three_signs_are_reviewed_blind_and_the_export_says_how(
     new_page: NewPage, address: str, pictures: Path
 ) -> None:

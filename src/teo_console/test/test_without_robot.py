@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +14,9 @@ import pytest
 from console_api import Api
 from made_bags import signing, write_bag
 from playwright.sync_api import Browser, Page, expect
+from watched_page import accessible, photograph
 
+from teo_lut_executor.execution.situation import BLOCKED
 from teo_signs.look_up_table import Lut
 from teo_signs.motion_hash import motion_hash
 
@@ -65,6 +68,27 @@ def test_a_sentence_is_reviewed_and_what_three_found_right_is_entered_into_the_t
     assert Lut.open(data_home / "teo" / "lut")["CALLE"].provenance.standing == "reviewed"
 
 
+def test_a_sign_is_found_by_its_word_and_handshape_and_a_text_says_what_to_record(
+    api: Api, page: Page, pictures: Path
+) -> None:
+    page.goto(f"{api.url}/#dictionary")
+    page.fill("#search-word", "bíci")  # whatever the accents
+    page.select_option("#search-hand", "A")
+    expect(page.locator(".words button")).to_have_text(["BICICLETA"])
+    page.select_option("#search-hand", "B")
+    expect(page.locator(".words button")).to_have_count(0)
+    page.select_option("#search-hand", "A")
+    page.click(".words button")
+    expect(page.locator("dl")).to_contain_text("DILSE")
+    page.fill("#coverage-text", "La matrona tiene una bicicleta.")
+    page.click("form button[type=submit]")
+    expect(page.locator("form ol a")).to_have_text(["MATRONA"], timeout=LONG)
+    accessible(page)
+    photograph(page, pictures, "dictionary")
+    page.click("form ol a")
+    expect(page.locator("#teach-gloss")).to_have_value("MATRONA")
+
+
 def test_a_bag_is_taught_and_nothing_of_it_is_left_when_it_is_discarded(
     api: Api, page: Page, tmp_path: Path
 ) -> None:
@@ -79,19 +103,56 @@ def test_a_bag_is_taught_and_nothing_of_it_is_left_when_it_is_discarded(
     assert not [path for path in api.folders.cache.glob("recordings-*/*") if path.is_dir()]
 
 
-def reasons(*folders: str) -> set[str]:
-    """Every stable reason that sources in these folders give to an error of theirs."""
-    trees = [
-        ast.parse(path.read_text("utf-8")) for each in folders for path in SOURCES.glob(f"{each}/**/*.py")
-    ]
-    found = set()
-    for node in (node for tree in trees for node in ast.walk(tree)):
-        if isinstance(node, ast.Call) and node.args and isinstance(node.args[0], ast.Constant):
-            name = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
-            code = node.args[0].value
-            if name.endswith("Error") and isinstance(code, str) and re.fullmatch("[a-z][a-z0-9_]+", code):
-                found.add(code)
-    return found
+def reasons(*patterns: str) -> set[str]:
+    """Every stable reason that these sources give to an error of theirs, or to what they say of one."""
+    trees = [ast.parse(path.read_text("utf-8")) for each in patterns for path in SOURCES.glob(each)]
+    calls = [node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    given = [call.args[0] for call in calls if call.args and name_of(call.func).endswith("Error")]
+    given += [keyword.value for call in calls for keyword in call.keywords if keyword.arg == "code"]
+    codes = {each.value for each in given if isinstance(each, ast.Constant) and isinstance(each.value, str)}
+    return {code for code in codes if re.fullmatch("[a-z][a-z0-9_]+", code)}
+
+
+def name_of(called: ast.expr) -> str:
+    return called.id if isinstance(called, ast.Name) else getattr(called, "attr", "")
+
+
+# Where reasons arise that come to the page: what is called while a text is translated, a sentence planned and
+# signed, a command carried out.
+TELLING = (
+    "teo_sign_translator/teo_sign_translator/text/**/*.py",
+    "teo_sign_translator/teo_sign_translator/pipeline/**/*.py",
+    "teo_sign_translator/teo_sign_translator/node/**/*.py",
+    "teo_signs/teo_signs/tokens.py",
+    "teo_signs/teo_signs/lexicon.py",
+    "teo_motion/teo_motion/**/*.py",
+    "teo_lut_executor/teo_lut_executor/execution/**/*.py",
+    "teo_lut_executor/teo_lut_executor/node/**/*.py",
+    "teo_lut_executor/teo_lut_executor/planning/**/*.py",
+    "teo_sim_driver/teo_sim_driver/**/*.py",
+    "teo_console/teo_console/**/*.py",
+)
+# With these a node does not start or does not take a parameter, or only its log tells them.
+NOT_TOLD = {
+    "bad_address", "bad_factor", "bad_hand", "bad_limits", "bad_period", "bad_policy", "bad_rest",
+    "bad_robot", "bad_standing", "bad_style", "empty_speech", "mujoco_missing", "no_boards", "port_taken",
+    "unknown_plant",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("language", ["es", "en"])
+def test_every_refusal_that_comes_to_the_page_says_why_and_what_to_do(language: str) -> None:
+    codes = reasons(*TELLING) | {code for code, _ in BLOCKED.values()}
+    assert {"moving", "limit_switch", "not_paused", "planner_lost", "driver_fault"} <= codes
+    assert codes >= NOT_TOLD, NOT_TOLD - codes
+    folder = SOURCES / "teo_console" / "web" / "i18n"
+    words = {
+        key: text
+        for name in (f"{language}.json", f"{language}.tabs.json")
+        for key, text in json.loads((folder / name).read_text("utf-8")).items()
+    }
+    told = {code: words.get(f"code.{code}", "") for code in codes - NOT_TOLD}
+    assert not {code: text for code, text in told.items() if not re.fullmatch(r"[^:]+: [^:]+\.", text)}
 
 
 # Common words of one language that are none of the other's.
@@ -101,11 +162,12 @@ FOREIGN = {
 }
 
 
+@pytest.mark.slow
 def test_every_reason_is_read_in_the_language_of_the_page(api: Api, page: Page) -> None:
-    codes = sorted(reasons("teo_*/teo_*"))
+    codes = sorted(reasons("teo_*/teo_*/**/*.py"))
     assert len(codes) > 250
     # What the tabs themselves refuse is said in words of its own, not by the reason's name.
-    own = reasons(*(f"teo_console/teo_console/{room}" for room in ("api", "jobs", "review")))
+    own = reasons(*(f"teo_console/teo_console/{room}/**/*.py" for room in ("api", "jobs", "review")))
     page.goto(api.url)
     for language, foreign in FOREIGN.items():
         told = page.evaluate(

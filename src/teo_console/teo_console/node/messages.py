@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+import re
+
 from msgspec.structs import replace
+from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import (
     DriverState,
     ExecutorStatus,
@@ -16,6 +19,7 @@ from teo_sign_msgs.msg import (
 from teo_sign_msgs.srv import GetSign, ListQueue
 
 from teo_console.protocol.to_page import (
+    Answer,
     Caption,
     ExecutorState,
     Motion,
@@ -75,10 +79,22 @@ _MODES: dict[int, RobotMode] = {
     DriverState.MODE_FAULT: "fault",
 }
 
+# A refusal of driver or executor: its stable reason, and a sentence for people.
+_REFUSAL = re.compile(r"([a-z][a-z0-9_]*): (.+)", re.DOTALL)
+
 
 def seconds(stamp: object) -> float:
     """Give a builtin_interfaces Time or Duration in seconds."""
     return float(stamp.sec) + float(stamp.nanosec) * 1e-9  # type: ignore[attr-defined]  # generated, untyped
+
+
+def to_answer(number: int, response: Trigger.Response) -> Answer:
+    """What became of a command; "not_done" if it was refused without a reason's code."""
+    if response.success:
+        return Answer(id=number, success=True, message=response.message)
+    refusal = _REFUSAL.fullmatch(response.message)
+    code, sentence = refusal.groups() if refusal else ("not_done", response.message)
+    return Answer(id=number, success=False, code=code, message=sentence)
 
 
 def to_sentence(message: SignSentence) -> Sentence:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import time
 import uuid
 from collections.abc import Callable
 from typing import Any
@@ -18,6 +19,7 @@ from teo_sign_msgs.srv import GetSign, ListQueue
 
 from teo_console.errors import ConsoleError
 from teo_console.node import messages
+from teo_console.node.rearming import Rearming, Reply
 from teo_console.protocol.from_page import (
     Command,
     ConfirmSpoken,
@@ -32,7 +34,8 @@ from teo_console.protocol.from_page import (
 from teo_console.protocol.to_page import Answer
 from teo_console.situation.shared_situation import SharedSituation
 
-Reply = Callable[[Answer], None]
+# How often a request to re-arm that is kept is tried again [s]: the robot brakes for twice as long.
+_REARMING_PERIOD = 0.1
 
 
 class RobotClient:
@@ -53,13 +56,15 @@ class RobotClient:
         self._orders = {order: node.create_client(Trigger, order.value) for order in Order}
         self._get_sign = node.create_client(GetSign, "get_sign")
         self._list_queue = node.create_client(ListQueue, "list_queue")
+        self._rearming = Rearming(self._order)
+        node.create_timer(_REARMING_PERIOD, lambda: self._rearming.step(time.monotonic()))
 
     def serve(self, asked: FromPage, reply: Reply) -> None:
         """Carry out a request, and reply once."""
         try:
             self._serve(asked, reply)
         except ConsoleError as error:
-            reply(Answer(id=asked.id, success=False, code=error.code, message=str(error)))
+            reply(_refused(asked, error))
 
     def look_at_queue(self) -> None:
         """Ask the executor for its queue."""
@@ -88,12 +93,23 @@ class RobotClient:
                 self._speeds.publish(SpeedScalingFactor(factor=asked.factor))
                 self._situation.speed_wanted(asked.factor)
                 reply(Answer(id=asked.id, success=True))
+            case Command(order=Order.REARM):
+                self._rearming.ask(asked, reply, time.monotonic())
             case Command():
-                client = self._orders[asked.order]
-                self._call(client, Trigger.Request(), reply, lambda done: _of_trigger(asked.id, done))
+                if asked.order is Order.STOP:
+                    self._rearming.give_up()
+                self._order(asked, reply)
             case FetchSign():
                 request = GetSign.Request(gloss=asked.gloss)
                 self._call(self._get_sign, request, reply, lambda done: _of_sign(asked, done))
+
+    def _order(self, asked: Command, reply: Reply) -> None:
+        """Call the service that carries out a command, and reply once."""
+        try:
+            client = self._orders[asked.order]
+            self._call(client, Trigger.Request(), reply, lambda done: messages.to_answer(asked.id, done))
+        except ConsoleError as error:
+            reply(_refused(asked, error))
 
     def _sign(self, text: str) -> None:
         self._expect_listener(self._texts, "translator")
@@ -139,9 +155,8 @@ class RobotClient:
             self._situation.queue(messages.to_queue(response))
 
 
-def _of_trigger(number: int, response: Trigger.Response) -> Answer:
-    code = "" if response.success else "not_done"
-    return Answer(id=number, success=response.success, code=code, message=response.message)
+def _refused(asked: FromPage, error: ConsoleError) -> Answer:
+    return Answer(id=asked.id, success=False, code=error.code, message=str(error))
 
 
 def _of_sign(asked: FetchSign, response: GetSign.Response) -> Answer:

@@ -25,6 +25,7 @@ const socket = new Socket();
 const live = new Live(socket);
 let leave = () => {};
 let noticed = 0;
+let rearming = false; // asked for and not answered: while the robot brakes, the node waits for it
 
 /** Says something once, for everybody: seen and read aloud. */
 function notify(text) {
@@ -112,8 +113,23 @@ function showStatus() {
   const status = element("status");
   if (status.textContent !== text) status.textContent = text; // else it would be read aloud again
   status.dataset.tone = tone;
+  showRearm();
+}
+
+function showRearm() {
   const mode = socket.situation?.robot.mode;
-  element("rearm").disabled = !socket.connected || (mode !== "stopped" && mode !== "fault");
+  const button = element("rearm");
+  button.textContent = t(rearming ? "rearming" : "rearm");
+  button.setAttribute("aria-busy", String(rearming));
+  button.disabled = rearming || !socket.connected || (mode !== "stopped" && mode !== "fault");
+}
+
+async function rearm() {
+  rearming = true;
+  showRearm();
+  await attempt(() => socket.ask("command", { order: "rearm" }));
+  rearming = false;
+  showRearm();
 }
 
 async function setLanguage(language) {
@@ -127,14 +143,18 @@ async function setLanguage(language) {
 }
 
 element("stop").addEventListener("click", () => attempt(() => socket.ask("command", { order: "stop" })));
-element("rearm").addEventListener("click", () => attempt(() => socket.ask("command", { order: "rearm" })));
+element("rearm").addEventListener("click", rearm);
 document.querySelector(".skip").addEventListener("click", (event) => {
   event.preventDefault(); // the hash is the tab's
   element("content").focus();
 });
 window.addEventListener("hashchange", show);
 for (const name of ["situation", "connection"]) socket.addEventListener(name, showStatus);
-socket.addEventListener("refused", ({ detail }) => notify(refusalText(detail.code)));
+socket.addEventListener("refused", ({ detail }) => {
+  rearming = false; // it does not say what was refused
+  showRearm();
+  notify(refusalText(detail.code));
+});
 
 socket.connect();
 await setLanguage(settings.get("language"));

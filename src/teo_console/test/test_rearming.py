@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Requests to re-arm a robot that brakes: kept, done at rest, and given up when it is stopped again."""
+
+from __future__ import annotations
+
+import pytest
+from std_srvs.srv import Trigger
+
+from teo_console.node.messages import to_answer
+from teo_console.node.rearming import PATIENCE, Rearming, Reply
+from teo_console.protocol.from_page import Command, Order
+from teo_console.protocol.to_page import Answer
+
+REARM = Command(id=7, order=Order.REARM)
+BRAKING = Answer(id=7, success=False, code="moving", message="at rest in 0.19 s")
+SWITCH = Answer(id=7, success=False, code="limit_switch", message="pressed")
+DONE = Answer(id=7, success=True)
+
+
+class Driver:
+    """Takes commands, and answers when the test says so."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[Order, Reply]] = []
+
+    def call(self, command: Command, reply: Reply) -> None:
+        self.asked.append((command.order, reply))
+
+    @property
+    def orders(self) -> list[Order]:
+        return [order for order, _ in self.asked]
+
+    def answer(self, answer: Answer) -> None:
+        self.asked[-1][1](answer)
+
+
+@pytest.fixture
+def driver() -> Driver:
+    return Driver()
+
+
+@pytest.fixture
+def rearming(driver: Driver) -> Rearming:
+    return Rearming(driver.call)
+
+
+@pytest.mark.parametrize("answer", [DONE, SWITCH])
+def test_a_robot_at_rest_is_asked_once_and_its_answer_passed_on(
+    driver: Driver, rearming: Rearming, answer: Answer
+) -> None:
+    told: list[Answer] = []
+    rearming.ask(REARM, told.append, now=0.0)
+    driver.answer(answer)
+    rearming.step(now=0.1)
+    assert (driver.orders, told) == ([Order.REARM], [answer])
+
+
+def test_a_robot_that_brakes_is_asked_again_until_it_is_at_rest(driver: Driver, rearming: Rearming) -> None:
+    told: list[Answer] = []
+    rearming.ask(REARM, told.append, now=0.0)
+    for now in (0.1, 0.2):
+        driver.answer(BRAKING)
+        rearming.step(now)
+        rearming.step(now)  # it has not answered yet: not asked twice
+    assert driver.orders == [Order.REARM] * 3
+    assert not told
+    driver.answer(DONE)
+    assert told == [DONE]
+
+
+def test_a_robot_that_does_not_come_to_rest_is_given_up_with_what_the_driver_said(
+    driver: Driver, rearming: Rearming
+) -> None:
+    told: list[Answer] = []
+    rearming.ask(REARM, told.append, now=0.0)
+    driver.answer(BRAKING)
+    rearming.step(now=PATIENCE)
+    rearming.step(now=PATIENCE + 0.1)
+    assert (driver.orders, told) == ([Order.REARM], [BRAKING])
+
+
+def test_a_stop_ends_a_request_that_is_kept(driver: Driver, rearming: Rearming) -> None:
+    told: list[Answer] = []
+    rearming.ask(REARM, told.append, now=0.0)
+    driver.answer(BRAKING)
+    rearming.give_up()
+    rearming.step(now=0.1)
+    assert driver.orders == [Order.REARM]
+    assert [(answer.id, answer.success, answer.code) for answer in told] == [(7, False, "stopped_again")]
+
+
+def test_a_robot_that_was_rearmed_although_a_stop_came_is_stopped_again(
+    driver: Driver, rearming: Rearming
+) -> None:
+    told: list[Answer] = []
+    rearming.ask(REARM, told.append, now=0.0)
+    rearming.give_up()
+    driver.answer(DONE)  # the driver had the stop first
+    assert driver.orders == [Order.REARM, Order.STOP]
+    assert [answer.code for answer in told] == ["stopped_again"]
+
+
+def test_two_pages_are_both_answered(driver: Driver, rearming: Rearming) -> None:
+    told: list[Answer] = []
+    for _ in range(2):
+        rearming.ask(REARM, told.append, now=0.0)
+        driver.answer(BRAKING)
+    rearming.step(now=0.1)
+    for _, reply in driver.asked[2:]:
+        reply(DONE)
+    assert told == [DONE, DONE]
+
+
+@pytest.mark.parametrize(
+    ("said", "code", "sentence"),
+    [
+        ("moving: the robot is at rest in 0.19 s: call again then", "moving",
+         "the robot is at rest in 0.19 s: call again then"),
+        ("it does not say why", "not_done", "it does not say why"),
+        ("Two words: not a code", "not_done", "Two words: not a code"),
+        ("", "not_done", ""),
+    ],
+)  # fmt: skip
+def test_a_service_that_refuses_says_why_by_a_code_where_it_has_one(
+    said: str, code: str, sentence: str
+) -> None:
+    answer = to_answer(7, Trigger.Response(success=False, message=said))
+    assert answer == Answer(id=7, success=False, code=code, message=sentence)
+
+
+def test_a_service_that_has_done_it_gives_no_code() -> None:
+    answer = to_answer(7, Trigger.Response(success=True, message="stopped: at rest"))
+    assert answer == Answer(id=7, success=True, message="stopped: at rest")
