@@ -58,6 +58,6 @@ docs: setup ## the pages of docs/ and of the API, in out/docs/
 	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
 
 bench: setup ## the figures of the README
-	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python bench/run.py
+	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python studio/bench/run.py
 
 export TEXT OUT ROBOT LANGUAGE

@@ -7,11 +7,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 check_types() {
     local package name
-    for package in src/*/; do
+    for package in src/*/ studio/*/ tools/*/; do
         name="$(basename "$package")"
         if [ -d "$package$name" ]; then mypy "$package$name"; fi
     done
-    mypy scripts bench
+    mypy scripts studio/bench
 }
 
 if [ "${1:-}" = types ]; then

@@ -13,7 +13,7 @@ import yaml
 from teo_ros2cli.cli.dispatch import Entry, add_arguments, verbs_of
 from teo_ros2cli.main import COMMANDS
 
-_PACKAGE = Path(__file__).parents[1] / "src" / "teo_ros2cli"
+_PACKAGE = Path(__file__).parents[1] / "tools" / "teo_ros2cli"
 FILE = _PACKAGE / "COMMANDS.md"
 GENUINE = _PACKAGE / "test" / "golden" / "genuine_words.yaml"
 _HEAD = """\

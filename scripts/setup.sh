@@ -168,15 +168,15 @@ build_workspace() {
     # Python files are linked, not copied: only a new or renamed file, or one that is generated from, needs a build.
     want="$(
         {
-            find src -type f -not -path '*/__pycache__/*' -not -path '*/test/*' -not -path '*.egg-info/*' | sort
-            find src -type f \( -name '*.msg' -o -name '*.srv' -o -name '*.action' -o -name CMakeLists.txt \
+            find src studio tools -type f -not -path '*/__pycache__/*' -not -path '*/test/*' -not -path '*.egg-info/*' | sort
+            find src studio tools -type f \( -name '*.msg' -o -name '*.srv' -o -name '*.action' -o -name CMakeLists.txt \
                 -o -name package.xml -o -name 'setup.*' \) -print0 | sort -z | xargs -0 cat
         } | sha256sum | cut -d' ' -f1
     )"
     is_ready install "$want" && return
     case "$level" in
         run) selection=(--packages-up-to teo_bringup teo_ros2cli) ;;
-        view) selection=(--packages-up-to teo_bringup teo_ros2cli teo_console teo_sign_capture) ;;
+        view) selection=(--packages-up-to teo_bringup teo_ros2cli teo_console teo_sign_authoring) ;;
     esac
     echo "setup: building the workspace"
     # Links to files that are gone would stop the build.

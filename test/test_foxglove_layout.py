@@ -15,8 +15,9 @@ import demo
 import pytest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
-from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
+
+from teo_names import ALL_JOINTS
 
 FILE = Path(__file__).parents[1] / "src" / "teo_bringup" / "config" / "foxglove_layout.json"
 LAYOUT = json.loads(FILE.read_text(encoding="utf-8"))

@@ -8,13 +8,15 @@ import ast
 import re
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
+
+from package_folders import FOLDERS
 
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 
-SOURCES = Path(__file__).parents[1] / "src"
 TRANSLATOR = "teo_sign_translator/teo_sign_translator"
+TRAINING = "teo_sign_training/teo_sign_training"
 CAPTURE = "teo_sign_capture/teo_sign_capture"
+AUTHORING = "teo_sign_authoring/teo_sign_authoring"
 
 _DRAFTS = (
     "drafts a Spanish sentence where the model is unsure; only a language with set_phrases.tsv has drafts"
@@ -22,11 +24,11 @@ _DRAFTS = (
 _INFLECTS = "inflects Spanish by rule; a language with morphology/suffixes.tsv has its own forms as data"
 _PAPER = "the published model's sentences, which are Spanish"
 LEFT = {
-    f"{CAPTURE}/alphabet/demonstration.py": "the three signs of TEO's own public demonstration",
+    f"{AUTHORING}/alphabet/demonstration.py": "the three signs of TEO's own public demonstration",
     f"{CAPTURE}/cli/import_pose.py": "the dictionary that is imported where none is named",
-    f"{CAPTURE}/notation/inflection.py": "names of places of the body in forms of a sign",
-    f"{TRANSLATOR}/cli/reproduce_paper.py": _PAPER,
-    f"{TRANSLATOR}/corpus/paper_pairs.py": _PAPER,
+    f"{AUTHORING}/notation/inflection.py": "names of places of the body in forms of a sign",
+    f"{TRAINING}/cli/reproduce_paper.py": _PAPER,
+    f"{TRAINING}/corpus/paper_pairs.py": _PAPER,
     f"{TRANSLATOR}/morphology/conjugating.py": _INFLECTS,
     f"{TRANSLATOR}/morphology/conjugation_build.py": _INFLECTS,
     f"{TRANSLATOR}/morphology/derivation.py": _INFLECTS,
@@ -37,7 +39,7 @@ LEFT = {
     f"{TRANSLATOR}/pipeline/drafting/order.py": _DRAFTS,
     f"{TRANSLATOR}/pipeline/drafting/persons.py": _DRAFTS,
     f"{TRANSLATOR}/pipeline/drafting/times.py": _DRAFTS,
-    f"{TRANSLATOR}/training/memorised_pairs.py": _PAPER,
+    f"{TRAINING}/fitting/memorised_pairs.py": _PAPER,
     "teo_sign_languages/teo_sign_languages/language.py": "the language that is signed where none is named",
 }
 
@@ -61,8 +63,9 @@ ALSO_ENGLISH = {"animal", "chat", "clip", "final", "formal", "media"}
 def modules() -> dict[str, tuple[list[str], list[str]]]:
     """Strings and docstrings of every module, by its path."""
     return {
-        str(path.relative_to(SOURCES)): texts(ast.parse(path.read_text("utf-8")))
-        for path in sorted(SOURCES.glob("teo_*/teo_*/**/*.py"))
+        str(path.relative_to(folder.parent)): texts(ast.parse(path.read_text("utf-8")))
+        for name, folder in FOLDERS.items()
+        for path in sorted((folder / name).rglob("*.py"))
     }
 
 

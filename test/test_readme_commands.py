@@ -21,11 +21,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from package_folders import SHELVES
 
 pytestmark = pytest.mark.commands
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(
-    [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("src/*/*.md"), ROOT / "bags" / "README.md"]
+    [
+        *ROOT.glob("*.md"),
+        *ROOT.glob("docs/*.md"),
+        *(page for shelf in SHELVES for page in shelf.glob("*/*.md")),
+        ROOT / "bags" / "README.md",
+    ]
 )
 #: Typed in network namespaces, machine by machine, by teo_bringup's test_machines.py.
 PAGES.remove(ROOT / "docs" / "machines.md")
@@ -77,10 +83,10 @@ CONSOLES = {
     "docs/index.md",
     *ALTERNATIVES,
     "src/teo_console/README.md",
-    "src/teo_ros2cli/README.md",
+    "tools/teo_ros2cli/README.md",
 }
 #: Pages that speak to nodes which run already.
-BESIDE_NODES = {"docs/console.md", "docs/index.md", "src/teo_ros2cli/README.md"}
+BESIDE_NODES = {"docs/console.md", "docs/index.md", "tools/teo_ros2cli/README.md"}
 NODES = Command("ros2 run teo_bringup up translator executor driver console")
 
 
@@ -261,7 +267,7 @@ def run_block(page: str, block: list[Command], folder: Path) -> None:
 
 
 def test_no_page_with_commands_is_left_out() -> None:
-    folders = (ROOT / name for name in ("bags", "bench", "deploy", "docs", "src", "test"))
+    folders = (ROOT / name for name in ("bags", "deploy", "docs", "src", "studio", "test", "tools"))
     pages = [*ROOT.glob("*.md"), *(page for folder in folders for page in folder.rglob("*.md"))]
     shown = {page for page in pages if list(blocks(page))}
     assert shown - set(PAGES) == {ROOT / "docs" / "machines.md"}

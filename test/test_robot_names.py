@@ -33,7 +33,7 @@ def names_of(robot: str) -> set[str]:
 
 def sources() -> list[Path]:
     listed = subprocess.run(
-        ["git", "ls-files", "src/*.py", "src/*.js", "scripts/*.py"],
+        ["git", "ls-files", "src/*.py", "src/*.js", "studio/teo_*.py", "tools/*.py", "scripts/*.py"],
         cwd=ROOT,
         capture_output=True,
         text=True,

@@ -31,7 +31,8 @@ RESEND = 5.0  # [s] after which a text that was not signed is sent again
 ABSENT = (
     "anny", "av", "casadi", "cv2", "embreex", "matplotlib", "mcap", "mediapipe", "mujoco", "PIL",
     "pose_format", "rosbags", "spoken_to_signed", "torch",
-    "teo_ros2cli", "teo_sign_capture", "teo_skeleton_retriever", "teo_synthetic_signer",
+    "teo_ros2cli", "teo_sign_authoring", "teo_sign_capture", "teo_sign_training", "teo_skeleton_retriever",
+    "teo_synthetic_signer",
 )  # fmt: skip
 # The packages that sign, and what of them does something else.
 RUN_TIME = {
@@ -40,17 +41,10 @@ RUN_TIME = {
     "teo_description": ("teo_description.pictures",),  # draws: the demo and captures
     "teo_lut_executor": (
         "teo_lut_executor.cli.plan_film",  # draws a plan
-        "teo_lut_executor.cli.moved",  # names what moved to teo_sign_capture, for one release
     ),
     "teo_motion": (),
     "teo_sign_languages": (),
-    "teo_sign_translator": (
-        "teo_sign_translator.training",
-        # These train too.
-        "teo_sign_translator.cli.compare",
-        "teo_sign_translator.cli.reproduce_paper",
-        "teo_sign_translator.cli.train",
-    ),
+    "teo_sign_translator": (),
     "teo_signs": ("teo_signs.pictures",),  # draws: captures
     "teo_sim_driver": ("teo_sim_driver.plants.physics",),  # only where physics is asked for
 }

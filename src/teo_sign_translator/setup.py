@@ -20,20 +20,18 @@ setup(
     description="Spanish text to Spanish Sign Language (LSE) tokens: models and translator node.",
     license="Apache-2.0",
     extras_require={
-        # Makes and measures models; what translates needs none of it.
-        "train": ["matplotlib", "PyYAML", "sacrebleu", "torch"],
         "test": ["hypothesis", "pytest", "simplemma"],
     },
     entry_points={
         "console_scripts": [
             "translator_node = teo_sign_translator.node.translator_node:main",
             "translate = teo_sign_translator.cli.translate:main",
-            "generate_corpus = teo_sign_translator.cli.generate_corpus:main",
+            "generate_corpus = teo_common.offered_commands:main",
             "build_morphology = teo_sign_translator.morphology.conjugation_build:main",
-            "train = teo_sign_translator.cli.train:main",
-            "evaluate = teo_sign_translator.cli.evaluate:main",
-            "compare = teo_sign_translator.cli.compare:main",
-            "reproduce_paper = teo_sign_translator.cli.reproduce_paper:main",
+            "train = teo_common.offered_commands:main",
+            "evaluate = teo_common.offered_commands:main",
+            "compare = teo_common.offered_commands:main",
+            "reproduce_paper = teo_common.offered_commands:main",
         ],
         "teo_lut_executor.lut_commands": ["coverage = teo_sign_translator.cli.coverage:coverage"],
     },

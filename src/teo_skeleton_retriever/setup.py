@@ -41,8 +41,8 @@ setup(
     entry_points={
         "console_scripts": [
             "retrieve = teo_skeleton_retriever.cli.retrieve_cli:main",
-            "synthesize = teo_skeleton_retriever.cli.synthetic_signer:synthesize",
-            "sensor_study = teo_skeleton_retriever.cli.synthetic_signer:sensor_study",
+            "synthesize = teo_common.offered_commands:main",
+            "sensor_study = teo_common.offered_commands:main",
             "retriever_node = teo_skeleton_retriever.node.retriever_node:main",
         ],
     },

@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 import pytest
-from glosses.accepted_translations import accepted, accepts
 
+from glosses.accepted_translations import accepted, accepts
 from teo_sign_translator.errors import TranslationError
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+
 from glosses.annotated_signs import read_annotated, word_signs
 
 NARRATIVES = Path(__file__).parents[1] / "data" / "radis" / "narratives.tsv"

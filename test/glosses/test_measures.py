@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import pytest
+
 from glosses.measures import fewest_edits, overlap
 
 

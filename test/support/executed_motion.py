@@ -8,7 +8,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from queue_world import World
-from teo_names import COMMANDED_JOINTS, joint_limits
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_common.arrays import Array
@@ -16,6 +15,7 @@ from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import StopReady, TrajectoryReady
 from teo_lut_executor.node.messages import to_stop, to_trajectory
 from teo_motion.trajectory.limits import MotionLimits
+from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_sim_driver.joint_follower import JointFollower
 
 _STEP = 1_000_000  # [ns]

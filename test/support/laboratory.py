@@ -13,8 +13,9 @@ from pathlib import Path
 from types import TracebackType
 
 from hosts import Host, Network
-from nodes.witness import Seen
 from typed_page import Shell, blocks_of
+
+from nodes.witness import Seen
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs" / "machines.md"
@@ -65,7 +66,7 @@ class Laboratory:
         """A new shell of a machine, outside the tunnel, with nothing set of the network."""
         host = self.host(name)
         clean = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "FASTRTPS_"))}
-        clean["PYTHONPATH"] = f"{ROOT / 'bench'}:{clean.get('PYTHONPATH', '')}"
+        clean["PYTHONPATH"] = f"{ROOT / 'studio' / 'bench'}:{clean.get('PYTHONPATH', '')}"
         return Shell(*host.entered("bash"), environment=clean, home=host.home)
 
     def inside(self, name: str) -> Shell:

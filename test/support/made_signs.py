@@ -11,10 +11,10 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
 from teo_description.humanoid import DEFAULT_ROBOT, SIDES, Humanoid, load_humanoid
 from teo_motion.sentence.plan import Plan
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 from teo_signs.sign_schema import Provenance

@@ -19,8 +19,8 @@ from teo_console.server.access import Access
 from teo_console.server.app import make_app
 from teo_console.server.hub import Hub
 from teo_console.server.thread import ServerThread
-from teo_sign_capture.signwriting.dictionary_file import read_dictionary
-from teo_sign_capture.signwriting.drawing import Pen, find_written, write_drawings
+from teo_sign_authoring.signwriting.dictionary_file import read_dictionary
+from teo_sign_authoring.signwriting.drawing import Pen, find_written, write_drawings
 
 WEB = Path(__file__).parents[1] / "web"
 PATIENCE = 45_000  # [ms] on a loaded machine

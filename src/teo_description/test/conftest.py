@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
-from teo_names import ALL_JOINTS, joint_limits
 
 from teo_description.robot import Robot
+from teo_names import ALL_JOINTS, joint_limits
 
 
 @pytest.fixture(scope="session")

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pinocchio as pin
 import pytest
-from teo_names import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
 
 from teo_description.clearance import watched_pairs
 from teo_description.humanoid import load_humanoid
+from teo_names import LEFT_ARM, RIGHT_ARM, mirrored_name, urdf_text
 
 # Poses [deg] in which the real TEO signed in public (teo-demos-misc, 20191023-ttd-congress.py): left, right.
 REST = (0, 0, 0, 0, 0, 0)

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
-from teo_names import RIGHT_HAND, joint_limits
 from thumb_capsules import thumb_gap
 
 from teo_description.hand_contact import TOUCH, thumb_gaps, with_clear_thumb
 from teo_description.hand_geometry import hand_table
+from teo_names import RIGHT_HAND, joint_limits
 
 
 @pytest.fixture(scope="module")

@@ -5,12 +5,12 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from teo_names import ALL_JOINTS, BODY_JOINTS, LEFT_HAND, RIGHT_HAND, joint_limits, urdf_text
 
 from teo_description import DescriptionError
 from teo_description.hand_setpoints import hand_setpoints
 from teo_description.humanoid import load_humanoid
 from teo_description.teo.hand_drives import HAND_DRIVES
+from teo_names import ALL_JOINTS, BODY_JOINTS, LEFT_HAND, RIGHT_HAND, joint_limits, urdf_text
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from teo_names import HOME, LEFT_HAND, RIGHT_HAND, joint_limits
 
 from teo_description import DescriptionError
 from teo_description.hand_setpoints import hand_setpoints
 from teo_description.humanoid import load_humanoid
 from teo_description.teo.tendons import RIGHT_AXES
+from teo_names import HOME, LEFT_HAND, RIGHT_HAND, joint_limits
 
 HANDS = LEFT_HAND + RIGHT_HAND
 TEO = load_humanoid("teo")

@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+
 from teo_names import ALL_JOINTS, HOME, joint_limits, mirrored_name
 
 MIRROR = np.diag([1.0, -1.0, 1.0])

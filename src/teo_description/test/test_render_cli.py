@@ -5,10 +5,10 @@ from __future__ import annotations
 import av
 import cv2
 import pytest
-from teo_names import urdf_text
 
 from teo_description.pictures import render_cli
 from teo_description.teo import build_urdf
+from teo_names import urdf_text
 
 PLAN = "time,FrontalRightElbow\n0.0,0.0\n0.4,-0.3\n"
 

@@ -9,7 +9,6 @@ import cv2
 import msgspec
 import numpy as np
 import pytest
-from teo_names import HOME, LEFT_ARM, RIGHT_ARM
 
 from teo_description import DescriptionError
 from teo_description.humanoid import Humanoid, load_humanoid
@@ -23,6 +22,7 @@ from teo_description.pictures.rendering import (
     save_png,
 )
 from teo_description.robot import Robot
+from teo_names import HOME, LEFT_ARM, RIGHT_ARM
 
 CAMERAS = cameras(load_humanoid("teo"))
 

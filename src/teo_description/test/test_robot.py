@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
-from teo_names import ALL_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND
 
 from teo_description import DescriptionError
+from teo_names import ALL_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND
 
 
 def test_joints_not_named_are_at_home(robot):

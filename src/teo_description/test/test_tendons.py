@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from teo_names import LEFT_HAND, RIGHT_HAND, joint_limits
 
 from teo_description import DescriptionError
 from teo_description.teo.tendons import LEFT_AXES, RIGHT_AXES
+from teo_names import LEFT_HAND, RIGHT_HAND, joint_limits
 
 
 @pytest.mark.parametrize(

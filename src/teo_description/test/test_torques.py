@@ -4,6 +4,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+
 from teo_names import COMMANDED_JOINTS, HOME, urdf_text
 
 GRAVITY = 9.81

@@ -7,7 +7,11 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+
 import teo_names
+from teo_description import DescriptionError
+from teo_description.humanoid import urdf_hash
+from teo_description.teo.urdf_writer import urdf
 from teo_names import (
     ALL_JOINTS,
     COMMANDED_JOINTS,
@@ -19,10 +23,6 @@ from teo_names import (
     urdf_path,
     urdf_text,
 )
-
-from teo_description import DescriptionError
-from teo_description.humanoid import urdf_hash
-from teo_description.teo.urdf_writer import urdf
 
 # Position limits [deg] of teo-configuration-files, share/robots/teo/nodes, typed once more.
 PUBLISHED = {

@@ -20,11 +20,11 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from simulated_clock import SECOND, SimulatedClock
-from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import DriverState, ExecutorStatus, SignSentence, SignToken
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_lut_executor.node.executor_node import ExecutorNode
+from teo_names import ALL_JOINTS
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed
 from teo_sim_driver.node.driver_node import DriverNode

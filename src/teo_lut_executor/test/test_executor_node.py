@@ -25,7 +25,6 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from small_robot import Graph, SmallRobot
 from std_srvs.srv import Trigger
-from teo_names import COMMANDED_JOINTS, HEAD, joint_limits
 from teo_sign_msgs.action import ExecuteSentence
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence, SignToken
 from teo_sign_msgs.srv import GetSign, ListQueue, ListSigns
@@ -35,6 +34,7 @@ from teo_lut_executor.execution.events import Sentence
 from teo_lut_executor.execution.journal import Journal
 from teo_lut_executor.node.executor_node import ExecutorNode
 from teo_lut_executor.node.parameters import PARAMETERS
+from teo_names import COMMANDED_JOINTS, HEAD, joint_limits
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 from teo_signs.tokens import parse_printed

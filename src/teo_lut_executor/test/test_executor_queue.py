@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 from queue_world import World
-from teo_names import COMMANDED_JOINTS
 
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import (
@@ -17,6 +16,7 @@ from teo_lut_executor.execution.events import (
     PlanWanted,
     QueueSettings,
 )
+from teo_names import COMMANDED_JOINTS
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 

@@ -19,7 +19,6 @@ from hypothesis import strategies as st
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from teo_names import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
 from typer.testing import CliRunner, Result
 
 from teo_description.humanoid import load_humanoid
@@ -27,6 +26,7 @@ from teo_lut_executor.cli.lut import app
 from teo_motion.lone_sign import sign_motion
 from teo_motion.planner import Planner
 from teo_motion.sentence.rest_posture import RestPosture
+from teo_names import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import LutError
 from teo_signs.export.play_motion2 import play_motion2_parameters
 from teo_signs.export.playback_thread import playback_mask, playback_table, save_playback_tables

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 
 from teo_description.robot import Robot
 from teo_lut_executor.node.parameters import PARAMETERS, left_handed_from
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.mirroring import MirroredSigns, mirrored_sign

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, joint_limits
 
 from teo_description.humanoid import load_humanoid
+from teo_names import COMMANDED_JOINTS, joint_limits
 
 REST = load_humanoid().ready
 

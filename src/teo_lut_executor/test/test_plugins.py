@@ -58,16 +58,3 @@ def test_lut_reads_the_table_without_the_capture_package():
     shown = lut("show", "HOLA", missing=("teo_sign_capture",), uninstalled=("teo_sign_capture",))
     assert shown.returncode == 0, shown.stderr
     assert "HOLA" in shown.stdout
-
-
-def test_a_command_that_has_moved_says_where_to_and_works():
-    program = (
-        "import sys; sys.argv = ['capture_numbers', '--help']; "
-        "from teo_lut_executor.cli.moved import capture_numbers; capture_numbers()"
-    )
-    moved = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False
-    )
-    assert moved.returncode == 0, moved.stderr
-    assert "ros2 run teo_sign_capture capture_numbers" in moved.stderr
-    assert "--replace" in moved.stdout

@@ -8,13 +8,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.collision.motion_clearance import RESOLUTION, MotionClearance
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Samples
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
 
 from teo_motion.sentence.composition import Composition, compose
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_HAND
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import Lexicon
 from teo_signs.sign import Sign

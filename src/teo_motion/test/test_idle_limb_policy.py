@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
 
 from teo_description.humanoid import load_humanoid
 from teo_motion.planner import Planner
@@ -16,6 +15,7 @@ from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import Bounds, RuckigSolver, State
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, LEFT_HAND, RIGHT_ARM
 from teo_signs.sign import Sign
 from teo_signs.tokens import parse_printed
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 
 from teo_description.robot import Robot
 from teo_motion.planner import DEFAULT_PERIOD, Planner, plan
@@ -16,6 +15,7 @@ from teo_motion.sentence.rest_posture import RestPosture
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_signs.errors import PlanError
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed

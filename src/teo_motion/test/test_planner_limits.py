@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from teo_names import COMMANDED_JOINTS
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
@@ -20,6 +19,7 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
+from teo_names import COMMANDED_JOINTS
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

@@ -8,13 +8,13 @@ from itertools import pairwise, product
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_motion.planner import Planner
 from teo_motion.sentence.posture_choice import choose_postures, postures_of, shortest_postures
 from teo_motion.trajectory.limits import MotionLimits
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM, joint_limits
 from teo_signs.lexicon import SignedToken
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token

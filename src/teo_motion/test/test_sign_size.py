@@ -10,13 +10,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from nearest_parts import touching
-from teo_names import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.sentence.rhythm import SigningStyle
 from teo_motion.sentence.sign_size import SignSize
 from teo_motion.trajectory.limits import MotionLimits
+from teo_names import COMMANDED_JOINTS, RIGHT_ARM, RIGHT_HAND
 from teo_signs.errors import PlanError
 from teo_signs.lexicon import SignedToken
 from teo_signs.look_up_table import Lut

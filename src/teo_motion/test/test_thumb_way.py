@@ -7,7 +7,6 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from teo_names import COMMANDED_JOINTS, LEFT_HAND, RIGHT_HAND
 from thumb_capsules import thumb_gap
 
 from teo_common.arrays import Array
@@ -19,6 +18,7 @@ from teo_motion.collision.thumb_way import with_clear_thumbs
 from teo_motion.sentence.route import Route
 from teo_motion.trajectory.limits import MotionLimits
 from teo_motion.trajectory.ruckig_segment import State
+from teo_names import COMMANDED_JOINTS, LEFT_HAND, RIGHT_HAND
 from teo_signs.look_up_table import Lut, default_lut_directory
 
 REST = load_humanoid().ready

@@ -13,8 +13,6 @@ Each room imports only rooms above it in this list; the README says more of each
     recordings          bags, clips and live skeletons
     lifting             from points in a picture to keypoints in space
     retarget            a person's motion as a motion of the robot
-    alphabet, notation  letters and numbers; sign scores
-    signwriting         signs in SignWriting, as sign scores
     entries             takes, checks, entries, batches
     node, cli           the ROS node, the commands
 

@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-from .alphabet.letters import capture_letter as capture_letter
-from .alphabet.letters import read_alphabet as read_alphabet
 from .entries.bag_capture import (
     Job as Job,
 )
@@ -18,9 +16,6 @@ from .entries.take import Cut as Cut
 from .entries.take import Take as Take
 from .entries.take import capture_take as capture_take
 from .lifting.clip import lift_clip as lift_clip
-from .notation.score_file import read_score as read_score
-from .notation.score_file import read_scores as read_scores
-from .notation.score_retarget import score_sign as score_sign
 from .recordings.pose_file import PoseClip as PoseClip
 from .recordings.pose_file import read_pose_file as read_pose_file
 from .recordings.skeleton_bag import read_skeletons as read_skeletons

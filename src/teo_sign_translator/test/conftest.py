@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from teo_sign_translator.corpus import Pair
-from teo_sign_translator.corpus.generator import Generator
+from teo_sign_training.corpus import Pair
+from teo_sign_training.corpus.generator import Generator
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator

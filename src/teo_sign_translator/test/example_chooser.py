@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 from random import Random
 from typing import TypeVar
 
-from teo_sign_translator.corpus.choosers import Chooser
-from teo_sign_translator.corpus.grammar import Rule, Shape
-from teo_sign_translator.corpus.words import Pool, Word
+from teo_sign_training.corpus.choosers import Chooser
+from teo_sign_training.corpus.grammar import Rule, Shape
+from teo_sign_training.corpus.words import Pool, Word
 from teo_sign_translator.errors import TranslationError
 
 _Item = TypeVar("_Item")

@@ -11,14 +11,14 @@ from typing import Any
 
 import torch
 
-from teo_sign_translator.corpus import Pair
+from teo_sign_training.corpus import Pair
+from teo_sign_training.fitting.fitting import Fit, fit
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.text.source_words import SourceWord
-from teo_sign_translator.training.fitting import Fit, fit
 
 NOUNS = ("pan", "vaso", "libro", "coche", "gato", "perro")
 VERBS = ("com", "beb", "le", "vend")

@@ -6,9 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from teo_sign_translator.corpus.paper_pairs import training_pairs
-from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.lstm256.phrasebook import Phrasebook
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
@@ -20,6 +17,9 @@ from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.taught.aligned_pairs import training_pairs
+from teo_sign_translator.taught.gloss_list import GlossList
+from teo_sign_translator.taught.phrasebook import Phrasebook
 from teo_sign_translator.text.source_words import SourceWord
 
 

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from teo_names import LEFT_HAND
 
 from teo_description.robot import Robot
+from teo_names import LEFT_HAND
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory
 

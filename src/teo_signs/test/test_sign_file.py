@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from teo_names import COMMANDED_JOINTS, description_hash, joint_limits
 
+from teo_names import COMMANDED_JOINTS, description_hash, joint_limits
 from teo_signs.errors import LutError
 from teo_signs.motion_hash import with_alternatives
 from teo_signs.sign import Sign, sign_warnings

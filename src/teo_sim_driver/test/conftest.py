@@ -15,12 +15,12 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
-from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from teo_description import JointLimits
 from teo_description.humanoid import Humanoid, load_humanoid
+from teo_names import ALL_JOINTS
 from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.node.driver_node import DriverNode

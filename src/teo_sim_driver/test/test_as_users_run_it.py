@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from rclpy.parameter import Parameter
 from simulated_clock import SECOND, SimulatedClock
-from teo_names import ALL_JOINTS
 from teo_sign_msgs.msg import DriverState
+
+from teo_names import ALL_JOINTS
 
 ELBOW = ALL_JOINTS.index("FrontalRightElbow")
 

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
-from teo_names import LEG_JOINTS
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
+from teo_names import LEG_JOINTS
 from teo_sim_driver.checking.cdr import CdrTrajectory
 from teo_sim_driver.checking.reading import MessageFields
 from teo_sim_driver.checking.validation import check

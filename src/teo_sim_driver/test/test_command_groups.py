@@ -4,9 +4,9 @@
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 
 from teo_description.humanoid import load_humanoid
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_sim_driver.checking.message import plain_trajectory
 from teo_sim_driver.checking.reading import MessageFields
 from teo_sim_driver.checking.validation import check

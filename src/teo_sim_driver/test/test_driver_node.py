@@ -20,10 +20,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, String
-from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
+from teo_names import ALL_JOINTS, HOME, LEG_JOINTS, urdf_text
 from teo_sim_driver.errors import DriverError
 from teo_sim_driver.node.driver_node import DriverNode
 from teo_sim_driver.parameters import PARAMETERS

@@ -7,9 +7,10 @@ from control_msgs.msg import JointTolerance, JointTrajectoryControllerState
 from control_msgs.srv import QueryTrajectoryState
 from rclpy.action import ActionClient
 from rclpy.parameter import Parameter
-from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 from teo_sign_msgs.msg import DriverState
 from trajectory_msgs.msg import JointTrajectory
+
+from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
 
 Result = FollowJointTrajectory.Result
 ELBOW = "FrontalRightElbow"

@@ -5,8 +5,8 @@ import time
 
 import pytest
 from rclpy.serialization import serialize_message
-from teo_names import LEG_JOINTS
 
+from teo_names import LEG_JOINTS
 from teo_sim_driver.checking.intake import MOST_WAITING, Intake
 from teo_sim_driver.checking.reading import MessageFields
 from teo_sim_driver.errors import TrajectoryError

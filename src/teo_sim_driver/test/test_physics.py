@@ -7,9 +7,9 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pinocchio as pin
 import pytest
-from teo_names import BODY_JOINTS, COMMANDED_JOINTS, urdf_text
 
 from teo_description.humanoid import load_humanoid
+from teo_names import BODY_JOINTS, COMMANDED_JOINTS, urdf_text
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.plants.physics import PhysicsPlant
 

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS, HOME
 
 from teo_description import DescriptionError
 from teo_description.humanoid import load_humanoid
+from teo_names import COMMANDED_JOINTS, HOME
 from teo_sim_driver.position_direct import position_direct
 
 # axesNames of wholeBody.ini of teo-configuration-files, and of the Dextra's Synapse.cpp, board by board.

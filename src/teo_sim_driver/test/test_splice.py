@@ -4,8 +4,8 @@
 
 import numpy as np
 import pytest
-from teo_names import COMMANDED_JOINTS
 
+from teo_names import COMMANDED_JOINTS
 from teo_sim_driver.checking.message import plain_trajectory
 from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.motion.path_time import SECOND

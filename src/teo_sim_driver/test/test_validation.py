@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from teo_names import LEG_JOINTS
 
+from teo_names import LEG_JOINTS
 from teo_sim_driver.checking.message import PlainTime, plain_trajectory
 from teo_sim_driver.checking.scheduling import validate
 from teo_sim_driver.errors import Refusal, TrajectoryError

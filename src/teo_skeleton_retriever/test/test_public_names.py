@@ -8,7 +8,6 @@ import sys
 import pytest
 
 import teo_skeleton_retriever
-from teo_skeleton_retriever.cli import synthetic_signer
 
 HEAVY = ("cv2", "mediapipe", "rclpy", "rosbags", "scipy")
 
@@ -23,16 +22,6 @@ def test_every_public_name_is_there() -> None:
 def test_importing_the_package_loads_no_library() -> None:
     look = f"import sys, teo_skeleton_retriever; sys.exit(' '.join(set({HEAVY}) & set(sys.modules)) or 0)"
     subprocess.run([sys.executable, "-c", look], check=True)
-
-
-def test_the_synthetic_signers_commands_say_what_to_build_where_it_is_absent(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(synthetic_signer, "entry_points", lambda **_: ())
-    with pytest.raises(SystemExit, match=r"synthesize: expected the package teo_synthetic_signer"):
-        synthetic_signer.synthesize()
-    with pytest.raises(SystemExit, match=r"sensor_study: expected the package teo_synthetic_signer"):
-        synthetic_signer.sensor_study()
 
 
 def test_the_synthetic_signers_commands_run_where_it_is_installed() -> None:

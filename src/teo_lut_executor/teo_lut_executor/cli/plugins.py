@@ -27,14 +27,17 @@ class _Known(NamedTuple):
 
 
 _CAPTURE = ("teo_sign_capture", "requirements/capture.txt")
+_AUTHORING = ("teo_sign_authoring", "requirements/capture.txt")
 _KNOWN = {
     "capture": _Known("A sign from recordings of a person.", *_CAPTURE),
     "coverage": _Known("What of a text has signs.", "teo_sign_translator", "requirements/run.txt"),
-    "ease": _Known("Postures of words that are quicker to reach.", *_CAPTURE),
+    "ease": _Known("Postures of words that are quicker to reach.", *_AUTHORING),
     "import": _Known(
         "Signs from a clip in which a person's points were found, or from SignWriting.", *_CAPTURE
     ),
     "recognise": _Known("Which signs of the table a demonstration may be.", *_CAPTURE),
+    "fit": _Known("How well signs fit a robot.", *_AUTHORING),
+    "retarget": _Known("A language's table for another robot.", *_AUTHORING),
     "record": _Known("A sign from the person before the camera, now.", *_CAPTURE),
 }
 

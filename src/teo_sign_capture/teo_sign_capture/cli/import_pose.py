@@ -11,6 +11,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from teo_common.offered_commands import NotOfferedError, offered_command
 from teo_sign_capture.cli.capture import (
     Accept,
     Draw,
@@ -89,19 +90,21 @@ def import_pose(
     Exit status: 0 captured, 1 not (code and reason on standard error), 2 wrong options.
     """
     if signwriting is not None:
-        from teo_sign_capture.cli.import_signwriting import NO_LICENCE, import_signwriting
-
         if file is not None or gloss is not None:
             fail(
                 LutError("bad_arguments", "expected --signwriting FILE, or FILE.pose --gloss GLOSS, got both")
             )
+        try:
+            import_signwriting = offered_command("import_signwriting")
+        except NotOfferedError as error:
+            fail(LutError("not_installed", str(error)))
         import_signwriting(
             signwriting,
             table=lut,
             scores=scores,
             replace=replace,
             source=source,
-            licence=licence or NO_LICENCE,
+            licence=licence,
             only=only or [],
             any_term=any_term,
             jobs=jobs,

@@ -17,11 +17,13 @@ from teo_description.errors import DescriptionError
 from teo_description.humanoid import DEFAULT_ROBOT
 from teo_sign_capture.cli.capture import AsJson, Cache, End, Hands, Person, Start, Topic
 from teo_sign_capture.cli.reporting import JsonReporter, TerminalReporter, write_json
-from teo_sign_capture.cli.retarget import Code, RobotName
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 
 _output = Console(highlight=False)
+
+RobotName = Annotated[str, typer.Option("--robot", help="Name of the robot.")]
+Code = Annotated[str, typer.Option("--language", help="Code of the sign language.")]
 
 
 def recognise(

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
-from teo_sign_capture.recordings.letter_clips import load_letter_clips
+from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from made_bags import signing
-from teo_names import COMMANDED_JOINTS, joint_limits
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
+from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
 from teo_sign_capture.entries.take import Take, capture_take
 from teo_signs.errors import LutError

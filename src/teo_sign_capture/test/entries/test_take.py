@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from made_bags import OUT, REST, SIGN, signing
 from made_tracks import lose
-from teo_names import joint_limits
 
 from teo_description.robot import Robot
+from teo_names import joint_limits
 from teo_sign_capture.entries.take import Cut, Take, capture_take
 from teo_signs.errors import LutError
 

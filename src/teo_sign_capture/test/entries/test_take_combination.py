@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
+from teo_names import LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND
 from teo_sign_capture.entries.take_combination import combine
 from teo_sign_capture.retarget.robot_motion import RobotMotion
 from teo_sign_capture.time_warp import warp

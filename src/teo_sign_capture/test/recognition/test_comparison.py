@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from made_bags import signing, write_bag
-from teo_names import RIGHT_HAND
 from typer.testing import CliRunner
 
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
+from teo_names import RIGHT_HAND
 from teo_sign_capture.recognition.appearance import HAND, PARTS, sign_appearance
 from teo_sign_capture.recognition.comparison import Comparison, compare
 from teo_signs.look_up_table import Lut, default_lut_directory

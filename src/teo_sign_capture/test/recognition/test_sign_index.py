@@ -13,11 +13,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_bags import signing, write_bag
-from teo_names import RIGHT_HAND
 from typer.testing import CliRunner, Result
 
 from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
+from teo_names import RIGHT_HAND
 from teo_sign_capture.entries.similar_signs import similar_signs
 from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance, sign_appearance
 from teo_sign_capture.recognition.sign_index import SignIndex

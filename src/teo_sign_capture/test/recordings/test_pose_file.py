@@ -23,8 +23,8 @@ from typer.testing import CliRunner, Result
 
 from teo_common.arrays import Array
 from teo_lut_executor.cli.lut import app
+from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_capture.recordings import pose_file
-from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError

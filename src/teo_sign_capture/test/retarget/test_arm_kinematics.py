@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from teo_names import RIGHT_HAND, joint_limits
 
 from teo_description.hand_geometry import HandGeometry, HandTable
 from teo_description.robot import Robot
+from teo_names import RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from teo_names import HEAD, TRUNK
 
 from teo_description.robot import Robot
+from teo_names import HEAD, TRUNK
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.arm_residuals import Quadratic
 from teo_sign_capture.retarget.collision_terms import WANTED, WATCHED, CollisionModel, CollisionTerms

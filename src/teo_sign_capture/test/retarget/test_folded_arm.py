@@ -10,9 +10,9 @@ import pytest
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
+from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_capture.entries.take import capture_take
 from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.recordings.letter_clips import load_letter_clips
 from teo_sign_capture.recordings.recording import open_recording, points_of
 from teo_sign_capture.retarget.arm_bounds import arm_bounds
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics

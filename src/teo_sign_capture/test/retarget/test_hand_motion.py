@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from robot_person import keypoints
 from scipy.spatial.transform import Rotation
-from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_description.hand_geometry import HandPoints, HandTable, hand_table
 from teo_description.robot import Robot
+from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.hand_motion import follow_hand
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm, straight_bends
 

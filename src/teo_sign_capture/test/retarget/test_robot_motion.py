@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from robot_person import JOINTS, keypoints, mirrored_points, part, track_of
 from scipy.spatial.transform import Rotation
-from teo_names import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
+from teo_names import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.retarget.robot_motion import retarget_motion

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from robot_person import keypoints, track_of
 from scipy.spatial.transform import Rotation
-from teo_names import RIGHT_ARM
 
 from teo_description.robot import Robot
+from teo_names import RIGHT_ARM
 from teo_sign_capture.retarget.head_motion import follow_head, follow_trunk
 from teo_sign_capture.tracks.head_pose import head_pose, head_shape
 from teo_sign_capture.tracks.person import measure_person

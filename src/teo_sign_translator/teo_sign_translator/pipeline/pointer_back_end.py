@@ -8,8 +8,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from teo_sign_translator.corpus.paper_pairs import NAME, SLOTS
-from teo_sign_translator.lstm256.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.agreement import Agreement
@@ -20,6 +18,8 @@ from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair, Rep
 from teo_sign_translator.pipeline.long_sentences import parts, pieces
 from teo_sign_translator.pipeline.trust import is_trusted
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
+from teo_sign_translator.taught.aligned_pairs import NAME, SLOTS
+from teo_sign_translator.taught.phrasebook import Match, Pattern, Phrasebook
 from teo_sign_translator.text.reading import Clause
 from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.sentence_type import SentenceType

@@ -11,9 +11,6 @@ from typing import NamedTuple
 
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.lstm256.gloss_list import GlossList
-from teo_sign_translator.lstm256.phrasebook import Phrasebook
-from teo_sign_translator.lstm256.store import load_model
 from teo_sign_translator.model_files import card_schema
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.generality import may_be_generalised
@@ -29,14 +26,14 @@ from teo_sign_translator.output.spelling import Spelling
 from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
-from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence
+from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence, load_other_back_end
 from teo_sign_translator.pipeline.drafting.drafter import SET_PHRASES, Drafter
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
-from teo_sign_translator.pipeline.lstm_back_end import LstmBackEnd
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import SCHEMA
+from teo_sign_translator.taught.phrasebook import Phrasebook
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import Clause, WordKind, read
 from teo_sign_translator.text.rules import TextRules
@@ -128,7 +125,7 @@ class Translator:
 
         Raises:
             TranslationError: "unknown_language", "invalid_language", "unknown_model", "invalid_model",
-                "invalid_data".
+                "model_not_installed", "invalid_data".
         """
         try:
             data = load_language(language)
@@ -153,7 +150,7 @@ class Translator:
             )
             chooser = SignChooser(lists, morphology, substitutes, spelling)
         else:
-            back_end = LstmBackEnd(load_model(name, directory), taught, GlossList.load(), name=name)
+            back_end = load_other_back_end(name, directory, data.text)
             chooser = SignChooser(lists, None, substitutes, spelling)
         incorporated = read_incorporated(data.text / INCORPORATED_NUMBERS)
         return cls(

@@ -12,8 +12,8 @@ from example_chooser import ExampleChooser
 
 from teo_common.text_folding import folded
 from teo_sign_languages import load_language
-from teo_sign_translator.corpus.derivation import Derivation
-from teo_sign_translator.corpus.generator import Generator
+from teo_sign_training.corpus.derivation import Derivation
+from teo_sign_training.corpus.generator import Generator
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
 from teo_sign_translator.pointer import OutputGloss

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from teo_sign_languages import load_language
-from teo_sign_translator.corpus.grammar_file import load_grammar
+from teo_sign_training.corpus.grammar_file import load_grammar
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.language_words import PipelineWords

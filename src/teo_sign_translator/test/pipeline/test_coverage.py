@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from word_by_word_model import MORPHOLOGY
 
-from teo_sign_translator.corpus.generator import Generator
+from teo_sign_training.corpus.generator import Generator
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.coverage import Coverage, read_gloss_words

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import pytest
 
-from teo_sign_translator.corpus.paper_pairs import paper_pairs
+from teo_sign_training.corpus.paper_pairs import paper_pairs
 from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.pipeline.translator import Translator
 

@@ -13,14 +13,14 @@ import torch
 from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
 from threadpoolctl import threadpool_info
 
+from teo_sign_training.fitting.batches import WordNumbers, batches
+from teo_sign_training.fitting.examples import ExampleReader
+from teo_sign_training.fitting.fitting import make_vocabulary
+from teo_sign_training.fitting.network import Network, on_device
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
 from teo_sign_translator.pointer.config import POINTER, ZOO
 from teo_sign_translator.pointer.decoding import SentenceModel, one_core
-from teo_sign_translator.training.batches import WordNumbers, batches
-from teo_sign_translator.training.examples import ExampleReader
-from teo_sign_translator.training.fitting import make_vocabulary
-from teo_sign_translator.training.network import Network, on_device
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,9 @@ from functools import cache, partial
 
 import pytest
 
-from teo_sign_translator.corpus import Pair
+from teo_sign_training.corpus import Pair
+from teo_sign_training.fitting.examples import Reader
+from teo_sign_training.fitting.memorised_pairs import memorised_pairs, not_memorised
 from teo_sign_translator.model_files import available_models, models_directory, read_card
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
@@ -15,8 +17,6 @@ from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.pointer.store import SCHEMA
 from teo_sign_translator.text.source_words import source_words
-from teo_sign_translator.training.examples import Reader
-from teo_sign_translator.training.memorised_pairs import memorised_pairs, not_memorised
 
 
 @cache

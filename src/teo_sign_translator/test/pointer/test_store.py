@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from small_language import fit_small, glosses_of, read, sentence_pairs, small_config, small_model
 
+from teo_sign_training.fitting.fitting import Fit
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import save_sentence_model
-from teo_sign_translator.training.fitting import Fit
 
 
 def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> Fit:

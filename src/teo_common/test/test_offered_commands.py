@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Commands that one package has and another offers, as they are typed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+from package_folders import FOLDERS
+
+COMMANDS = {
+    "teo_sign_capture": ("capture_letters", "capture_scores", "draw_signwriting", "perform_scores"),
+    "teo_sign_translator": ("compare", "evaluate", "generate_corpus", "reproduce_paper", "train"),
+    "teo_skeleton_retriever": ("sensor_study", "synthesize"),
+}
+# As if nothing of the studio were installed.
+WITHOUT = """
+import importlib.metadata, sys
+importlib.metadata.entry_points = lambda **_: ()
+from teo_common.offered_commands import main
+sys.argv = [sys.argv[1]]
+main()
+"""
+
+
+@pytest.mark.parametrize(("package", "name"), [(p, name) for p, names in COMMANDS.items() for name in names])
+def test_a_command_of_the_studio_runs_under_the_name_of_a_package_that_runs(package: str, name: str) -> None:
+    assert FOLDERS[package].parent.name == "src"
+    command = ["ros2", "run", package, name, "--help"]
+    said = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert said.returncode == 0, said.stderr
+    assert "usage" in said.stdout.lower()
+
+
+def test_without_the_studio_a_command_says_what_installs_it() -> None:
+    command = [sys.executable, "-c", WITHOUT, "/anywhere/train"]
+    said = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert said.returncode == 1
+    assert said.stderr.startswith("not_installed: train: expected a package of the studio")
+    assert "make setup" in said.stderr

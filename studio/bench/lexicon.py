@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The words of the table: how well founded, how much slower than written, how often in their own way."""
+
+from __future__ import annotations
+
+import dataclasses
+import multiprocessing
+import os
+from collections import Counter
+
+import numpy as np
+
+from report import Figure
+from signs.second_look import SecondLook
+from teo_description.robot import Robot
+from teo_motion.planner import Planner
+from teo_motion.sentence.plan import Plan, sample_at
+from teo_sign_capture.recognition.appearance import MOMENTS, sign_appearance
+from teo_sign_capture.recognition.sign_index import SignIndex, distance_between
+from teo_signs.errors import PlanError
+from teo_signs.look_up_table import Lut, default_lut_directory
+from teo_signs.sign import Sign
+from teo_signs.sign_schema import STANDINGS
+from teo_signs.tokens import Kind, Token
+
+SENTENCES = 500
+_SIGNS = 3
+_WORST = 10
+_BATCH = 25  # sentences that one process plans in a row
+_STEP = 0.001  # [s] between two looks at a planned motion's limits
+_LOOK = 10  # shapes are looked at in every so manieth: a hand goes a few millimetres in 10 ms
+_ONE_MOTION = 1e-6  # distances that differ by less are those of one motion under two names
+_KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
+
+_ERRORS = {
+    "place": ("place_error_mm", "mm"),
+    "palm": ("palm_angle_error_deg", "deg"),
+    "fingers": ("finger_angle_error_deg", "deg"),
+}
+
+
+def measure() -> list[Figure]:
+    """Figures of the package's table."""
+    lut = Lut.open(default_lut_directory())
+    words = [sign for sign in lut.values() if sign.kind == "lexical"]
+    return [
+        _standings(words),
+        *_stretches(lut, words),
+        _refusals(),
+        *(_errors(words, name) for name in _ERRORS),
+        _violations(lut),
+    ]
+
+
+def _standings(words: list[Sign]) -> Figure:
+    counts = Counter(sign.provenance.standing for sign in words)
+    shown = ", ".join(f"{counts[standing]} {standing}" for standing in STANDINGS)
+    return Figure("words by standing", f"{len(words)}: {shown}")
+
+
+def _stretches(lut: Lut, words: list[Sign]) -> list[Figure]:
+    """How much slower than asked for words are, and which look more like another sign, as they are played."""
+    robot = Robot.load()
+    planner = Planner(lut, robot=robot, least_standing="sketched")
+    plans = {word.gloss: planner.plan([Token(gloss=word.gloss)]) for word in words}
+    stretch = {gloss: plan.stretch for gloss, plan in plans.items()}
+    slowest = sorted(stretch, key=lambda gloss: -stretch[gloss])[:_WORST]
+    index = SignIndex.of_signs(robot, lut.values())
+    confused = []
+    for word in words:
+        shown = sign_appearance(robot, _played(word, plans[word.gloss]))
+        (nearest,) = index.nearest(shown, 1)
+        if nearest.distance < distance_between(shown, sign_appearance(robot, word)) - _ONE_MOTION:
+            confused.append(f"{word.gloss} for {nearest.gloss}")
+    return [
+        Figure("slower than written, of 50 deg/s", f"median {np.median(list(stretch.values())):.2f} times"),
+        Figure("slowest words", ", ".join(f"{gloss} {stretch[gloss]:.1f}" for gloss in slowest)),
+        Figure(
+            "words above three times", f"{sum(value > 3.0 for value in stretch.values())} of {len(words)}"
+        ),
+        Figure(
+            "words that look more like another sign, as they are played",
+            f"{len(confused)}{': ' if confused else ''}{', '.join(confused)}",
+        ),
+    ]
+
+
+def _played(word: Sign, plan: Plan) -> Sign:
+    """A word as a plan moves it."""
+    (timing,) = plan.timings
+    times = np.linspace(0.0, timing.duration, MOMENTS)
+    columns = [plan.names.index(joint) for joint in word.joints]
+    knots = sample_at(plan.motions, timing.start + times).positions[:, columns]
+    return dataclasses.replace(word, times=times, knots=knots, alternatives=())
+
+
+def _refusals() -> Figure:
+    batches = range(0, SENTENCES, _BATCH)
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        found = pool.map(_refused_of_batch, batches, chunksize=1)
+    refused = [sentence for batch in found for sentence in batch]
+    named = ": " + "; ".join(refused) if refused else ""
+    return Figure(
+        f"refused for self-collision, of {SENTENCES} random sentences of {_SIGNS} words",
+        f"{len(refused)} ({100.0 * len(refused) / SENTENCES:.1f} %){named}",
+    )
+
+
+def _refused_of_batch(seed: int) -> list[str]:
+    """The sentences of a batch that cannot be signed."""
+    lut = Lut.open(default_lut_directory())
+    words = [gloss for gloss in lut.glosses() if lut[gloss].kind == "lexical"]
+    planner = Planner(lut, robot=Robot.load(), least_standing="sketched")
+    random = np.random.default_rng(seed)
+    refused: list[str] = []
+    for _ in range(_BATCH):
+        glosses = [str(gloss) for gloss in random.choice(words, _SIGNS)]
+        try:
+            planner.plan([Token(gloss=gloss) for gloss in glosses])
+        except PlanError as error:
+            if error.code != "self_collision":
+                raise
+            refused.append(" ".join(glosses))
+    return refused
+
+
+def _errors(words: list[Sign], name: str) -> Figure:
+    key, unit = _ERRORS[name]
+    found = {sign.gloss: sign.quality[key] for sign in words if key in sign.quality}
+    worst = max(found, key=lambda gloss: found[gloss])
+    return Figure(
+        f"{name}, off what is written (largest of each word)",
+        f"median {np.median(list(found.values())):.0f} {unit}, worst {found[worst]:.0f} {unit} ({worst})",
+    )
+
+
+def _violations(lut: Lut) -> Figure:
+    """Every entry as it is planned, looked at every millisecond by other code than made it."""
+    glosses = list(lut.glosses())
+    batches = [glosses[start : start + _BATCH] for start in range(0, len(glosses), _BATCH)]
+    with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
+        found = [bad for batch in pool.map(_bad_of_batch, batches, chunksize=1) for bad in batch]
+    return Figure(
+        f"entries that leave a limit or touch as planned, of {len(glosses)}",
+        f"{len(found)}{': ' if found else ''}{'; '.join(found)}",
+    )
+
+
+def _bad_of_batch(glosses: list[str]) -> list[str]:
+    """Entries of a batch with something wrong, and what."""
+    lut = Lut.open(default_lut_directory())
+    planner, second_look = Planner(lut, robot=Robot.load(), least_standing="sketched"), SecondLook()
+    bad: list[str] = []
+    for gloss in glosses:
+        try:
+            plan = planner.plan([Token(gloss=gloss, kind=_KINDS[lut[gloss].kind])])
+        except PlanError as error:
+            bad.append(f"{gloss} is refused: {error}")
+            continue
+        times = np.arange(0.0, plan.duration, _STEP)
+        violation = second_look.first_violation(times, sample_at(plan.motions, times).positions, look=_LOOK)
+        if violation is not None:
+            bad.append(f"{gloss} {violation.what} at {violation.time:.2f} s")
+    return bad

@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Commands that fill a table: `capture_letters`, `_numbers`, `_demonstration`, `_scores`, `ease_letters`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+from rich.console import Console
+
+from teo_common.errors import CodedError
+from teo_description.robot import Robot
+from teo_sign_capture.cli.recognise import Code
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut
+from teo_signs.sign import Sign
+from teo_signs.sign_file import save_sign
+
+Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
+Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
+
+_output = Console(highlight=False)
+_errors = Console(stderr=True, highlight=False)
+
+
+def capture_letters(
+    out: Out,
+    only: Annotated[
+        list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
+    ] = None,
+    language: Code = DEFAULT_LANGUAGE,
+    replace: Replace = False,
+) -> None:
+    """Capture a manual alphabet from the recordings in the package spoken-to-signed."""
+    from teo_sign_authoring.alphabet.letters import capture_letter, read_alphabet
+
+    robot = Robot.load()
+    try:
+        alphabet = read_alphabet(robot, load_language(language))
+    except (LanguageError, LutError) as error:
+        _fail(error)
+    unknown = [letter for letter in only or [] if letter not in alphabet.clips]
+    if unknown:
+        message = f"expected letters among {', '.join(alphabet.clips)}; got {', '.join(unknown)}"
+        _fail(LutError("unknown_letter", message))
+    _save(
+        (capture_letter(robot, alphabet, letter) for letter in only or alphabet.clips), out, replace=replace
+    )
+
+
+def ease_letters(
+    lut: Annotated[Path, typer.Option(help="Directory of the table whose letters get easy postures.")],
+    language: Code = DEFAULT_LANGUAGE,
+) -> None:
+    """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
+    from teo_sign_authoring.alphabet import easy_postures
+    from teo_sign_authoring.alphabet.letter_features import recorded_features
+    from teo_sign_authoring.alphabet.letter_tolerance import LetterTolerance
+    from teo_sign_authoring.alphabet.letters import read_alphabet
+
+    robot = Robot.load()
+    try:
+        table = Lut.open(lut, language=language)
+        alphabet = read_alphabet(robot, table.language)
+        recordings = {
+            letter: recorded_features(clip, alphabet.scale) for letter, clip in alphabet.clips.items()
+        }
+        letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
+        tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
+        offsets = easy_postures.ease_letters(robot, table.language.alphabet, tolerances)
+    except LutError as error:
+        _fail(error)
+    eased = (easy_postures.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
+    _save(eased, lut, replace=True)
+
+
+def capture_numbers(out: Out, language: Code = DEFAULT_LANGUAGE, replace: Replace = False) -> None:
+    """Bring the scores of numbers onto TEO; `capture_scores` does so with all."""
+    from teo_sign_authoring.notation.score_file import read_scores
+    from teo_sign_authoring.notation.score_retarget import score_sign
+
+    robot = Robot.load()
+    try:
+        found = load_language(language)
+        numbers = [score for score in read_scores(found.scores) if score.kind == "number"]
+        _save((score_sign(robot, score, language=found.code) for score in numbers), out, replace=replace)
+    except (LanguageError, LutError) as error:
+        _fail(error)
+
+
+def capture_demonstration(out: Out, replace: Replace = False) -> None:
+    """Write HOLA, MI and NOMBRE from the poses of TEO's own public demonstration."""
+    from teo_sign_authoring.alphabet.demonstration import demonstrated_signs
+
+    _save(demonstrated_signs(Robot.load()), out, replace=replace)
+
+
+def capture_scores(
+    out: Out,
+    scores: Annotated[
+        Path | None, typer.Option(help="Directory of scores (YAML); the language's without it.")
+    ] = None,
+    only: Annotated[
+        list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
+    ] = None,
+    language: Code = DEFAULT_LANGUAGE,
+    replace: Replace = False,
+) -> None:
+    """Bring sign scores, written descriptions of signs, onto TEO."""
+    from teo_sign_authoring.notation.score_file import read_scores
+    from teo_sign_authoring.notation.score_retarget import score_sign
+
+    robot = Robot.load()
+    try:
+        signed = load_language(language)
+        found = {score.gloss: score for score in read_scores(scores or signed.scores)}
+        unknown = [gloss for gloss in only or [] if gloss not in found]
+        if unknown:
+            message = f"expected glosses with a score ({len(found)} there are), got {', '.join(unknown)}"
+            raise LutError("unknown_sign", message)
+    except (LanguageError, LutError) as error:
+        _fail(error)
+    failed: list[str] = []
+
+    def signs() -> Iterator[Sign]:
+        for gloss in only or found:
+            try:
+                yield score_sign(robot, found[gloss], language=signed.code)
+            except LutError as error:
+                failed.append(gloss)
+                _errors.print(f"{error.code}: {error}", soft_wrap=True)
+
+    _save(signs(), out, replace=replace)
+    if failed:
+        _errors.print(f"{len(failed)} of {len(only or found)} scores left out: {', '.join(failed)}")
+        raise typer.Exit(1)
+
+
+def letters_main() -> None:
+    """Run `capture_letters`."""
+    _run(capture_letters)
+
+
+def ease_letters_main() -> None:
+    """Run `ease_letters`."""
+    _run(ease_letters)
+
+
+def numbers_main() -> None:
+    """Run `capture_numbers`."""
+    _run(capture_numbers)
+
+
+def demonstration_main() -> None:
+    """Run `capture_demonstration`."""
+    _run(capture_demonstration)
+
+
+def scores_main() -> None:
+    """Run `capture_scores`."""
+    _run(capture_scores)
+
+
+def _run(command: Callable[..., None]) -> None:
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app.command()(command)
+    app()
+
+
+def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:
+    for sign in signs:
+        try:
+            path = save_sign(out, sign, replace=replace)
+        except LutError as error:
+            _fail(error)
+        except OSError as error:
+            _fail(LutError("not_written", f"--out: expected a place to write to, got: {error}"))
+        figures = "  ".join(f"{name} {value:g}" for name, value in sign.quality.items())
+        _output.print(
+            f"{path.name:12} {len(sign.times):2} knots {sign.duration:5.2f} s  {figures}", soft_wrap=True
+        )
+
+
+def _fail(error: CodedError) -> NoReturn:
+    _errors.print(f"{error.code}: {error}", soft_wrap=True)
+    raise typer.Exit(1) from error

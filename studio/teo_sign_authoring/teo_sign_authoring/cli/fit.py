@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""`lut fit`: how well a robot shows the signs of a language, and which it cannot."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, NoReturn
+
+import typer
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from teo_common.errors import CodedError
+from teo_description.errors import DescriptionError
+from teo_sign_capture.cli.recognise import Code, RobotName
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
+from teo_signs.errors import LutError
+
+if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
+    from teo_sign_authoring.transfer.fit import SignFit
+    from teo_sign_authoring.transfer.letter_likeness import Likeness
+
+_output = Console(highlight=False)
+_errors = Console(stderr=True, highlight=False)
+
+
+def fit(
+    robot: RobotName,
+    glosses: Annotated[
+        list[str] | None, typer.Argument(metavar="[GLOSS]...", help="Which signs; all without it.")
+    ] = None,
+    language: Code = DEFAULT_LANGUAGE,
+    lut: Annotated[
+        Path | None,
+        typer.Option(
+            help="Directory of the robot's table; your own and, beneath it, the language's without it."
+        ),
+    ] = None,
+    letters: Annotated[bool, typer.Option("--letters", help="The manual alphabet alone.")] = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="A row for every sign, not only for those that are off or refused.")
+    ] = False,
+    jobs: Annotated[
+        int | None, typer.Option(min=1, help="Signs looked at at a time; one for each core without it.")
+    ] = None,
+) -> None:
+    """Tell of each sign what is off on a robot, how slow it is, and why it is refused where it is.
+
+    What the robot's table lacks is made to be looked at, and not kept. Exit status: 0 every sign is made and
+    every letter told apart, 1 not.
+    """
+    from teo_description.robot import Robot
+    from teo_sign_authoring.transfer.fit import entries, fit_table
+    from teo_sign_authoring.transfer.language_signs import LanguageSigns
+    from teo_sign_authoring.transfer.letter_likeness import letter_likenesses
+
+    try:
+        signs = LanguageSigns(load_language(language), Robot.load(robot))
+        alphabet = [letter for letter in signs.language.alphabet.letters if letter in signs.glosses]
+        chosen = tuple(glosses or (alphabet if letters else signs.glosses))
+        unknown = [gloss for gloss in chosen if gloss not in signs.glosses]
+        if unknown:
+            message = (
+                f"expected signs of {language} ({len(signs.glosses)} there are), got {', '.join(unknown)}"
+            )
+            raise LutError("unknown_sign", message)
+        kept = entries(language, robot, lut)
+        beyond = set()
+        for letter, reason in signs.letters_beyond(chosen):
+            _output.print(reason, markup=False, soft_wrap=True)
+            beyond.add(letter)
+        with Progress(console=_errors, transient=True) as progress:
+            task = progress.add_task(f"{language} on {robot}", total=len(chosen))
+
+            def done(_: SignFit) -> None:
+                progress.advance(task)
+
+            fits = fit_table(language, robot, chosen, lut, jobs=jobs or os.cpu_count() or 1, done=done)
+        spelled = {found.gloss for found in fits if found.kind == "letter" and not found.refused}
+        made = {letter: kept[letter] if letter in kept else signs.sign(letter) for letter in spelled}
+        likenesses = letter_likenesses(signs.robot, signs.language, made) if made else []
+    except (LanguageError, LutError, DescriptionError) as error:
+        _fail(error)
+    _print_rows([found for found in fits if everything or not found.within])
+    for found in fits:
+        if found.refused and found.gloss not in beyond:
+            _output.print(f"{found.refused}: {found.reason}", markup=False, soft_wrap=True)
+    confused = [one for one in likenesses if one.posture == 0 and not one.right]
+    for one in confused:
+        _output.print(f"{one.letter} looks more like {one.ranking[0]} than like itself")
+    _print_summary(f"{signs.language.names.en} on {signs.robot.humanoid.file.title}", fits, likenesses)
+    if confused or any(found.refused for found in fits):
+        raise typer.Exit(1)
+
+
+def _print_rows(fits: Sequence[SignFit]) -> None:
+    if not fits:
+        return
+    table = Table(
+        "sign", "kind", "place [mm]", "palm [deg]", "fingers [deg]", "tips [mm]", "stretch", "refused"
+    )
+    for found in fits:
+        figures = (found.place_mm, found.palm_deg, found.finger_deg, found.tip_mm)
+        cells = (
+            ["-"] * 5 if found.refused else [*(f"{figure:.0f}" for figure in figures), f"{found.stretch:.2f}"]
+        )
+        table.add_row(found.gloss, found.kind, *cells, found.refused)
+    _output.print(table)
+
+
+def _print_summary(title: str, fits: Sequence[SignFit], likenesses: Sequence[Likeness]) -> None:
+    from teo_sign_authoring.transfer.fit import ANGLE_DEG, PLACE_MM, median_stretch, within_share
+
+    captured = [one for one in likenesses if one.posture == 0]
+    letters = sum(found.kind == "letter" for found in fits)
+    refused = sum(bool(found.refused) for found in fits)
+    table = Table("measure", "figure", title=title)
+    if letters:
+        table.add_row(
+            "letters most like their own recording", f"{sum(one.right for one in captured)} of {letters}"
+        )
+    table.add_row("signs refused", f"{refused} of {len(fits)}")
+    table.add_row(
+        f"signs within {PLACE_MM:.0f} mm and {ANGLE_DEG:.0f} deg",
+        f"{100.0 * within_share(fits):.0f} % of {len(fits)}",
+    )
+    if refused < len(fits):
+        table.add_row("times as long as asked for, median", f"{median_stretch(fits):.2f}")
+    _output.print(table)
+
+
+def _fail(error: CodedError) -> NoReturn:
+    _errors.print(f"{error.code}: {error}", markup=False, soft_wrap=True)
+    raise typer.Exit(1) from error

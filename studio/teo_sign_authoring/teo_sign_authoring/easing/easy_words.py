@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Postures of a word with which it is signed, begun and left in little time.
+
+Arms and hands at all knots are found by linear programs that make the time of the slowest joint least: within
+the word, and in the mean from and to what may come before and after. Tolerances are curved, so that programs
+follow each other, each within a shorter distance of the last (sequential linear programming, F.
+Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+from scipy.sparse import coo_matrix
+
+from teo_common.arrays import Array
+from teo_description.humanoid import Humanoid
+from teo_motion.trajectory.limits import MotionLimits
+from teo_sign_authoring.easing.word_tolerance import WordTolerance
+from teo_signs.sign import Sign
+
+# [rad] Most by which a joint changes in each program.
+_STEPS = np.radians([15.0, 15.0, 10.0, 7.0, 5.0, 3.0, 1.5])
+# [s] What being beyond a tolerance by its whole size costs: nothing gained by it is worth it, but a program
+# that is infeasible would end the search.
+_BEYOND = 10.0
+# Mean speed of a stroke over its joint's greatest [1], as in `teo_motion.sentence.sign_size`.
+_MEAN_SPEED = 0.7
+# Of a change that cannot be used whole, the shares that are tried.
+_SHARES = (1.0, 0.9, 0.75, 0.6, 0.45, 0.3)
+
+
+# Neighbours that are looked at, and how often they come [1]: of the known sentences' words half stand beside
+# another word, and a quarter each beside spelled ones and at an end. More neighbours change little.
+_WORDS, _LETTERS = 24, 6
+_WORD_SHARE, _LETTER_SHARE, _REST_SHARE = 0.5, 0.25, 0.25
+
+
+class Neighbours(NamedTuple):
+    """Postures that come before or after a word.
+
+    Attributes:
+        postures: Of the commanded joints, NaN where a neighbour leaves them free [rad]. Shape (k, joints).
+        weights: How often each comes, 1 in all. Shape (k,).
+    """
+
+    postures: Array
+    weights: Array
+
+
+def neighbours(humanoid: Humanoid, table: Mapping[str, Sign], knot: int) -> Neighbours:
+    """What comes before (knot -1) or after (knot 0) a word, about: words, spelled words and rest.
+
+    Args:
+        humanoid: The robot.
+        table: The table, of whose words and letters some are taken at random.
+        knot: With which knot they meet the word.
+    """
+    random = np.random.default_rng(0)
+    rest = humanoid.ready
+    rows, weights = [rest], [_REST_SHARE]
+    for kind, count, share in (("lexical", _WORDS, _WORD_SHARE), ("letter", _LETTERS, _LETTER_SHARE)):
+        signs = [table[gloss] for gloss in sorted(table) if table[gloss].kind == kind]
+        for index in random.choice(len(signs), min(count, len(signs)), replace=False).tolist():
+            sign, row = signs[index], np.full(rest.size, np.nan)
+            row[humanoid.columns(sign.joints)] = sign.knots[knot]
+            rows.append(row)
+            weights.append(share / min(count, len(signs)))
+    return Neighbours(np.array(rows), np.array(weights) / sum(weights))
+
+
+class EasyWords:
+    """Makes alternatives of words."""
+
+    def __init__(
+        self, humanoid: Humanoid, limits: MotionLimits, before: Neighbours, after: Neighbours
+    ) -> None:
+        """Prepare.
+
+        Args:
+            humanoid: The robot.
+            limits: Limits of the joints, of which velocity counts here.
+            before: What comes before any word.
+            after: What comes after.
+        """
+        self._humanoid, self._speeds = humanoid, limits.velocity
+        self._before, self._after = before, after
+
+    def eased(self, word: WordTolerance, accepted: Callable[[Array], bool]) -> Array | None:
+        """Knots of a word that take less time; None if none within tolerance do. Shape (n, joints).
+
+        Args:
+            word: The tolerance.
+            accepted: Says of knots whether they may be given to the word; less of a change is tried if not.
+        """
+        for hands in (True, False):
+            postures = word.arms.postures
+            for step in _STEPS:
+                postures = self._program(word, postures, float(step), hands=hands)
+            change = postures - word.arms.postures
+            for share in _SHARES:
+                found = word.arms.postures + share * change
+                kept = word.excess(found) <= 1.0 and word.contacts.places_kept(found)
+                if kept and word.contacts.kept(found) and accepted(knots := word.arms.knots(found)):
+                    return knots
+        return None
+
+    def _shared(
+        self, word: WordTolerance, neighbours: Neighbours
+    ) -> tuple[list[int], NDArray[np.bool_], Array]:
+        """Columns of a word's joints, which of them each neighbour fixes, and where, as right arms."""
+        columns = self._humanoid.columns(word.arms.sign.joints[column] for column in word.arms.columns)
+        theirs = neighbours.postures[:, columns]
+        shared = np.isfinite(theirs)
+        return columns, shared, word.arms.as_right(np.where(shared, theirs, 0.0))
+
+    def _program(self, word: WordTolerance, postures: Array, step: float, *, hands: bool) -> Array:
+        """Solve for the postures within a step of those given, hands included or not."""
+        size = postures.shape[1]
+        columns = self._humanoid.columns(word.arms.sign.joints[column] for column in word.arms.columns)
+        speeds = self._speeds[columns]
+        table = _Program(postures.size)
+
+        def of(posture: int) -> NDArray[np.intp]:
+            return np.arange(size * posture, size * (posture + 1))
+
+        for rows in word.rows(postures):
+            variables = np.concatenate([of(posture) for posture in rows.postures])
+            beyond = np.full((len(rows.bound), 1), -rows.scale)
+            table.add([(variables, rows.matrix), ([table.variable(_BEYOND)], beyond)], rows.bound)
+        rate = np.diag(1.0 / (_MEAN_SPEED * speeds))
+        for (first, second), (least, count) in self._strokes(word).items():
+            time = table.variable(float(count), least=least)
+            away = postures[second] - postures[first]
+            for sign in (1.0, -1.0):
+                table.add(
+                    [(of(second), sign * rate), (of(first), -sign * rate), ([time], -np.ones((size, 1)))],
+                    -sign * rate @ away,
+                )
+        rate = np.diag(1.0 / speeds)
+        for end, neighbours in ((0, self._before), (-1, self._after)):
+            posture = int(word.arms.at[end])
+            _, shared, theirs = self._shared(word, neighbours)
+            for number, weight in enumerate(neighbours.weights.tolist()):
+                joints = np.flatnonzero(shared[number])
+                if not joints.size:
+                    continue
+                time = table.variable(weight)
+                away = postures[posture] - theirs[number]
+                for sign in (1.0, -1.0):
+                    block = sign * rate[joints]
+                    table.add([(of(posture), block), ([time], -np.ones((len(joints), 1)))], -block @ away)
+        steps = np.where(word.arms.of_hands & (not hands), 0.0, step)
+        lower = np.maximum(word.lower - postures, -steps).ravel()
+        upper = np.minimum(word.upper - postures, steps).ravel()
+        change = table.solved(np.minimum(lower, 0.0), np.maximum(upper, 0.0))
+        solved: Array = postures + change.reshape(postures.shape)
+        return solved
+
+    def _strokes(self, word: WordTolerance) -> dict[tuple[int, int], tuple[float, int]]:
+        """Pairs of postures between which the arms move, with the least time of it [s], and how often."""
+        sign = word.arms.sign
+        others = np.setdiff1d(np.arange(len(sign.joints)), word.arms.columns)
+        speeds = self._speeds[self._humanoid.columns(sign.joints[column] for column in others)]
+        found: dict[tuple[int, int], tuple[float, int]] = {}
+        for knot, asked in enumerate(np.diff(sign.times).tolist()):
+            pair = int(word.arms.at[knot]), int(word.arms.at[knot + 1])
+            away = np.abs(sign.knots[knot + 1, others] - sign.knots[knot, others])
+            needed = float((away / (_MEAN_SPEED * speeds)).max(initial=0.0))
+            if pair[0] != pair[1]:
+                least, count = found.get(pair, (0.0, 0))
+                found[pair] = max(asked, needed, least), count + 1
+        return found
+
+
+class _Program:
+    """A sparse linear program, grown block by block."""
+
+    def __init__(self, free: int) -> None:
+        self._free, self._height = free, 0
+        self._prices: list[float] = [0.0] * free
+        self._least: list[float] = []
+        self._entries: list[tuple[NDArray[np.intp], NDArray[np.intp], Array]] = []
+        self._bounds: list[Array] = []
+
+    def variable(self, price: float, *, least: float = 0.0) -> int:
+        """Add a variable."""
+        self._prices.append(price)
+        self._least.append(least)
+        return len(self._prices) - 1
+
+    def add(self, blocks: Sequence[tuple[Sequence[int] | NDArray[np.intp], Array]], bound: Array) -> None:
+        """Add rows whose sum of blocks, each for some variables, is at most a bound. Shape (r,)."""
+        for variables, block in blocks:
+            row, column = np.nonzero(block)
+            self._entries.append((row + self._height, np.asarray(variables)[column], block[row, column]))
+        self._bounds.append(np.atleast_1d(bound))
+        self._height += len(self._bounds[-1])
+
+    def solved(self, lower: Array, upper: Array) -> Array:
+        """The free variables within their bounds; zero where the solver finds nothing."""
+        rows, columns, values = (np.concatenate(part) for part in zip(*self._entries, strict=True))
+        matrix = coo_matrix((values, (rows, columns)), shape=(self._height, len(self._prices)))
+        bounds = np.column_stack(
+            [np.concatenate([lower, self._least]), np.concatenate([upper, np.full(len(self._least), np.inf)])]
+        )
+        found = linprog(self._prices, A_ub=matrix.tocsr(), b_ub=np.concatenate(self._bounds), bounds=bounds)
+        if not found.success:
+            raise RuntimeError(f"expected a linear program with a solution, got: {found.message}")
+        solution: Array = found.x[: self._free]
+        return solution

@@ -1,0 +1,246 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A dictionary in SignWriting into the table: every sign that can be read, and why the others cannot.
+
+Signs are made in processes of this machine, each file written whole or not at all. What the table has is
+left as it is, so that an import that was stopped goes on where it was.
+"""
+
+from __future__ import annotations
+
+import functools
+import multiprocessing
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
+
+from teo_common.atomic_files import write_atomically
+from teo_description.robot import Robot
+from teo_sign_authoring.notation.score_retarget import score_sign
+from teo_sign_authoring.signwriting.compiler import TOUCHING, Compilation, compile_fsw
+from teo_sign_authoring.signwriting.dictionary_file import DictionaryEntry
+from teo_sign_authoring.signwriting.errors import UnreadableError
+from teo_sign_authoring.signwriting.glosses import GlossNames, numbered
+from teo_sign_authoring.signwriting.score_text import score_text
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import held_entry
+from teo_signs.sign import Sign
+from teo_signs.sign_file import read_sign, save_sign
+from teo_signs.sign_schema import STANDINGS
+
+# [cm] Hands stay so far off what they touch where TEO would otherwise run into itself: its wrists are wide.
+_GAPS = (TOUCHING, 4.0, 8.0)
+# [mm] A hand farther from its place is somewhere else: TEO's chin and mouth are 28 mm apart, its chest 100
+# mm wide.
+_MOST_OFF_PLACE = 120.0
+
+Result = Literal["whole", "with_losses", "as_before", "refused"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportSettings:
+    """How a dictionary is imported.
+
+    Attributes:
+        table: Directory of the table.
+        scores: Directory for the scores as well; None for none.
+        replace: Whether entries that are there are made anew, unless they are better founded.
+        source: What the entries name as their source, before the term.
+        licence: Terms of the dictionary.
+    """
+
+    table: Path
+    scores: Path | None
+    replace: bool
+    source: str
+    licence: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportJob:
+    """One sign to import.
+
+    Attributes:
+        entry: The dictionary's.
+        gloss: Its name in the table; None if the term is not a Spanish one.
+    """
+
+    entry: DictionaryEntry
+    gloss: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImportOutcome:
+    """How the import of one entry ended.
+
+    Attributes:
+        number: The entry's number in the file.
+        term: Its term.
+        gloss: The name in the table; empty if it got none.
+        result: Whether it was written.
+        code: Why it was refused; empty if it was not.
+        message: What is lost, or why it was refused; empty if nothing is.
+    """
+
+    number: int
+    term: str
+    gloss: str
+    result: Result
+    code: str = ""
+    message: str = ""
+
+
+def find_jobs(entries: Sequence[DictionaryEntry], names: GlossNames, only: Sequence[str]) -> list[ImportJob]:
+    """Every entry with its gloss.
+
+    Args:
+        entries: Of the dictionary.
+        names: Gives terms their glosses.
+        only: Glosses that are wanted, with their variants' numbers; all if empty.
+
+    Raises:
+        LutError: "unknown_sign" if one that is wanted is not there.
+    """
+    glosses = numbered([names.gloss(entry.term) for entry in entries])
+    jobs = [ImportJob(entry=entry, gloss=gloss) for entry, gloss in zip(entries, glosses, strict=True)]
+    unknown = sorted(set(only) - set(glosses))
+    if unknown:
+        raise LutError(
+            "unknown_sign", f"expected glosses of the dictionary's terms, got {', '.join(unknown)}"
+        )
+    return [job for job in jobs if not only or job.gloss in only]
+
+
+def run_import(
+    jobs: Sequence[ImportJob],
+    settings: ImportSettings,
+    workers: int,
+    on_done: Callable[[ImportOutcome], None],
+) -> list[ImportOutcome]:
+    """Import signs; one that fails stops no other.
+
+    Args:
+        jobs: The signs.
+        settings: For all of them.
+        workers: How many at a time.
+        on_done: Told of each as it ends.
+
+    Returns:
+        The outcomes, in the order of the file.
+    """
+    outcomes: list[ImportOutcome] = []
+    if workers == 1:
+        for job in jobs:
+            outcomes.append(import_entry(job, settings))
+            on_done(outcomes[-1])
+        return outcomes
+    context = multiprocessing.get_context("spawn")  # a fork would take over locks of whatever runs here
+    with ProcessPoolExecutor(
+        workers, mp_context=context, initializer=threadpool_limits, initargs=(1,)
+    ) as pool:
+        futures = {pool.submit(import_entry, job, settings): job for job in jobs}
+        try:
+            for future in as_completed(futures):
+                try:
+                    outcome = future.result()
+                except Exception as error:  # the process died: out of memory, or killed
+                    message = f"expected a process that ends well, got {type(error).__name__} {error}"
+                    outcome = _refused(futures[future], "crashed", message)
+                outcomes.append(outcome)
+                on_done(outcome)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return sorted(outcomes, key=lambda outcome: outcome.number)
+
+
+def import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
+    """Import one sign, in whatever process this is."""
+    if job.gloss is None:
+        return _refused(job, "unknown_term", f"expected a known word, got {job.entry.term!r}")
+    try:
+        kept = _kept(job.gloss, settings)
+        if kept:
+            return _outcome(job, "as_before", message=kept)
+        compilation, sign = _made(job, job.gloss, settings)
+        if settings.scores is not None:
+            settings.scores.mkdir(parents=True, exist_ok=True)
+            write_atomically(settings.scores / f"{job.gloss}.yaml", score_text(compilation.score).encode())
+        save_sign(settings.table, sign, replace=settings.replace)
+    except (UnreadableError, LutError) as error:
+        return _refused(job, error.code, str(error))
+    except OSError as error:
+        return _refused(job, "not_written", f"expected a place to write to, got: {error}")
+    except Exception as error:  # a mistake of ours in one of thousands is no reason to lose the others
+        return _refused(job, "crashed", f"{type(error).__name__}: {error}")
+    return _outcome(
+        job, "with_losses" if compilation.losses else "whole", message="; ".join(compilation.losses)
+    )
+
+
+def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compilation, Sign]:
+    """The score and the sign, with hands as near to what they touch as TEO can hold them.
+
+    Raises:
+        UnreadableError, LutError: Why it cannot be made.
+    """
+    for gap in _GAPS:
+        compilation = compile_fsw(
+            gloss, job.entry.fsw, source=f'{settings.source}, entry "{job.entry.term}"', gap=gap
+        )
+        try:
+            sign = score_sign(_robot(), compilation.score)
+        except LutError as error:
+            if error.code == "self_collision" and gap != _GAPS[-1]:
+                continue
+            raise
+        off = sign.quality["place_error_mm"]
+        if off > _MOST_OFF_PLACE:
+            losses = (*compilation.losses, f"TEO's hand stays {off / 10.0:.0f} cm from its place")
+            compilation = replace(compilation, losses=losses)
+        provenance = sign.provenance.model_copy(
+            update={"licence": settings.licence, "notes": "; ".join(compilation.losses)}
+        )
+        return compilation, replace(sign, provenance=provenance)
+    raise AssertionError("the last gap returns or raises")
+
+
+def _kept(gloss: str, settings: ImportSettings) -> str:
+    """Why the entry that is there stays; empty if there is none, or it is to be replaced."""
+    path = held_entry(settings.table, gloss)
+    if path is None:
+        return ""
+    if not settings.replace:
+        return "the table has it"
+    standing = read_sign(path).provenance.standing
+    if STANDINGS.index(standing) < STANDINGS.index("described"):
+        return f"the table has it better founded: {standing}"
+    return ""
+
+
+def _refused(job: ImportJob, code: str, message: str) -> ImportOutcome:
+    return replace(_outcome(job, "refused", message=message), code=code)
+
+
+def _outcome(job: ImportJob, result: Result, *, message: str) -> ImportOutcome:
+    return ImportOutcome(
+        number=job.entry.number, term=job.entry.term, gloss=job.gloss or "", result=result, message=message
+    )
+
+
+@functools.cache
+def _robot() -> Robot:
+    """One for each process: loading it takes longer than a sign."""
+    return Robot.load()
+
+
+def report_lines(outcomes: Sequence[ImportOutcome]) -> Iterator[str]:
+    """A report as a table of tab-separated values, a line an entry."""
+    yield "number\tterm\tgloss\tresult\tcode\tmessage"
+    for outcome in outcomes:
+        cells = (outcome.number, outcome.term, outcome.gloss, outcome.result, outcome.code, outcome.message)
+        yield "\t".join(" ".join(str(cell).split()) for cell in cells)

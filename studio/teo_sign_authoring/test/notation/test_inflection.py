@@ -1,0 +1,164 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Inflected forms: a verb goes from who acts to whom it is done to, and pain is where it is."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from teo_description.robot import Robot
+from teo_names import joint_limits
+from teo_sign_authoring.notation.inflection import BODY_PLACES
+from teo_sign_authoring.notation.score_file import read_score
+from teo_sign_authoring.notation.score_retarget import score_sign
+from teo_signs.errors import LutError
+from teo_signs.look_up_table import Lut, Sign, default_lut_directory
+
+TABLE = default_lut_directory()
+# Where persons are, seen from TEO, as every grammar of LSE draws them: oneself, before oneself, at the right.
+LOCI = {"1": np.array([0.0, 0.0]), "2": np.array([1.0, 0.0]), "3": np.array([0.5, -1.0])}
+AGREEING = ("AYUDAR", "DAR", "INVITAR", "PEDIR", "PREGUNTAR")
+BACKWARD = ("INVITAR",)
+
+SCORE = """\
+gloss: PRUEBA
+standing: sketched
+source: made up
+hands: right
+steps:
+  - right: {shape: flat, place: space, palm: in, fingers: front up}
+forms:
+  along: persons
+  only: ["2>1"]
+  steps:
+    - right: {shape: flat, place: giver, palm: up, fingers: front}
+    - time: 0.5
+      right: {place: receiver 2 up}
+"""
+
+
+@pytest.fixture(scope="module")
+def robot() -> Robot:
+    return Robot.load()
+
+
+@cache
+def sign(gloss: str) -> Sign:
+    return Lut.open(TABLE)[gloss]
+
+
+def palms(robot: Robot, one: Sign) -> np.ndarray:
+    """Places of the right palm at the knots [m]."""
+    return np.array(
+        [
+            robot.placement(robot.configuration(one.pose(knot)), "right_palm")[:3, 3]
+            for knot in range(len(one.times))
+        ]
+    )
+
+
+@pytest.mark.parametrize("gloss", AGREEING)
+def test_the_hand_goes_from_who_acts_to_whom_it_is_done_to(robot: Robot, gloss: str) -> None:
+    forms = sign(gloss).forms
+    assert {"1>2", "2>1", "1>3", "3>1"} <= set(forms)
+    for inflection in forms:
+        giver, receiver = inflection.split(">")
+        if gloss in BACKWARD:
+            giver, receiver = receiver, giver
+        places = palms(robot, sign(gloss).inflected(inflection))
+        # PREGUNTAR rocks back: the way is to where the hand is farthest from its beginning.
+        farthest = places[np.linalg.norm(places - places[0], axis=1).argmax()]
+        way, wanted = (farthest - places[0])[:2], LOCI[receiver] - LOCI[giver]
+        assert np.linalg.norm(way) > 0.04, inflection
+        cosine = way @ wanted / np.linalg.norm(way) / np.linalg.norm(wanted)
+        assert np.degrees(np.arccos(cosine)) < 45.0, inflection
+
+
+@pytest.mark.parametrize(("name", "verb"), [("DAME", "DAR"), ("AYÚDAME", "AYUDAR")])
+def test_give_me_and_help_me_are_forms_of_their_verbs(name: str, verb: str) -> None:
+    form = sign(verb).forms["2>1"]
+    np.testing.assert_allclose(sign(name).knots, form.knots, atol=2e-6)
+    np.testing.assert_allclose(sign(name).times, form.times)
+
+
+def test_pain_is_shown_at_the_place_that_hurts(robot: Robot) -> None:
+    tips = {}
+    for gloss in BODY_PLACES:
+        form = sign("DOLER").inflected(gloss)
+        q = robot.configuration(form.pose(0))
+        tips[gloss] = robot.placement(q, "RightIndexFingerTip")[:3, 3]
+    assert set(sign("DOLER").forms) == set(BODY_PLACES)
+    height = {gloss: tip[2] for gloss, tip in tips.items()}
+    assert (
+        height["CABEZA"]
+        > height["OJO"]
+        > height["BOCA"]
+        > height["GARGANTA"]
+        > height["PECHO"]
+        > height["BARRIGA"]
+    )
+    assert tips["CORAZÓN"][1] > tips["PECHO"][1] + 0.03  # the heart is on the left
+    assert tips["OREJA"][1] < tips["OJO"][1] - 0.03
+
+
+def test_forms_keep_the_limits_and_clear_of_the_body(robot: Robot) -> None:
+    table = Lut.open(TABLE)
+    inflected = [table[gloss].inflected(inflection) for gloss in table for inflection in table[gloss].forms]
+    assert len(inflected) > 30
+    for one in inflected:
+        limits = joint_limits(one.joints)
+        assert (one.knots >= limits.lower - 1e-6).all() and (one.knots <= limits.upper + 1e-6).all()
+        for moment in np.linspace(0.0, one.duration, 9):
+            pose = {
+                joint: np.interp(moment, one.times, values)
+                for joint, values in zip(one.joints, one.knots.T, strict=True)
+            }
+            assert robot.clearance(robot.configuration(pose)).distance > 0.004, one.gloss
+
+
+def write(folder: Path, text: str, name: str = "PRUEBA") -> Path:
+    path = folder / f"{name}.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_score_says_its_forms_once(robot: Robot, tmp_path: Path) -> None:
+    made = score_sign(robot, read_score(write(tmp_path, SCORE)))
+    assert set(made.forms) == {"2>1"}
+    places = palms(robot, made.inflected("2>1"))
+    assert places[0, 0] - places[-1, 0] > 0.10  # from the front to the chest
+
+
+def test_a_second_name_of_a_form_is_that_form(robot: Robot, tmp_path: Path) -> None:
+    write(tmp_path, SCORE)
+    second = "gloss: DADO\nstanding: sketched\nsource: made up\nsigns: [PRUEBA]\ninflection: '2>1'\n"
+    made = score_sign(robot, read_score(write(tmp_path, second, "DADO")))
+    whole = score_sign(robot, read_score(tmp_path / "PRUEBA.yaml"))
+    np.testing.assert_allclose(made.knots, whole.forms["2>1"].knots, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "named"),
+    [
+        ("along: persons", "along: moods", "along"),
+        ('only: ["2>1"]', 'only: ["2>2"]', "only"),
+        ("place: giver", "place: nowhere", "nowhere"),
+        ("palm: up", "palm: sideways", "sideways"),
+    ],
+)
+def test_forms_that_are_not_right_are_refused_by_name(tmp_path: Path, old: str, new: str, named: str) -> None:
+    with pytest.raises(LutError) as refusal:
+        read_score(write(tmp_path, SCORE.replace(old, new)))
+    assert refusal.value.code == "bad_score"
+    assert named in str(refusal.value)
+
+
+def test_a_form_that_a_sign_does_not_have_is_refused(tmp_path: Path) -> None:
+    write(tmp_path, SCORE)
+    second = "gloss: DADO\nstanding: sketched\nsource: made up\nsigns: [PRUEBA]\ninflection: '1>2'\n"
+    with pytest.raises(LutError, match="2>1"):
+        read_score(write(tmp_path, second, "DADO"))

@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A dictionary into a table: names, what is kept, what is refused, damaged files."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from teo_lut_executor.cli.lut import app
+from teo_sign_authoring.signwriting.dictionary_file import MOST_BYTES, read_dictionary
+from teo_sign_authoring.signwriting.glosses import GlossNames, numbered
+from teo_signs.errors import LutError
+from teo_signs.sign_file import read_sign
+
+SPML = """<?xml version="1.0" encoding="UTF-8"?>
+<spml root="http://www.signpuddle.net" type="sgn" puddle="55">
+ <term>Diccionario</term>
+ <entry id="1"><term>M518x533S1870a489x515</term><term><![CDATA[abuelo 5]]></term></entry>
+ <entry id="2"><term>bar</term></entry>
+</spml>
+"""
+TRAY = "M519x510S15a36480x490"
+LOOP = "M520x520S15a00480x480S29600500x480"
+
+
+def run(*words: object) -> Result:
+    return CliRunner().invoke(app, ["import", *map(str, words)], env={"COLUMNS": "300", "TERM": "dumb"})
+
+
+def dictionary(folder: Path, *rows: str) -> Path:
+    file = folder / "dictionary.tsv"
+    file.write_text("\n".join(("term\tfsw", *rows)), "utf-8")
+    return file
+
+
+@pytest.fixture(scope="module")
+def names() -> GlossNames:
+    return GlossNames()
+
+
+@pytest.mark.parametrize(
+    ("term", "gloss"),
+    [
+        ("abuelo 5", "ABUELO"),
+        ("carcel 2", "CÁRCEL"),
+        ("ladron", "LADRÓN"),
+        ("quien? 13", "QUIÉN"),
+        ("POR FIN 1", "POR_FIN"),
+        ("cemetery 2", None),
+        ("carsasrse", None),
+        ("?3", None),
+        ("", None),
+    ],
+)
+def test_terms_become_spanish_glosses_or_are_passed_over(
+    names: GlossNames, term: str, gloss: str | None
+) -> None:
+    if gloss == "QUIÉN":  # typed without its accent it may be either word
+        assert names.gloss(term) in ("QUIÉN", "QUIEN")
+    else:
+        assert names.gloss(term) == gloss
+
+
+def test_variants_are_numbered() -> None:
+    assert numbered(["SOL", None, "SOL", "LUNA", "SOL"]) == ["SOL", None, "SOL_2", "LUNA", "SOL_3"]
+
+
+def test_an_export_of_signpuddle_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "sgn55.spml"
+    file.write_text(SPML, "utf-8")
+    first, second = read_dictionary(file)
+    assert (first.term, first.fsw) == ("abuelo 5", "M518x533S1870a489x515")
+    assert (second.term, second.fsw) == ("bar", "")
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "code"),
+    [
+        ("a.tsv", b"", "no_entries"),
+        ("a.tsv", b"term\tfsw\n", "no_entries"),
+        ("a.tsv", b"sol", "not_tsv"),
+        ("a.tsv", b"sol\tM518x533\tmore", "not_tsv"),
+        ("a.tsv", b"\xff\xfe\x00", "not_utf8"),
+        ("a.spml", SPML.encode()[:150], "not_spml"),
+        ("a.spml", b"<html/>", "not_spml"),
+        ("a.spml", b'<!DOCTYPE spml [<!ENTITY a "b">]><spml>&a;</spml>', "not_spml"),
+        ("a.spml", b"<spml/>", "no_entries"),
+    ],
+)
+def test_a_damaged_file_is_refused_by_name(tmp_path: Path, name: str, content: bytes, code: str) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(LutError) as refused:
+        read_dictionary(tmp_path / name)
+    assert refused.value.code == code
+
+
+def test_a_huge_file_and_none_are_refused(tmp_path: Path) -> None:
+    huge = tmp_path / "huge.tsv"
+    with huge.open("wb") as file:
+        file.truncate(MOST_BYTES + 1)
+    for path, code in ((huge, "too_large"), (tmp_path / "none.tsv", "unreadable")):
+        with pytest.raises(LutError) as refused:
+            read_dictionary(path)
+        assert refused.value.code == code
+
+
+def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it(tmp_path: Path) -> None:
+    file = dictionary(tmp_path, f"bandeja\t{TRAY}", f"lazo\t{LOOP}", f"xqzzt\t{TRAY}", "sol\tnothing")
+    table, report = tmp_path / "lut", tmp_path / "report.json"
+    words = ("--signwriting", file, "--lut", table, "--jobs", 1, "--report", report, "--licence", "CC0-1.0")
+    first = run(*words, "--scores", tmp_path / "scores")
+    assert first.exit_code == 0, first.output
+    outcomes = {each["term"]: each for each in json.loads(report.read_text("utf-8"))}
+    assert outcomes["bandeja"]["result"] in ("whole", "with_losses")
+    assert [outcomes[term]["code"] for term in ("lazo", "xqzzt", "sol")] == [
+        "movement",
+        "unknown_term",
+        "bad_fsw",
+    ]
+    assert sorted(path.name for path in table.iterdir()) == ["BANDEJA.json"]
+    sign = read_sign(table / "BANDEJA.json")
+    assert (sign.provenance.standing, sign.provenance.licence) == ("described", "CC0-1.0")
+    assert 'entry "bandeja"' in sign.provenance.source
+    assert (tmp_path / "scores" / "BANDEJA.yaml").is_file()
+    written = (table / "BANDEJA.json").stat().st_mtime_ns
+    second = run(*words)
+    assert "1 as before" in second.output
+    assert (table / "BANDEJA.json").stat().st_mtime_ns == written
+
+
+def test_a_better_founded_entry_is_not_replaced(tmp_path: Path) -> None:
+    file, table = dictionary(tmp_path, f"bandeja\t{TRAY}"), tmp_path / "lut"
+    run("--signwriting", file, "--lut", table, "--jobs", 1)
+    entry = table / "BANDEJA.json"
+    entry.write_text(entry.read_text("utf-8").replace('"described"', '"measured"'), "utf-8")
+    again = run("--signwriting", file, "--lut", table, "--jobs", 1, "--replace")
+    assert "1 as before" in again.output
+    assert '"measured"' in entry.read_text("utf-8")
+
+
+@pytest.mark.parametrize("words", [(), ("a.pose",), ("a.pose", "--signwriting", "b.tsv")])
+def test_a_clip_or_a_dictionary_is_wanted_not_both_nor_none(words: tuple[str, ...]) -> None:
+    refused = run(*words)
+    assert refused.exit_code == 1
+    assert "bad_arguments" in refused.output
+
+
+def test_nothing_that_can_be_read_is_a_failure(tmp_path: Path) -> None:
+    refused = run(
+        "--signwriting", dictionary(tmp_path, f"lazo\t{LOOP}"), "--lut", tmp_path / "lut", "--jobs", 1
+    )
+    assert refused.exit_code == 1
+    assert "movement" in refused.output

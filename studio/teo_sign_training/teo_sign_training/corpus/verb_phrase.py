@@ -1,0 +1,167 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""A verb with its tense, auxiliaries and clitic pronouns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from teo_sign_training.corpus.grammar import Shape
+from teo_sign_training.corpus.tokens import Sign, Token, VerbPhrase
+from teo_sign_training.corpus.words import WordLists
+from teo_sign_training.corpus.writing import Clitics
+from teo_sign_translator.morphology.enclitics import attach_pronouns
+
+#: Tags that take the person behind them.
+_FINITE = ("ind:", "sub:", "cond", "imp")
+
+
+def say_verb(
+    words: WordLists, lemma: str, shape: Shape, person: str, clitics: Sequence[str], *, pronominal: bool
+) -> VerbPhrase:
+    """Inflect a verb.
+
+    Args:
+        words: Inflects.
+        lemma: Infinitive without pronoun.
+        shape: Tense and auxiliaries.
+        person: `1s` to `3p`.
+        clitics: Object pronouns as if alone: `("lo", "le")`.
+        pronominal: Whether it takes a reflexive pronoun of its person.
+
+    Raises:
+        TranslationError: "no_form" if it has no such form.
+    """
+    rules = words.clitics
+    pronouns = [*([rules.reflexive[person]] if pronominal else []), *clitics]
+    ordered = in_order(pronouns, rules)
+    tokens: list[Token] = []
+    parts: dict[str, Token] = {}
+    carriers: list[Token] = []
+    finite: Token | None = None
+    main: Token | None = None
+    for part in shape.parts:
+        if part.literal == "^":
+            carriers = [Token(clitic) for clitic in ordered]
+            tokens += carriers
+            continue
+        if part.literal:
+            token = Token(part.literal)
+        else:
+            tag = f"V:{part.tag}"
+            if part.tag.startswith(_FINITE):
+                tag += f":{person}"
+            form = words.inflect(part.lemma or lemma, tag)
+            token = Token(attach_pronouns(form, ordered) if part.enclitic and ordered else form)
+            if part.enclitic:
+                carriers = [token] * len(ordered)
+            if not part.lemma:
+                main = token
+            if finite is None:
+                finite = token
+        parts.setdefault(part.lemma or part.literal, token)
+        tokens.append(token)
+    assert finite is not None and main is not None, shape.name
+    return VerbPhrase(tokens, finite, main, _carriers(pronouns, ordered, carriers, clitics, rules), parts)
+
+
+def in_order(clitics: Sequence[str], rules: Clitics) -> tuple[str, ...]:
+    """Clitics as they stand before or behind a verb: `("lo", "le")` is `("se", "lo")`."""
+    ordered = tuple(sorted(clitics, key=lambda clitic: rules.ranks.get(clitic, len(rules.ranks))))
+    if len(ordered) > 1 and set(ordered) & rules.accusative:
+        changed = [rules.beside_accusative if clitic in rules.dative else clitic for clitic in ordered]
+        return tuple(sorted(changed, key=lambda clitic: rules.ranks.get(clitic, len(rules.ranks))))
+    return ordered
+
+
+def verb_signs(
+    lemma: str, shape: Shape, phrase: VerbPhrase, *, said_alone: bool = True, denied: bool = False
+) -> list[Sign]:
+    """The glosses of a verb and of what its shape adds.
+
+    What stands before the verb leads its predicate (QUERER PAN COMPRAR): complement verbs follow what
+    governs them in 16 of 17 (LSE-RADIS). NO stands behind the verb that it denies, so that this one
+    comes last there (PAN COMPRAR QUERER NO).
+
+    Args:
+        lemma: Infinitive without pronoun.
+        shape: Tense and auxiliaries.
+        phrase: The verb as said.
+        said_alone: Whether the verb has a sign, and not only what it governs.
+        denied: Whether the clause is negative.
+    """
+    before: list[Sign] = []
+    signs: list[Sign] = []
+    for gloss, source in shape.glosses:
+        said = [phrase.parts[source]] if source else []
+        if gloss != "*":
+            signs.append(Sign(gloss, said))
+        else:
+            before, signs = signs, []
+            if said_alone:
+                signs.append(Sign(lemma.upper(), [*said, phrase.main]))
+    if denied:
+        return [*signs, *before]
+    for sign in before:
+        sign.leads = True
+    return [*before, *signs]
+
+
+def without_addressee(
+    signs: Sequence[Sign], lists: Mapping[str, tuple[str, ...]], *, asked: bool
+) -> list[Sign]:
+    """The signs without TÚ or USTED where somebody is asked to do something: "¿Puedes venir?" is VENIR PODER.
+
+    Left out is who is addressed, if only the ending of the verb that PODER stands for says so and PODER ends
+    the question: signers leave the addressee out in 5 of 6 of such requests.
+
+    Args:
+        signs: Of the sentence.
+        lists: Of the grammar; `asking_glosses` names such verbs, `addressee_glosses` who is addressed.
+        asked: Whether it is a question.
+    """
+    if not asked or not signs or signs[-1].gloss not in lists.get("asking_glosses", ()):
+        return list(signs)
+    finite = signs[-1].sources
+    return [
+        sign
+        for sign in signs
+        if not (sign.gloss in lists.get("addressee_glosses", ()) and sign.sources == finite[:1])
+    ]
+
+
+def denied_once(signs: Sequence[Sign], lists: Mapping[str, tuple[str, ...]]) -> list[Sign]:
+    """The signs without NO where one word more denies: "no digo nada" is DECIR NADA.
+
+    Only where they stand side by side, so that both deny the same verb: glosses of the grammar's list
+    `denying_once` are enough without those of `not_glosses`.
+    """
+    enough, denials = lists.get("denying_once", ()), lists.get("not_glosses", ())
+    result: list[Sign] = []
+    for sign in signs:
+        last = result[-1].gloss if result else ""
+        if sign.gloss in denials and last in enough:
+            result[-1].sources.extend(sign.sources)
+        elif sign.gloss in enough and last in denials:
+            sign.sources.extend(result.pop().sources)
+            result.append(sign)
+        else:
+            result.append(sign)
+    return result
+
+
+def _carriers(
+    pronouns: Sequence[str],
+    ordered: Sequence[str],
+    carriers: Sequence[Token],
+    clitics: Sequence[str],
+    rules: Clitics,
+) -> list[Token]:
+    """The word that says each of the clitics; "le" may have become "se"."""
+    own = len(pronouns) - len(clitics)
+    found: list[Token] = []
+    for clitic in clitics:
+        written = clitic if clitic in ordered[own:] or clitic in ordered else rules.beside_accusative
+        places = [place for place, each in enumerate(ordered) if each == written]
+        found.append(carriers[places[-1]])
+    return found

@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The training of every model of the zoo."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from teo_common.text_folding import fold
+from teo_sign_training.corpus import Pair
+from teo_sign_training.fitting.batches import WordNumbers, batches
+from teo_sign_training.fitting.devices import named_device, one_thread, seeded
+from teo_sign_training.fitting.examples import VARIANTS, ExampleReader, Examples, Reader, WordTable
+from teo_sign_training.fitting.network import Network, on_device
+from teo_sign_training.fitting.typing_noise import Typing, copies, typed_sayably, unsayable
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.decoding import SPARE
+from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
+
+#: Fewer occurrences than these among the training pairs do not teach an embedding anything.
+MIN_FORM, MIN_LEMMA = 10, 3
+#: Occurrences that cannot be copied from which a gloss joins the closed list of a model that copies. Rarer
+#: ones are mistakes of the corpus as a rule.
+MIN_GLOSS = 3
+#: Part of all steps in which the step size rises to its highest.
+_WARM_UP = 0.05
+#: Largest norm of a gradient; recurrent networks have a rare step far above it (Pascanu et al. 2013).
+_MAX_NORM = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """State of a training after an epoch.
+
+    Attributes:
+        epoch: Number of the pass, from 1.
+        step: Steps done in it.
+        steps: Steps that it has.
+        loss: Mean over its glosses so far [nat].
+        dev_loss: After the pass, on the development pairs as written [nat]; none before.
+    """
+
+    epoch: int
+    step: int
+    steps: int
+    loss: float
+    dev_loss: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """A trained network.
+
+    Attributes:
+        vocabulary: Its lists.
+        weights: By name, of the best epoch.
+        losses: Of each epoch, on the training pairs while it learned [nat per gloss].
+        dev_losses: After each epoch, on the development pairs [nat per gloss].
+        best_epoch: Whose weights these are, from 1.
+        pairs: Pairs that were learned from.
+        left_out: Pairs that were not, because the model cannot say a gloss of theirs.
+        seconds: Duration [s].
+        pairs_per_second: Speed of the passes.
+        device: On which device.
+    """
+
+    vocabulary: Vocabulary
+    weights: dict[str, NDArray[np.float32]]
+    losses: tuple[float, ...]
+    dev_losses: tuple[float, ...]
+    best_epoch: int
+    pairs: int
+    left_out: int
+    seconds: float
+    pairs_per_second: float
+    device: str
+
+
+def fit(
+    train: Sequence[Pair],
+    dev: Sequence[Pair],
+    by_heart: Sequence[Pair],
+    read: Reader,
+    network_config: NetworkConfig,
+    config: TrainingConfig,
+    *,
+    device: torch.device | None = None,
+    on_progress: Callable[[Progress], None] | None = None,
+) -> Fit:
+    """Train from nothing. The same arguments give the same weights on the same machine.
+
+    Args:
+        train: Pairs to learn from.
+        dev: Pairs that say when to stop; if empty, the last epoch's weights are kept.
+        by_heart: Pairs that each pass repeats, see `TrainingConfig`.
+        read: How sentences become words.
+        network_config: What is trained.
+        config: How.
+        device: Where; an accelerator if there is one by default.
+        on_progress: Called now and then.
+
+    Raises:
+        TranslationError: "invalid_config" without pairs, "invalid_data" for an alignment that does not fit.
+    """
+    if not train and not by_heart:
+        raise TranslationError("invalid_config", "expected at least one training pair, got none")
+    started = time.monotonic()
+    device = device or named_device(None)
+    reader = ExampleReader(read)
+    pairs = reader.examples([*train, *by_heart])
+    development = reader.examples(dev)
+    table = reader.table()
+    vocabulary = make_vocabulary(pairs, table, len(train), copy=network_config.copy)
+    numbers = WordNumbers.of(table, vocabulary, pairs)
+    closed = numbers.glosses >= 0
+    lost = unsayable(pairs, table, closed, network_config.copy)
+    repeats = _repeats(len(train), len(by_heart), config.by_heart)
+    chosen = np.concatenate([np.arange(len(train)), np.repeat(np.arange(len(train), len(pairs)), repeats)])
+    learned = pairs.take(chosen[~lost[chosen]])
+    measured = np.flatnonzero(~unsayable(development, table, closed, network_config.copy))
+    development = development.take(measured)
+    if not len(learned):
+        raise TranslationError("invalid_config", "expected pairs whose glosses can be said, got none")
+
+    with seeded(config.seed), one_thread():
+        random = np.random.default_rng(config.seed)
+        network = Network(network_config, vocabulary, config.dropout).to(device)
+        optimiser = torch.optim.AdamW(network.parameters(), config.learning_rate, weight_decay=0.01)
+        steps = max(1, len(learned) // config.batch_size)
+        schedule = torch.optim.lr_scheduler.LambdaLR(optimiser, _schedule(steps * config.epochs))
+        spare = SPARE if network_config.layout == "equal_length" else 0
+        losses: list[float] = []
+        dev_losses: list[float] = []
+        best, best_epoch = network.weights(), 0
+        passing = 0.0
+        for epoch in range(1, config.epochs + 1):
+            began = time.monotonic()
+            network.train()
+            typing = Typing.draw(len(learned), config.clean, random)
+            passed = typed_sayably(learned, table, typing, closed, network_config.copy)
+            total, count = 0.0, 0.0
+            all_batches = batches(
+                passed,
+                table,
+                numbers,
+                config.batch_size,
+                random=random,
+                rare_word=config.rare_word,
+                spare=spare,
+            )
+            for step, batch in enumerate(all_batches, start=1):
+                tensors = on_device(batch, device)
+                gloss_loss, look_loss = network.losses(tensors)
+                glosses = float(batch.weight.sum())
+                optimiser.zero_grad()
+                ((gloss_loss + config.attention_weight * look_loss) / glosses).backward()  # type: ignore[no-untyped-call]
+                torch.nn.utils.clip_grad_norm_(network.parameters(), _MAX_NORM)
+                optimiser.step()
+                schedule.step()
+                total, count = total + gloss_loss.item(), count + glosses
+                if on_progress is not None and step % 10 == 0:
+                    on_progress(Progress(epoch, step, max(steps, step), total / count, None))
+            losses.append(total / count)
+            passing += time.monotonic() - began
+            if len(development):
+                dev_losses.append(_mean_loss(network, development, table, numbers, spare, device))
+            if not dev_losses or dev_losses[-1] <= min(dev_losses):
+                best, best_epoch = network.weights(), epoch
+            if on_progress is not None:
+                last = dev_losses[-1] if dev_losses else None
+                on_progress(Progress(epoch, step, step, losses[-1], last))
+            if epoch - best_epoch >= config.patience:
+                break
+    return Fit(
+        vocabulary,
+        best,
+        tuple(losses),
+        tuple(dev_losses),
+        best_epoch,
+        len(pairs) - int(lost.sum()),
+        int(lost.sum()),
+        time.monotonic() - started,
+        len(learned) * len(losses) / passing,
+        str(device),
+    )
+
+
+def make_vocabulary(pairs: Examples, table: WordTable, by_heart: int, *, copy: bool) -> Vocabulary:
+    """The lists of a model, from its training pairs.
+
+    Args:
+        pairs: The training pairs as written.
+        table: Their words.
+        by_heart: From which of them on every gloss must be sayable, however rare.
+        copy: Whether the model can copy; if so, a gloss that is a copy wherever it occurs has no place in the
+            closed list, so that the model learns to copy.
+    """
+    # Every way of typing counts: a lemma of "como" without its accent is as good as one of "cómo".
+    typed = np.bincount(table.variants[pairs.words].ravel(), minlength=len(table.words))
+    forms: Counter[str] = Counter()
+    lemmas: Counter[str] = Counter()
+    tags: Counter[str] = Counter()
+    for word, count in zip(table.words, typed.tolist(), strict=True):
+        if word is None or not count:
+            continue
+        forms[fold(word.form)] += count
+        for reading in word.readings:
+            lemmas[reading.lemma] += count
+            tags[tag_key(reading)] += count
+    occurrences = np.ones(len(pairs.glosses), np.bool_)
+    if copy:
+        occurrences[pairs.link_gloss[copies(pairs, table).any(axis=1)]] = False
+    said = np.bincount(pairs.glosses[occurrences], minlength=len(table.glosses))
+    first = pairs.gloss_start[by_heart]
+    known = pairs.glosses[first:][occurrences[first:]]
+    said[known] = np.maximum(said[known], MIN_GLOSS)
+    least = MIN_GLOSS if copy else 1
+    return Vocabulary.of(
+        _frequent(forms, MIN_FORM * VARIANTS),
+        _frequent(lemmas, MIN_LEMMA * VARIANTS),
+        _frequent(tags, 1),
+        sorted(table.glosses[gloss] for gloss in np.flatnonzero(said >= least)),
+    )
+
+
+def _repeats(others: int, by_heart: int, part: float) -> int:
+    """How often a pass repeats each memorised pair, so that they are `part` of it; at least once."""
+    return max(1, round(part / (1 - part) * others / max(1, by_heart)))
+
+
+def _frequent(counts: Counter[str], least: int) -> list[str]:
+    return sorted(each for each, count in counts.items() if count >= least)
+
+
+def _schedule(steps: int) -> Callable[[int], float]:
+    """Learning rate of a step, as a part of the highest."""
+    warm_up = max(1, round(_WARM_UP * steps))
+    return lambda step: min((step + 1) / warm_up, max(0.0, (steps - step) / max(1, steps - warm_up)))
+
+
+def _mean_loss(
+    network: Network,
+    examples: Examples,
+    table: WordTable,
+    numbers: WordNumbers,
+    spare: int,
+    device: torch.device,
+) -> float:
+    network.eval()
+    total, count = 0.0, 0.0
+    with torch.no_grad():
+        for batch in batches(examples, table, numbers, 512, spare=spare):
+            loss, _ = network.losses(on_device(batch, device))
+            total, count = total + loss.item(), count + float(batch.weight.sum())
+    return total / count

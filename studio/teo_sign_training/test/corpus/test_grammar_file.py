@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""The grammar's files: every example is made, every word exists, every fault is named."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+from example_chooser import ExampleChooser
+
+from teo_sign_training.corpus.derivation import Derivation
+from teo_sign_training.corpus.generator import Generator
+from teo_sign_training.corpus.grammar_file import load_grammar
+from teo_sign_translator.data_files import data_file
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
+
+#: Lists of words.yaml that are not of nouns.
+OTHER_LISTS = ("stressed_a", "mass_classes", "unsaid_verbs", "directed_verbs", "plans")
+
+
+@pytest.fixture(scope="module")
+def generator():
+    return Generator.load(data_file("grammar"), Morphology.load())
+
+
+def test_every_example_beside_a_rule_is_what_the_rule_makes(generator):
+    wrong = []
+    for family in generator.grammar.families:
+        for rule in family.rules:
+            chooser = ExampleChooser(rule.example.fixed)
+            spread = {slot.name: rule.example.fixed.get(slot.name) for slot in rule.slots if slot.spread}
+            made = Derivation(generator.grammar, generator.words, chooser).sentence(rule, spread)
+            if (made.text, made.glosses) != (rule.example.text, rule.example.glosses):
+                wrong.append((rule.where, made.text, made.glosses))
+            unused = set(rule.example.fixed) - chooser.used - set(spread)
+            if unused:
+                wrong.append((rule.where, "fixes what is not there", unused))
+    assert not wrong
+
+
+def test_the_grammar_is_broad(generator):
+    assert sum(len(family.rules) for family in generator.grammar.families) > 250
+    assert len({verb.lemma for verb in generator.words.verbs}) > 400
+
+
+def test_every_verb_can_be_conjugated(generator):
+    impersonal = {"llover", "nevar", "granizar"}
+    for verb in generator.words.verbs:
+        lemma = verb.lemma.removesuffix("se") if verb.lemma.endswith("se") else verb.lemma
+        for tag in ("V:ind:pres:1s", "V:ind:pret:3p", "V:sub:pres:2s", "V:ger", "V:part:ms"):
+            if lemma not in impersonal:
+                assert generator.words.inflect(lemma, tag)
+
+
+def test_every_word_of_the_lists_is_in_the_lexicon(generator):
+    nouns = {word.lemma for word in generator.words.nouns}
+    classes = {each for word in generator.words.nouns for each in word.features["classes"].split(",")}
+    adjectives = {word.lemma for word in generator.words.adjectives}
+    shapes = {shape.name for shape in generator.grammar.shapes}
+    lists = generator.grammar.word_lists
+    for name, words in lists.items():
+        glosses = all(word == word.upper() for word in words)
+        if name not in OTHER_LISTS and not glosses and not set(words) <= shapes:
+            missing = set(words) - (adjectives if name.startswith("fits_") else nouns)
+            assert not missing, name
+    for verb in generator.words.verbs:
+        for item in verb.features["object"].split(","):
+            assert item == "-" or item in classes or item in lists or item in nouns, (verb.lemma, item)
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "named"),
+    [
+        (
+            "sentences.yaml",
+            '{S} {N} {P:S} ."\n        signs',
+            '{S} {Z} {P:S} ."\n        signs',
+            "statement.plain",
+        ),
+        ("sentences.yaml", 'signs: "{S} {P} {N}"', 'signs: "{S} {Q} {N}"', "statement.plain"),
+        ("sentences.yaml", 'pick: {S: "subject"', 'pick: {S: "subjetc"', "statement.plain"),
+        (
+            "sentences.yaml",
+            '        example: {text: "Compro el libro."',
+            '        exmaple: {text: "Compro el libro."',
+            "statement.plain",
+        ),
+        ("sentences.yaml", "        weight: 10\n", "        weight: -1\n", "statement.plain"),
+        ("phrases.yaml", 'signs: "{n} MUCHO=mucho"', 'signs: "{n} MUCHO=muchos"', "someone.many"),
+        ("phrases.yaml", "este~n {n}", "esto~n {n}", "someone.this"),
+        ("clauses.yaml", "$V.object det=$V.det", "$W.object det=$W.det", "vp.thing"),
+        (
+            "shapes.yaml",
+            'text: "^ */ind:pres", signs: "*"',
+            'text: "^ */ind:pres", signs: "* NO=no"',
+            "present",
+        ),
+        ("shapes.yaml", "mood: sub, text", "mood: sbu, text", "subjunctive"),
+        ("words.yaml", "  el: el la los las", "  el: el la los", "el"),
+        ("times.yaml", "    none: {weight: 62", "    no: {weight: 62", "time"),
+        (
+            "held_out.yaml",
+            "held_out:\n",
+            "held_out:\n  - statement.plain.nowhere\n",
+            "statement.plain.nowhere",
+        ),
+        (
+            "held_out.yaml",
+            "    condition in_case.if_then",
+            "    condition vp.nowhere in_case.if_then",
+            "vp.nowhere",
+        ),
+        ("everyday.yaml", "families:", "family:", "everyday.yaml"),
+    ],
+)
+def test_a_fault_is_reported_with_file_and_rule(tmp_path, file, old, new, named):
+    shutil.copytree(data_file("grammar"), tmp_path / "grammar")
+    (tmp_path / "lexicon").symlink_to(data_file("lexicon"))
+    path = tmp_path / "grammar" / file
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(TranslationError) as caught:
+        Generator.load(tmp_path / "grammar", Morphology.load())
+    assert caught.value.code == "invalid_grammar"
+    assert named in str(caught.value)
+
+
+@pytest.mark.parametrize("content", [b"", b"families: [", b"\xff\xfe", b"- a\n- b\n", b"families: 3\n"])
+def test_a_broken_file_is_reported_by_name(tmp_path, content):
+    (tmp_path / "broken.yaml").write_bytes(content)
+    with pytest.raises(TranslationError, match=r"broken\.yaml") as caught:
+        load_grammar(tmp_path)
+    assert caught.value.code == "invalid_grammar"
+
+
+def test_a_folder_without_grammar_is_reported(tmp_path):
+    with pytest.raises(TranslationError, match="found none"):
+        load_grammar(tmp_path)

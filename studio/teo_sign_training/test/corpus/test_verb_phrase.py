@@ -1,0 +1,126 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What a verb says in LSE: not its tense, not whom its path shows, not that one has what is named."""
+
+from __future__ import annotations
+
+import pytest
+from example_chooser import ExampleChooser
+
+from teo_sign_training.corpus.derivation import Derivation
+from teo_sign_training.corpus.generator import Generator
+from teo_sign_training.corpus.tokens import Sign, Token
+from teo_sign_training.corpus.verb_phrase import without_addressee
+from teo_sign_translator.data_files import data_file
+from teo_sign_translator.morphology import Morphology
+
+
+@pytest.fixture(scope="module")
+def generator():
+    return Generator.load(data_file("grammar"), Morphology.load())
+
+
+@pytest.fixture(scope="module")
+def say(generator):
+    def say(family, rule, **fixed):
+        rules = next(each.rules for each in generator.grammar.families if each.name == family)
+        chosen = next(each for each in rules if each.name == rule)
+        fixed = {path.replace("_", "."): choice for path, choice in fixed.items()}
+        spread = {slot.name: fixed.get(slot.name) for slot in chosen.slots if slot.spread}
+        made = Derivation(generator.grammar, generator.words, ExampleChooser(fixed)).sentence(chosen, spread)
+        return made.text, " ".join(made.glosses)
+
+    return say
+
+
+@pytest.mark.parametrize(
+    ("shape", "written"),
+    [
+        ("preterite", "Trabajé."),
+        ("perfect", "He trabajado."),
+        ("pluperfect", "Había trabajado."),
+        ("future", "Trabajaré."),
+        ("going_to", "Voy a trabajar."),
+    ],
+)
+def test_a_tense_has_no_sign(say, shape, written):
+    made = say("statement", "plain", P="intransitive", P_V="trabajar", P_V_shape=shape)
+    assert made == (written, "YO IR TRABAJAR" if "IR" in made[1] else "YO TRABAJAR")
+
+
+def test_a_time_word_alone_says_when(say):
+    made = say(
+        "cause", "because_tomorrow", T="yesterday", N="no", P="goal", P_V="ir", P_V_shape="preterite",
+        P_G_n="cine", C_N="pos", C_S="yo_f", C_P="feeling", C_P_V_shape="imperfect", C_P_A="enfermo",
+    )  # fmt: skip
+    assert made == (
+        "Ayer no fui al cine porque estaba enferma.",
+        "AYER YO CINE IR NO PORQUE YO ENFERMO",
+    )
+
+
+@pytest.mark.parametrize(
+    ("subject", "negation", "expected"),
+    [
+        ("yo", "pos", ("Tengo un perro.", "YO PERRO")),
+        ("yo", "no", ("No tengo un perro.", "YO PERRO NO")),
+        ("vosotros", "pos", ("Tenéis un perro.", "VOSOTROS PERRO")),
+    ],
+)
+def test_who_has_something_is_named_beside_it_without_a_verb(say, subject, negation, expected):
+    made = say(
+        "statement", "plain", S=subject, N=negation, P="have_thing", P_V="tener", P_V_shape="present",
+        P_O="a", P_O_n="perro",
+    )  # fmt: skip
+    assert made == expected
+
+
+def test_a_modal_beside_having_is_said(say):
+    made = say(
+        "statement", "plain", P="have_thing", P_V="tener", P_V_shape="imperfect", P_O="a", P_O_n="perro"
+    )
+    assert made == ("Tenía un perro.", "YO PERRO")
+
+
+def test_having_is_said_where_what_one_has_is_not_named(say):
+    assert say("questions_what", "what_have", S="tú") == ("¿Qué tienes?", "TÚ TENER QUÉ")
+
+
+def test_the_path_of_a_directed_verb_shows_whom_a_clitic_means(say):
+    made = say("statement", "call", T="none", S="yo", N="pos", V="llamar", V_shape="present", O="you")
+    assert made == ("Te llamo.", "YO LLAMAR")
+    made = say("statement", "call", T="none", S="yo", N="pos", V="ver", V_shape="present", O="you")
+    assert made == ("Te veo.", "YO TÚ VER")
+
+
+def test_who_feels_is_said_beside_a_directed_verb_too(say):
+    assert say("felt", "gives_it", E="you", n="miedo") == ("Te da miedo.", "TÚ MIEDO")
+
+
+LISTS = {"asking_glosses": ("PODER",), "addressee_glosses": ("TÚ",)}
+
+
+def test_the_addressee_of_a_request_is_left_out_unless_a_word_says_it():
+    you, can, say_you = Token("puedes"), Sign("PODER"), Token("tú")
+    can.sources = [you]
+    silent = [Sign("TÚ", [you]), Sign("VENIR"), can]
+    said = [Sign("TÚ", [say_you]), Sign("VENIR"), can]
+    assert without_addressee(silent, LISTS, asked=True) == silent[1:]
+    assert without_addressee(silent, LISTS, asked=False) == silent
+    assert without_addressee(said, LISTS, asked=True) == said
+    assert without_addressee([*silent, Sign("NO")], LISTS, asked=True)[0] is silent[0]
+    assert without_addressee([], LISTS, asked=True) == []
+
+
+def test_the_pronoun_of_a_clause_stays_in_it(say):
+    made = say("saying", "think", V="creer", C="liking", C_E="me", C_V="gustar", C_O_n="fútbol")
+    assert made == ("Creo que me gusta el fútbol.", "YO CREER YO FÚTBOL GUSTAR")
+
+
+def test_a_noun_says_what_the_light_verb_beside_it_says(generator):
+    family = next(each for each in generator.grammar.families if each.name == "felt")
+    rule = next(each for each in family.rules if each.name == "gives_it")
+    fixed = {"n": "miedo"}
+    made = Derivation(generator.grammar, generator.words, ExampleChooser(fixed)).sentence(rule, {})
+    assert (made.text, made.glosses) == ("Me da miedo.", ("YO", "MIEDO"))
+    assert made.alignment == ((0,), (1, 2))

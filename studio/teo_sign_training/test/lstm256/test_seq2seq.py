@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from teo_sign_training.cli.reproduce_paper import split
+from teo_sign_training.corpus.paper_pairs import paper_pairs
+from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, Training, TrainingConfig, train
+from teo_sign_training.lstm256.seq2seq import MAX_OUTPUT, LstmModel
+from teo_sign_training.lstm256.store import load_model, save_model
+from teo_sign_training.lstm256.tokens import END, START, Vocabulary
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.model_files import available_models
+from teo_sign_translator.taught.tokens import published_tokens
+
+EXAMPLES = [(published_tokens(pair.sentence), pair.glosses) for pair in paper_pairs()[:8]]
+INPUTS = Vocabulary.of_inputs(source for source, _ in EXAMPLES)
+OUTPUTS = Vocabulary.of_outputs(target for _, target in EXAMPLES)
+
+
+def _train(seed: int = 1, batch_size: int = 3, epochs: int = 25) -> Training:
+    config = TrainingConfig(hidden=32, learning_rate=0.01, epochs=epochs, batch_size=batch_size, seed=seed)
+    return train(EXAMPLES[:6], EXAMPLES[6:], config)
+
+
+def test_the_loss_falls_and_what_was_taught_is_known() -> None:
+    training = _train()
+    assert len(training.losses) == len(training.validation_losses) == 25
+    assert training.losses[0] > 2
+    assert training.losses[-1] < 0.2
+    assert [training.model.predict(source).tokens for source, _ in EXAMPLES[:6]] == [
+        t for _, t in EXAMPLES[:6]
+    ]
+
+
+def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:
+    first, second, other = _train(epochs=2), _train(epochs=2), _train(seed=2, epochs=2)
+    assert first.losses == second.losses
+    for name, weights in first.weights.items():
+        np.testing.assert_array_equal(weights, second.weights[name])
+    assert first.losses != other.losses
+
+
+def test_training_leaves_the_callers_settings_alone() -> None:
+    torch.manual_seed(5)
+    expected = torch.rand(1)
+    torch.manual_seed(5)
+    threads = torch.get_num_threads()
+    _train(epochs=1)
+    assert torch.rand(1) == expected
+    assert torch.get_num_threads() == threads
+    assert not torch.are_deterministic_algorithms_enabled()
+
+
+def test_the_loss_of_a_batch_is_that_of_its_examples_one_by_one() -> None:
+    # One step from the same weights: a batch pads its shorter sequences, which must not count.
+    whole = train(EXAMPLES, EXAMPLES, TrainingConfig(hidden=8, epochs=1, batch_size=8))
+    parts = [
+        train(EXAMPLES, [example], TrainingConfig(hidden=8, epochs=1, batch_size=8)) for example in EXAMPLES
+    ]
+    lengths = [len(target) + 1 for _, target in EXAMPLES]
+    one_by_one = np.average([part.validation_losses[0] for part in parts], weights=lengths)
+    assert whole.validation_losses[0] == pytest.approx(one_by_one, rel=1e-5)
+
+
+def test_plain_arrays_say_what_pytorch_says() -> None:
+    torch.manual_seed(3)
+    network = EncoderDecoder(len(INPUTS), len(OUTPUTS), 16)
+    with torch.no_grad():
+        for parameter in network.parameters():
+            parameter += 0.5 * torch.randn_like(parameter)
+    model = LstmModel(INPUTS, OUTPUTS, network.weights())
+    for source, _ in EXAMPLES:
+        prediction = model.predict(source)
+        one_hot = torch.eye(len(INPUTS))[INPUTS.indices(source)][None]
+        _, state = network.encoder(one_hot)
+        (said,) = OUTPUTS.indices([START])
+        for token, probability in zip(prediction.tokens, prediction.probabilities, strict=True):
+            hidden, state = network.decoder(torch.eye(len(OUTPUTS))[[said]][None], state)
+            logits = network.output(hidden)[0, 0]
+            logits[1] = -torch.inf  # START is never said
+            (said,) = OUTPUTS.indices([token])
+            assert int(logits.argmax()) == said
+            assert probability == pytest.approx(float(torch.softmax(logits.detach(), 0)[said]), abs=1e-5)
+
+
+def test_a_model_that_never_ends_is_stopped() -> None:
+    weights = EncoderDecoder(len(INPUTS), len(OUTPUTS), 4).weights()
+    weights["output.bias"][2] = 100.0
+    prediction = LstmModel(INPUTS, OUTPUTS, weights).predict(EXAMPLES[0][0])
+    assert len(prediction.tokens) == MAX_OUTPUT
+    assert not prediction.complete
+
+
+def test_no_tokens_and_unknown_tokens_are_refused() -> None:
+    model = load_model("lstm256")
+    for tokens, code in (([], "empty_text"), (["zzz"], "unknown_token")):
+        with pytest.raises(TranslationError) as error:
+            model.predict(tokens)
+        assert error.value.code == code
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"hidden": 0},
+        {"epochs": 0},
+        {"batch_size": 0},
+        {"learning_rate": 0.0},
+        {"learning_rate": float("nan")},
+        {"decay": 1.0},
+    ],
+)
+def test_a_configuration_that_cannot_train_is_refused(change: dict[str, float]) -> None:
+    with pytest.raises(TranslationError) as error:
+        TrainingConfig(**change)  # type: ignore[arg-type]
+    assert error.value.code == "invalid_config"
+
+
+def test_training_without_examples_is_refused() -> None:
+    with pytest.raises(TranslationError) as error:
+        train([], [], TrainingConfig())
+    assert error.value.code == "invalid_config"
+
+
+def test_a_fifth_is_held_out() -> None:
+    learned, held_out = split(paper_pairs())
+    assert (len(learned), len(held_out)) == (31, 8)
+
+
+def _save(directory: Path) -> None:
+    save_model(
+        "small",
+        directory,
+        inputs=INPUTS,
+        outputs=OUTPUTS,
+        weights=_train(epochs=1).weights,
+        card={"licence": "x"},
+    )
+
+
+def test_a_saved_model_says_the_same_after_loading(tmp_path: Path) -> None:
+    training = _train()
+    save_model("small", tmp_path, inputs=INPUTS, outputs=OUTPUTS, weights=training.weights, card={})
+    assert available_models(tmp_path) == ("small",)
+    loaded = load_model("small", tmp_path)
+    for source, _ in EXAMPLES:
+        assert loaded.predict(source).tokens == training.model.predict(source).tokens
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]
+
+
+def test_an_unknown_model_is_refused_with_those_available(tmp_path: Path) -> None:
+    _save(tmp_path)
+    with pytest.raises(TranslationError, match="small") as error:
+        load_model("large", tmp_path)
+    assert error.value.code == "unknown_model"
+
+
+@pytest.mark.parametrize("name", ["../lstm256", "", "."])
+def test_a_model_name_is_no_path(name: str) -> None:
+    with pytest.raises(TranslationError) as error:
+        load_model(name)
+    assert error.value.code == "unknown_model"
+
+
+def _truncate(directory: Path) -> None:
+    path = directory / "small.safetensors"
+    path.write_bytes(path.read_bytes()[:-100])
+
+
+def _empty(directory: Path) -> None:
+    (directory / "small.safetensors").write_bytes(b"")
+
+
+def _spoil_card(directory: Path) -> None:
+    (directory / "small.json").write_text("{", encoding="utf-8")
+
+
+def _change_card(directory: Path, **values: object) -> None:
+    path = directory / "small.json"
+    path.write_text(json.dumps(json.loads(path.read_text("utf-8")) | values), encoding="utf-8")
+
+
+def _not_a_number(directory: Path) -> None:
+    weights = _train(epochs=1).weights
+    weights["output.bias"][0] = np.nan
+    save_model("small", directory, inputs=INPUTS, outputs=OUTPUTS, weights=weights, card={})
+
+
+def _missing_weight(directory: Path) -> None:
+    weights = _train(epochs=1).weights
+    del weights["encoder.weight_hh_l0"]
+    save_model("small", directory, inputs=INPUTS, outputs=OUTPUTS, weights=weights, card={})
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        _truncate,
+        _empty,
+        _spoil_card,
+        lambda directory: _change_card(directory, schema=99),
+        lambda directory: _change_card(directory, vocabulary={}),
+        lambda directory: _change_card(directory, vocabulary={"input": ["a"], "output": [END, START]}),
+        lambda directory: _change_card(directory, vocabulary={"input": ["a", "a"], "output": [END, START]}),
+        _not_a_number,
+        _missing_weight,
+    ],
+)
+def test_a_damaged_model_is_refused(tmp_path: Path, damage: object) -> None:
+    _save(tmp_path)
+    assert callable(damage)
+    damage(tmp_path)
+    with pytest.raises(TranslationError) as error:
+        load_model("small", tmp_path)
+    assert error.value.code == "invalid_model"

@@ -1,0 +1,445 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""Recording from and playing into a running graph: processes over DDS, in a domain of their own."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import pty
+import signal
+import subprocess
+import sys
+import termios
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from builtin_interfaces.msg import Time
+from mcap_ros2.reader import read_ros2_messages
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosbags.highlevel import AnyReader
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from command_line.playing import SLEEPER
+from teo_ros2cli.bags.bag import open_bag
+from teo_ros2cli.bags.metadata import read_metadata
+
+Command = Callable[..., subprocess.CompletedProcess[str]]
+PATIENCE = 120.0
+"""Longest time that anything may take [s], on a machine with ten things to do."""
+JOINTS = [f"Joint{i:02d}" for i in range(40)]
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+DEEP = QoSProfile(depth=1000)
+
+
+def state(i: int) -> JointState:
+    message = JointState(name=JOINTS, position=[i + joint / 64 for joint in range(40)], velocity=[-0.5] * 40)
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(i * 10_000_000, 10**9)
+    return message
+
+
+def trajectory(i: int) -> JointTrajectory:
+    points = [
+        JointTrajectoryPoint(positions=[float(i), k / 8], accelerations=[0.0, -1.0]) for k in range(500)
+    ]
+    return JointTrajectory(joint_names=["a", "ñ"], points=points)
+
+
+def wait_recording(running: Any, *topics: str) -> None:
+    for topic in topics:
+        running.wait_for_line(f"Subscribed to topic '{topic}'")
+
+
+def publish_at(rate: float, count: int, *publish: Callable[[int], None]) -> None:
+    started = time.monotonic()
+    for i in range(count):
+        for call in publish:
+            call(i)
+        time.sleep(max(0.0, started + (i + 1) / rate - time.monotonic()))
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_all_that_is_published_is_recorded_with_every_value(
+    graph: Any, start: Any, tmp_path: Path, number: signal.Signals
+) -> None:
+    description = graph.node.create_publisher(String, "robot_description", LATCHED)
+    description.publish(String(data="<robot name='TEO'/>"))  # long before the recorder
+    states = graph.node.create_publisher(JointState, "joint_states", 10)
+    plans = graph.node.create_publisher(JointTrajectory, "joint_trajectory", 10)
+    recorder = start("bag", "record", "-a", "-o", str(tmp_path / "bag"), "--custom-data", "robot=TEO")
+    wait_recording(recorder, "/robot_description", "/joint_states", "/joint_trajectory")
+    graph.wait_until(
+        lambda: states.get_subscription_count() == plans.get_subscription_count() == 1, "all is matched"
+    )
+
+    def plan(i: int) -> None:
+        if i % 50 == 0:
+            plans.publish(trajectory(i))
+
+    written: list[tuple[int, int]] = []  # system time just before and after each joint state [ns]
+
+    def joint_state(i: int) -> None:
+        before = time.time_ns()
+        states.publish(state(i))
+        written.append((before, time.time_ns()))
+
+    publish_at(100.0, 200, joint_state, plan)
+    assert recorder.stop(number) == 0
+    assert recorder.wait_for_line("Recording stopped")
+
+    with AnyReader([tmp_path / "bag"]) as reader:
+        read: dict[str, list[Any]] = {}
+        for connection, _, data in reader.messages():
+            read.setdefault(connection.topic, []).append(reader.deserialize(data, connection.msgtype))
+    assert [message.data for message in read["/robot_description"]] == ["<robot name='TEO'/>"]
+    assert len(read["/joint_states"]) == 200
+    for i, message in enumerate(read["/joint_states"]):
+        expected = state(i)
+        assert message.name == JOINTS
+        assert list(message.position) == list(expected.position)
+        assert (message.header.stamp.sec, message.header.stamp.nanosec) == divmod(i * 10_000_000, 10**9)
+    for message, i in zip(read["/joint_trajectory"], (0, 50, 100, 150), strict=True):
+        assert list(message.points[499].positions) == [float(i), 499 / 8]
+        assert list(message.points[499].accelerations) == [0.0, -1.0]
+
+    decoded = [
+        m
+        for m in read_ros2_messages(str(tmp_path / "bag" / "bag_0.mcap"))
+        if m.channel.topic == "/joint_states"
+    ]
+    assert [list(m.ros_msg.position) for m in decoded] == [list(state(i).position) for i in range(200)]
+    for m, (before, after) in zip(decoded, written, strict=True):
+        assert before - 1000 <= m.publish_time_ns <= after + 1000  # DDS counts fractions of 2**-32 s
+    assert all(0 <= m.log_time_ns - m.publish_time_ns < 500_000_000 for m in decoded)
+
+    metadata = read_metadata(tmp_path / "bag")
+    assert metadata.custom_data == {"robot": "TEO"}
+    offered = {topic.name: topic.offered_qos for topic, _ in metadata.topics}
+    assert [qos.durability for qos in offered["/robot_description"]] == ["transient_local"]
+    assert [qos.durability for qos in offered["/joint_states"]] == ["volatile"]
+    hashes = {topic.name: topic.type_hash for topic, _ in metadata.topics}
+    assert hashes["/robot_description"].startswith("RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288")
+
+
+def test_a_recorded_bag_plays_as_it_was(graph: Any, start: Any, tmp_path: Path) -> None:
+    states = graph.node.create_publisher(JointState, "joint_states", DEEP)
+    description = graph.node.create_publisher(String, "robot_description", LATCHED)
+    description.publish(String(data="<robot/>"))
+    recorder = start(
+        "bag", "record", "-o", str(tmp_path / "first"), "--topics", "joint_states", "/robot_description"
+    )
+    wait_recording(recorder, "/joint_states", "/robot_description")
+    recorder.wait_for_line("All requested topics are subscribed. Stopping discovery...")
+    graph.wait_until(lambda: states.get_subscription_count() == 1, "the recorder is matched")
+    publish_at(100.0, 150, lambda i: states.publish(state(i)))
+    assert recorder.stop() == 0
+    graph.node.destroy_publisher(states)
+    graph.node.destroy_publisher(description)
+
+    sleeper = start("-c", SLEEPER, program=sys.executable)
+    # Who listens before the bag is played misses nothing; so far nobody publishes what this recorder records.
+    graph.node.create_subscription(JointState, "played", lambda _: None, DEEP)
+    again = start(
+        "bag",
+        "record",
+        "-a",
+        "-x",
+        "rosout|parameter",
+        "--include-unpublished-topics",
+        "-o",
+        str(tmp_path / "second"),
+    )
+    wait_recording(again, "/played")
+    player = start("bag", "play", str(tmp_path / "first"), "--remap", "/joint_states:=/played")
+    wait_recording(again, "/robot_description")
+    assert player.finish() == 0
+    assert "Set rate to 1" in player.text
+    assert "Played 151 messages." in player.text
+    assert again.stop() == 0
+
+    first, second = open_bag(tmp_path / "first"), open_bag(tmp_path / "second")
+    sent = [m for m in first.messages() if m.topic == "/joint_states"]
+    came = [m for m in second.messages() if m.topic == "/played"]
+    assert [m.data for m in came] == [m.data for m in sent]
+    assert [m.data for m in second.messages(topics=["/robot_description"])] == [
+        m.data for m in first.messages(topics=["/robot_description"])
+    ]
+    # Published at the distances of reception, as well as a process keeps time that does nothing besides.
+    wanted = [(m.log_time - sent[0].log_time) * 1e-9 for m in sent]
+    found = [(m.publish_time - came[0].publish_time) * 1e-9 for m in came]
+    errors = sorted(abs(a - b) for a, b in zip(wanted, found, strict=True))
+    sleeper.stop(signal.SIGKILL)
+    late = sorted(float(line) for line in sleeper.lines[:-1])
+    assert errors[len(errors) // 2] < 0.005 + late[len(late) // 2]
+    played = {topic.name: topic.offered_qos[0].durability for topic, _ in second.metadata.topics}
+    assert played == {"/played": "volatile", "/robot_description": "transient_local"}
+
+
+def test_playing_is_faster_partial_and_repeated_on_request(
+    graph: Any, start: Any, ros2: Command, tmp_path: Path
+) -> None:
+    make_text_bag(tmp_path / "bag", 20, step=1_000_000_000)
+    came: list[str] = []
+    moments: list[int] = []
+
+    def note(message: String, info: dict[str, Any]) -> None:
+        came.append(message.data)
+        moments.append(info["source_timestamp"])
+
+    graph.node.create_subscription(String, "text", note, DEEP)
+    done = ros2("bag", "play", str(tmp_path / "bag"), "-r", "200", "-d", "1", "--start-offset", "9.5")
+    assert done.returncode == 0
+    graph.wait_until(lambda: len(moments) == 10, "the second half came")
+    assert came == [str(i) for i in range(10, 20)]
+    assert (moments[-1] - moments[0]) * 1e-9 < 4.5  # 9 as recorded, 0.045 on a machine that keeps up
+    came.clear()
+    part = ros2("bag", "play", str(tmp_path / "bag"), "-r", "200", "-d", "1", "--playback-duration", "5.5")
+    assert "Played 6 messages." in part.stderr
+    came.clear()
+    loop = start("bag", "play", str(tmp_path / "bag"), "-l", "-r", "500", "--topics", "/text", "/nothing")
+    loop.wait_for_line("Topic '/nothing' is not in the bag; it holds /text")
+    graph.wait_until(lambda: came.count("5") >= 2, "it came twice")
+    assert loop.stop() == 0
+
+
+def test_keys_pause_and_step(graph: Any, start: Any, tmp_path: Path) -> None:
+    make_text_bag(tmp_path / "bag", 5, step=1000)
+    came: list[str] = []
+    graph.node.create_subscription(String, "text", lambda message: came.append(message.data), DEEP)
+    keys, terminal = pty.openpty()
+
+    def control() -> None:
+        os.setsid()
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+    player = start("bag", "play", str(tmp_path / "bag"), "-p", stdin=terminal, preexec_fn=control)
+    player.wait_for_line("Press CURSOR_RIGHT for Play Next Message")
+    player.wait_for_line("Playback until timestamp: -1")
+
+    def step() -> list[str]:
+        # A message that is played before the subscription is matched is lost: then one more.
+        os.write(keys, b"\x1b[C")
+        deadline = time.monotonic() + 2.0
+        while not came and time.monotonic() < deadline:
+            time.sleep(0.01)
+        return came
+
+    graph.wait_until(step, "a message came")
+    assert len(came) == 1
+    os.write(keys, b" ")
+    assert player.finish() == 0
+    graph.wait_until(lambda: came[-1] == "4", "the others came")
+    os.close(keys)
+    os.close(terminal)
+
+
+def test_simulated_time_stamps_what_is_recorded(graph: Any, start: Any, tmp_path: Path) -> None:
+    clock = graph.node.create_publisher(Clock, "/clock", DEEP)
+    texts = graph.node.create_publisher(String, "text", DEEP)
+    recorder = start("bag", "record", "--use-sim-time", "-o", str(tmp_path / "bag"), "--topics", "/text")
+    wait_recording(recorder, "/text")
+    graph.wait_until(
+        lambda: texts.get_subscription_count() == clock.get_subscription_count() == 1, "all is matched"
+    )
+    texts.publish(String(data="before the clock runs"))
+    assert texts.wait_for_all_acked(Duration(seconds=PATIENCE))
+    for i in range(1, 4):
+        time.sleep(0.1)
+        clock.publish(Clock(clock=Time(sec=1000 * i)))
+        time.sleep(0.1)
+        texts.publish(String(data=str(i)))
+    assert texts.wait_for_all_acked(Duration(seconds=PATIENCE))
+    time.sleep(0.2)
+    assert recorder.stop() == 0
+    assert [m.log_time for m in open_bag(tmp_path / "bag").messages()] == [
+        i * 1000 * 10**9 for i in (1, 2, 3)
+    ]
+
+
+def test_the_clock_is_played(graph: Any, ros2: Command, tmp_path: Path) -> None:
+    make_text_bag(tmp_path / "bag", 11, step=100_000_000)
+    came: list[float] = []
+    graph.node.create_subscription(
+        Clock, "/clock", lambda message: came.append(message.clock.sec + message.clock.nanosec * 1e-9), DEEP
+    )
+    assert ros2("bag", "play", str(tmp_path / "bag"), "-d", "1", "--clock", "50", "-r", "2").returncode == 0
+    assert 15 <= len(came) <= 30  # half a second
+    assert came == sorted(came)
+    assert 1e9 <= came[0] < came[-1] <= 1e9 + 1.1
+
+
+def test_the_clock_goes_on_with_the_messages(graph: Any, ros2: Command, tmp_path: Path) -> None:
+    make_text_bag(tmp_path / "bag", 5, step=30_000_000)
+    came: list[int] = []
+    graph.node.create_subscription(
+        Clock, "/clock", lambda message: came.append(message.clock.nanosec // 1_000_000), DEEP
+    )
+    assert ros2("bag", "play", str(tmp_path / "bag"), "--clock-topics", "/text").returncode == 0
+    graph.wait_until(lambda: came == [0, 30, 60, 90, 120], "the clock was told before each message")
+    both = ros2("bag", "play", str(tmp_path / "bag"), "--clock", "10", "--clock-topics-all")
+    assert (both.returncode, "not allowed with argument" in both.stderr) == (2, True)
+
+
+def make_text_bag(directory: Path, count: int, step: int, kind: str = "std_msgs/msg/String") -> None:
+    """Write a bag of numbers as text; with a type of another name to make it unknown."""
+    from rclpy.serialization import serialize_message
+
+    from teo_ros2cli.bags.metadata import TopicRecord
+    from teo_ros2cli.bags.writer import BagWriter
+    from teo_ros2cli.definitions import schema_of
+
+    writer = BagWriter(directory)
+    schema = schema_of("std_msgs/msg/String")
+    writer.add_topic(TopicRecord("/text", "std_msgs/msg/String"), schema)
+    if kind != schema.name:
+        writer.add_topic(TopicRecord("/odd", kind), schema._replace(name=kind))
+    for i in range(count):
+        for topic in ("/text", "/odd") if kind != schema.name else ("/text",):
+            writer.write(topic, 10**18 + i * step, 10**18 + i * step, serialize_message(String(data=str(i))))
+    writer.close()
+
+
+def test_unknown_types_and_damage_are_told_and_the_rest_is_played(
+    graph: Any, ros2: Command, tmp_path: Path
+) -> None:
+    make_text_bag(tmp_path / "bag", 5, step=1000, kind="lost_msgs/msg/Odd")
+    (tmp_path / "bag" / "metadata.yaml").unlink()
+    came: list[str] = []
+    graph.node.create_subscription(String, "text", lambda message: came.append(message.data), DEEP)
+    done = ros2("bag", "play", str(tmp_path / "bag"), "-d", "1")
+    assert done.returncode == 0
+    assert "has no metadata.yaml" in done.stderr
+    assert "Ignoring a topic '/odd', reason: " in done.stderr
+    graph.wait_until(lambda: len(came) == 5, "all came")
+    for words in (
+        [str(tmp_path / "none")],
+        [str(tmp_path / "bag"), "--remap", "a"],
+        [str(tmp_path / "bag"), "-e", "("],
+    ):
+        refused = ros2("bag", "play", *words)
+        assert (refused.returncode, refused.stderr.startswith("[ERROR] [ros2bag]: ")) == (1, True)
+
+
+def test_a_killed_recorder_leaves_what_came_before_the_last_second(
+    graph: Any, start: Any, ros2: Command, tmp_path: Path
+) -> None:
+    texts = graph.node.create_publisher(String, "text", DEEP)
+    recorder = start("bag", "record", "/text", "-o", str(tmp_path / "bag"))
+    wait_recording(recorder, "/text")
+    graph.wait_until(lambda: texts.get_subscription_count() == 1, "the recorder is matched")
+    publish_at(100.0, 300, lambda i: texts.publish(String(data=str(i))))
+    recorder.stop(signal.SIGKILL)
+    assert not (tmp_path / "bag" / "metadata.yaml").exists()
+    done = ros2("bag", "info", str(tmp_path / "bag"))
+    assert done.returncode == 0
+    assert "truncated" in done.stderr
+    messages = list(open_bag(tmp_path / "bag").messages())
+    assert 150 <= len(messages) <= 300
+    assert [m.data[8:-1].rstrip(b"\0").decode() for m in messages] == [str(i) for i in range(len(messages))]
+    assert ros2("bag", "reindex", str(tmp_path / "bag"), "-o", str(tmp_path / "whole")).returncode == 0
+    with AnyReader([tmp_path / "whole"]) as reader:
+        assert [bytes(data) for _, _, data in reader.messages()] == [m.data for m in messages]
+    assert not (tmp_path / "bag" / "metadata.yaml").exists()
+
+
+def test_topics_that_appear_and_publishers_that_differ_are_recorded(
+    graph: Any, start: Any, tmp_path: Path
+) -> None:
+    first = graph.node.create_publisher(String, "text", LATCHED)
+    first.publish(String(data="latched"))
+    recorder = start("bag", "record", "-a", "-o", str(tmp_path / "bag"), "--include-unpublished-topics")
+    wait_recording(recorder, "/text")
+    # A subscription without a publisher, and a second publisher that offers less than the recorder asks for.
+    graph.node.create_subscription(String, "waiting", lambda _: None, 10)
+    graph.node.create_subscription(JointState, "awaited", lambda _: None, LATCHED)
+    weak = graph.node.create_publisher(
+        String, "text", QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
+    )
+    wait_recording(recorder, "/waiting", "/awaited")
+    awaited = graph.node.create_publisher(JointState, "awaited", LATCHED)
+    awaited.publish(state(0))
+
+    def reliabilities() -> list[ReliabilityPolicy]:
+        return [info.qos_profile.reliability for info in graph.node.get_subscriptions_info_by_topic("text")]
+
+    graph.wait_until(
+        lambda: reliabilities() == [ReliabilityPolicy.BEST_EFFORT], "the weaker subscription is the only one"
+    )
+    graph.wait_until(
+        lambda: weak.get_subscription_count() == first.get_subscription_count() == 1, "both are matched"
+    )
+    for i in range(10):
+        weak.publish(String(data=f"weak {i}"))
+        first.publish(String(data=f"first {i}"))
+        time.sleep(0.01)
+    late = graph.node.create_publisher(JointState, "late", LATCHED)
+    late.publish(state(1))
+    wait_recording(recorder, "/late")
+    graph.wait_until(lambda: late.get_subscription_count() == 1, "the late topic is matched")
+    for publisher in (late, awaited):
+        graph.wait_until(
+            lambda publisher=publisher: publisher.wait_for_all_acked(Duration(seconds=0.1)),
+            "the recorder has the late messages",
+        )
+    assert recorder.stop() == 0
+    found = [
+        m.ros_msg.data
+        for m in read_ros2_messages(str(tmp_path / "bag" / "bag_0.mcap"))
+        if m.channel.topic == "/text"
+    ]
+    assert sorted(found) == sorted(
+        ["latched", *(f"{who} {i}" for who in ("weak", "first") for i in range(10))]
+    )
+    topics = {topic.name: (topic, n) for topic, n in read_metadata(tmp_path / "bag").topics}
+    assert (topics["/late"][1], topics["/awaited"][1], topics["/waiting"][1]) == (1, 1, 0)
+    # What publishers offer that came after the recorder is known as well: in the metadata and in the file.
+    for source in (
+        topics,
+        {t.name: (t, n) for t, n in open_bag(tmp_path / "bag" / "bag_0.mcap").metadata.topics},
+    ):
+        assert [qos.durability for qos in source["/awaited"][0].offered_qos] == ["transient_local"]
+        assert sorted(qos.reliability for qos in source["/text"][0].offered_qos)[-1:] == ["reliable"]
+        assert source["/waiting"][0].offered_qos == ()
+
+
+def test_a_recording_is_split_and_takes_qualities_from_a_file(graph: Any, start: Any, tmp_path: Path) -> None:
+    overrides = tmp_path / "overrides.yaml"
+    overrides.write_text(yaml.safe_dump({"/text": {"reliability": "best_effort", "depth": 7}}))
+    texts = graph.node.create_publisher(String, "text", DEEP)
+    words = ("-d", "1", "--qos-profile-overrides-path", str(overrides), "--storage-preset-profile", "none")
+    recorder = start("bag", "record", "-e", "^/te", "-o", str(tmp_path / "bag"), *words)
+    recorder.wait_for_line("Overriding subscription profile for /text")
+    graph.wait_until(lambda: texts.get_subscription_count() == 1, "the recorder is matched")
+    info = graph.node.get_subscriptions_info_by_topic("/text")[0]
+    assert info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
+    publish_at(20.0, 45, lambda i: texts.publish(String(data=str(i))))
+    assert recorder.stop() == 0
+    metadata = read_metadata(tmp_path / "bag")
+    assert [record.path for record in metadata.files] == ["bag_0.mcap", "bag_1.mcap", "bag_2.mcap"]
+    assert [topic.name for topic, _ in metadata.topics] == ["/text"]
+
+
+def test_a_stop_before_anything_leaves_a_good_empty_bag(
+    domain_id: int, start: Any, ros2: Command, tmp_path: Path
+) -> None:
+    del domain_id
+    recorder = start("bag", "record", "/nothing", cwd=tmp_path)
+    recorder.wait_for_line("Recording...")
+    assert recorder.stop(signal.SIGTERM) == 0
+    (bag,) = tmp_path.iterdir()
+    assert bag.name.startswith("rosbag2_2")
+    assert "holds no messages" in ros2("bag", "info", str(bag)).stderr
+    with AnyReader([bag]) as reader:
+        assert reader.message_count == 0
+    assert (
+        ros2("bag", "record", "-a", "-o", str(bag)).stderr
+        == f"[ERROR] [ros2bag]: Output folder '{bag}' already exists.\n"
+    )
