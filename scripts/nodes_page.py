@@ -137,14 +137,15 @@ _HEAD = """\
 <!-- Made by scripts/nodes_page.py; a test compares the two. -->
 # Nodes and parameters
 
-All names are relative: remap them, or put a node into a namespace. Lifecycle transitions, parameter services and
-`use_sim_time` are as in every ROS 2 node. The message files of `src/teo_sign_msgs` explain the project's own types.
+All names are relative: remap them, or put a node into a namespace. Lifecycle transitions, parameter services
+and `use_sim_time` are as in every ROS 2 node. The message files of `src/teo_sign_msgs` explain the project's
+own types.
 """
 _PARAMETERS = f"""\
 ## Parameters
 
-`src/teo_bringup/config/parameters.yaml` has the same parameters, ready to copy and change. {_READ_ONLY} marks what is
-read when the node starts; the others can be changed while it runs.
+`src/teo_bringup/config/parameters.yaml` has the same parameters, ready to copy and change. {_READ_ONLY} marks
+what is read when the node starts; the others can be changed while it runs.
 """
 
 

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-import pytest
 import rclpy
 from nodes_page import FILE, nodes_page
 from rclpy.context import Context
