@@ -36,10 +36,8 @@ class Interface(NamedTuple):
 
 
 TOPICS = (
-    Interface("text", "std_msgs/String", "One or more sentences in the spoken language"),
-    Interface(
-        "speech", "std_msgs/String", "What a speech recogniser heard; the console asks before it signs"
-    ),
+    Interface("text", "std_msgs/String", "Sentences in the spoken language"),
+    Interface("speech", "std_msgs/String", "What a speech recogniser heard"),
     Interface(
         "sign_tokens",
         "teo_sign_msgs/SignSentence",
@@ -49,12 +47,12 @@ TOPICS = (
     Interface(
         "joint_trajectory",
         "trajectory_msgs/JointTrajectory",
-        "All commanded joints, each message to a standstill; stamped when it continues the motion before",
+        "All commanded joints, to a standstill; stamped if it continues a motion",
     ),
     Interface(
         "LIMB/joint_trajectory",
         "trajectory_msgs/JointTrajectory",
-        "One of `head`, `trunk`, `left_arm`, `right_arm`, `left_hand`, `right_hand`; the newest command wins",
+        "`head`, `trunk`, `left_arm`, … alone; the newest command wins",
         "*/joint_trajectory",
     ),
     Interface(
@@ -65,7 +63,7 @@ TOPICS = (
     Interface(
         "speed_scaling_input",
         "control_msgs/SpeedScalingFactor",
-        "Speed of signing, 0 to 1, also while moving; 0 pauses",
+        "Speed, 0 to 1; 0 pauses",
     ),
     Interface(
         "controller_state",
@@ -76,7 +74,7 @@ TOPICS = (
     Interface(
         "dextra_setpoints",
         "std_msgs/Float64MultiArray",
-        "What TEO's real hands would receive: tendons [mm], servos [deg]; latched",
+        "What TEO's real hands would receive [mm], [deg]; latched",
     ),
     Interface("camera/color/image_raw", "sensor_msgs/Image", "Colour; also `/compressed`", "camera/*"),
     Interface(
@@ -118,12 +116,12 @@ ACTIONS = (
     Interface(
         "execute_sentence",
         "teo_sign_msgs/ExecuteSentence",
-        "Sign one sentence, in the same queue; cancelling brings the robot to rest",
+        "Sign one sentence, in the same queue",
     ),
     Interface(
         "follow_joint_trajectory",
         "control_msgs/FollowJointTrajectory",
-        "As joint_trajectory_controller serves it; the executor asks if `trajectory_interface` is `action`",
+        "As joint_trajectory_controller; called if `trajectory_interface` is `action`",
     ),
     Interface(
         "LIMB/follow_joint_trajectory",
@@ -222,7 +220,8 @@ def _table_head(names: Sequence[str]) -> tuple[str, str]:
 
 
 def _line(cells: Iterable[str]) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+    escaped = (cell.replace("|", r"\|") for cell in cells)
+    return f"|{'|'.join(escaped)}|"
 
 
 if __name__ == "__main__":

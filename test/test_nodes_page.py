@@ -45,10 +45,10 @@ def uses_on_the_page() -> set[Use]:
     uses = set()
     headings: list[str] = []
     for line in FILE.read_text(encoding="utf-8").partition("## Parameters")[0].splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split(" | ")]
-        if line.startswith("| name"):
+        cells = line.strip("|").split("|")
+        if line.startswith("|name|"):
             headings = cells
-        elif line.startswith("| "):
+        elif line.startswith("|`"):
             name, kind = (cell.strip("`") for cell in cells[:2])
             for end, nodes in zip(headings[2:4], cells[2:4], strict=True):
                 uses |= {Use(node, end, name, kind) for node in nodes.split(", ") if node}
