@@ -57,7 +57,7 @@ lint: setup ## style, types
 docs: setup ## the pages of docs/ and of the API, in out/docs/
 	@$(ENV) NO_MKDOCS_2_WARNING=1 mkdocs build --strict --quiet
 
-bench: setup ## the figures of the README
+bench: setup ## the figures of docs/figures.md
 	@$(ENV) PYTHONPATH="$$PWD/scripts:$$PWD/test/support:$$PYTHONPATH" python studio/bench/run.py
 
 export TEXT OUT ROBOT LANGUAGE
