@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Planning: how long a sentence takes, and whether any of 10,000 random plans breaks a limit.
 
-Limits are looked at twice in each plan: in the exact extremes of its pieces of constant jerk, and in what a
-driver makes of its points, a quintic between each two, at ten instants of each.
+Limits are looked at in what a driver makes of a plan's points, a quintic between each two, every 2 ms.
 """
 
 from __future__ import annotations
@@ -14,24 +13,24 @@ import time
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from report import Figure, percentiles
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
-from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.trajectory.limits import MotionLimits, Reached
 from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token, parse_printed
+from teo_sim_driver import Trajectory
 
 SENTENCES = 200
 PLANS = 10_000
 _LETTERS = 10
-_LOOKS = 10
+_LOOK = 0.002  # [s]: a tenth of the time between two points
 _BATCH = 50  # plans of one random table
 _OWN = 20  # one batch in so many plans from the package's table: ways round the body take a second each
 _KINDS = {"lexical": Kind.LEXICAL, "letter": Kind.LETTER, "number": Kind.NUMBER}
@@ -57,10 +56,10 @@ class Broken(NamedTuple):
     plans: int
     refused: int
     violations: int
-    velocity: float  # the most seen, over the limit
+    beyond: float  # as those of `Reached`, as the three below
+    velocity: float
     acceleration: float
     jerk: float
-    beyond: float  # the most that a position was outside its limits [rad]; negative inside
 
 
 def measure(plans: int = PLANS) -> list[Figure]:
@@ -69,15 +68,12 @@ def measure(plans: int = PLANS) -> list[Figure]:
     shares = [range(begin, min(begin + _BATCH, plans)) for begin in range(0, plans, _BATCH)]
     with multiprocessing.get_context("spawn").Pool(os.cpu_count()) as pool:
         batches = pool.map(_random_plans, shares, chunksize=4)
-    velocity, acceleration, jerk, beyond = _worst(batches)
+    worst = _worst(batches)
     total = Broken(
         plans=sum(batch.plans for batch in batches),
         refused=sum(batch.refused for batch in batches),
         violations=sum(batch.violations for batch in batches),
-        velocity=velocity,
-        acceleration=acceleration,
-        jerk=jerk,
-        beyond=beyond,
+        **worst._asdict(),
     )
     figures.append(Figure(f"limit violations in {total.plans} random plans", str(total.violations)))
     figures.append(
@@ -151,56 +147,18 @@ def _random_plans(numbers: range) -> Broken:
 
 
 def check(plan: Plan) -> Broken:
-    """What one plan does to the limits, also between its points."""
-    limits = MotionLimits.of_robot()
-    reached = [motion.extremes() for motion in plan.motions]
-    position, velocity, acceleration, jerk = _interpolated(plan)
-    beyond = max(
-        float((limits.lower - position).max()),
-        float((position - limits.upper).max()),
-        max(low - item.least for low, item in zip(limits.lower, reached, strict=True)),
-        max(item.greatest - high for high, item in zip(limits.upper, reached, strict=True)),
-    )
-    fastest = max(
-        float((np.abs(velocity) / limits.velocity).max()),
-        max(item.velocity / limit for item, limit in zip(reached, limits.velocity, strict=True)),
-    )
-    strongest = max(
-        float((np.abs(acceleration) / limits.acceleration).max()),
-        max(item.acceleration / limit for item, limit in zip(reached, limits.acceleration, strict=True)),
-    )
-    jerkiest = max(
-        float((np.abs(jerk) / limits.jerk).max()),
-        max(item.jerk / limit for item, limit in zip(reached, limits.jerk, strict=True)),
-    )
+    """What a driver that executes a plan does to the limits."""
+    path = Trajectory.quintic(*(values.copy() for values in vars(plan.samples).values()))
+    times = np.arange(0.0, plan.duration + 4.0 * _LOOK, _LOOK)
+    reached = MotionLimits.of_robot().reached(path.states(times).positions, _LOOK)
     # Rounding, and for positions the 1.5e-5 rad of one encoder count.
-    broken = (beyond > 1.5e-5) + sum(share > 1.0 + 1e-6 for share in (fastest, strongest, jerkiest))
-    return Broken(1, 0, int(broken), fastest, strongest, jerkiest, beyond)
+    broken = (reached.beyond > 1.5e-5) + sum(share > 1.0 + 1e-6 for share in reached[1:])
+    return Broken(1, 0, int(broken), *reached)
 
 
-def _interpolated(plan: Plan) -> tuple[NDArray[np.float64], ...]:
-    """Position, velocity, acceleration, jerk of the quintics between points. Shape (looks, n - 1, 28)."""
-    h = np.diff(plan.times)[:, None]
-    p, d = plan.positions[:-1], np.diff(plan.positions, axis=0)
-    v0, v1 = plan.velocities[:-1] * h, plan.velocities[1:] * h
-    a0, a1 = plan.accelerations[:-1] * h**2, plan.accelerations[1:] * h**2
-    c3 = 10.0 * d - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1
-    c4 = -15.0 * d + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1
-    c5 = 6.0 * d - 3.0 * v0 - 3.0 * v1 - 0.5 * a0 + 0.5 * a1
-    s = np.linspace(0.0, 1.0, _LOOKS + 1)[:, None, None]
-    position = p + s * (v0 + s * (a0 / 2.0 + s * (c3 + s * (c4 + s * c5))))
-    velocity = (v0 + s * (a0 + s * (3.0 * c3 + s * (4.0 * c4 + s * 5.0 * c5)))) / h
-    acceleration = (a0 + s * (6.0 * c3 + s * (12.0 * c4 + s * 20.0 * c5))) / h**2
-    jerk = (6.0 * c3 + s * (24.0 * c4 + s * 60.0 * c5)) / h**3
-    return position, velocity, acceleration, jerk
-
-
-def _worst(found: list[Broken]) -> tuple[float, float, float, float]:
-    if not found:
-        return 0.0, 0.0, 0.0, -np.inf
-    columns = list(zip(*found, strict=True))
-    velocity, acceleration, jerk, beyond = (float(max(column)) for column in columns[3:])
-    return velocity, acceleration, jerk, beyond
+def _worst(found: list[Broken]) -> Reached:
+    """The most of each, of one or more."""
+    return Reached(*np.max([item[3:] for item in found], axis=0).tolist())
 
 
 def _random_tokens(generator: np.random.Generator, table: dict[str, Sign]) -> list[Token]:

@@ -8,17 +8,17 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from executed_motion import executed, most_of_limits
-from queue_world import World
 
+from executed_motion import STEP, executed
+from queue_world import World
 from teo_lut_executor.execution.events import Preemption, QueueSettings
 from teo_signs.sign import Sign
 
 
 def assert_within_limits(world: World) -> None:
     """What the driver makes of all that was sent; it must refuse nothing."""
-    most = most_of_limits(executed(world), world.planner.limits)
-    assert (most <= 1.001).all(), f"velocity, acceleration, jerk over the limit: {most}"
+    _, *most = world.planner.limits.reached(executed(world), STEP)
+    assert max(most) <= 1.001, f"velocity, acceleration, jerk over the limit: {most}"
 
 
 @pytest.mark.parametrize("opening", [0.4, 0.413])

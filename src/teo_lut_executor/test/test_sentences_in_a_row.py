@@ -8,8 +8,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from queue_world import TICK, World
 
+from queue_world import TICK, World
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import (
     Activity,

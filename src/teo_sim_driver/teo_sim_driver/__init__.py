@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulated joint driver of TEO: executes joint trajectories as the robot would, or says why not."""
 
-from teo_sim_driver.checking.message import PlainTrajectory, TrajectoryLike, plain_trajectory
-from teo_sim_driver.checking.scheduling import Scheduled, validate
+from teo_sim_driver.checking.reading import Points
+from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.joint_follower import JointFollower
@@ -17,16 +17,13 @@ __all__ = [
     "JointFollower",
     "Mode",
     "MotionState",
-    "PlainTrajectory",
+    "Points",
     "PositionDirect",
     "Refusal",
     "Rules",
-    "Scheduled",
     "Source",
     "Trajectory",
     "TrajectoryError",
-    "TrajectoryLike",
-    "plain_trajectory",
+    "check",
     "position_direct",
-    "validate",
 ]

@@ -4,15 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 import numpy as np
 
 from teo_description import JointLimits
-from teo_sim_driver.checking.message import TrajectoryLike
-from teo_sim_driver.checking.reading import MessageFields, Points
+from teo_sim_driver.checking.reading import Points
 from teo_sim_driver.checking.scheduling import schedule
-from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import DriverError, Refusal, TrajectoryError
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source, Tally
 from teo_sim_driver.gate import Gate
@@ -37,7 +33,6 @@ class JointFollower:
         limits: JointLimits,
         start: FloatArray,
         period: float,
-        held: Collection[str] = (),
         rules: Rules | None = None,
         braking: Braking = DEFAULT_BRAKING,
     ) -> None:
@@ -47,7 +42,6 @@ class JointFollower:
             limits: Of the joints that are commanded.
             start: Their positions now [rad]. Shape (joints,).
             period: Usual time between two steps [s].
-            held: Names of joints that the robot has and that are never moved.
             rules: Limits on messages; may be exchanged later.
             braking: What slowing down and speeding up may add; may be exchanged later.
 
@@ -63,7 +57,6 @@ class JointFollower:
         self.rules = rules or Rules()
         self.braking = braking
         self.limits = limits
-        self._held = held
         self._guard = StepGuard(limits)
         self._clock = PathClock(period)
         self.step_duration = 0.0
@@ -104,20 +97,6 @@ class JointFollower:
             asked = MotionState(guarded.positions, velocities, np.zeros_like(moved))
         self._sent = asked
         return asked
-
-    def accept(self, message: TrajectoryLike, now: int) -> Trajectory:
-        """Check a message and take its trajectory: `check` and `take` in one.
-
-        Raises:
-            TrajectoryError: refused; whatever was going on goes on.
-        """
-        try:
-            points = check(MessageFields(message), limits=self.limits, rules=self.rules, held=self._held)
-        except TrajectoryError as refusal:
-            self.count_refusal(refusal)
-            raise
-        self.take(points, now)
-        return self._path.trajectory
 
     def take(self, points: Points, now: int, source: Source = Source.NONE, group: str = "") -> Command:
         """Take a checked trajectory in place of what its joints do at present, from its start time on.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from array import array
 from collections.abc import Callable
 
 import numpy as np
@@ -16,12 +15,12 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from teo_sign_msgs.msg import DriverState
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectory
 
+from driver_messages import trajectory_message
 from teo_description import JointLimits
 from teo_description.humanoid import Humanoid, load_humanoid
 from teo_names import ALL_JOINTS
-from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.node.driver_node import DriverNode
 
@@ -47,15 +46,11 @@ def home(humanoid: Humanoid) -> NDArray[np.float64]:
 
 
 @pytest.fixture(scope="module")
-def new_follower(
-    humanoid: Humanoid, limits: JointLimits, home: NDArray[np.float64]
-) -> Callable[..., JointFollower]:
+def new_follower(limits: JointLimits, home: NDArray[np.float64]) -> Callable[..., JointFollower]:
     """A follower that stands at home and has made its first step at START."""
 
     def make(**arguments: object) -> JointFollower:
-        follower = JointFollower(
-            **{"limits": limits, "start": home, "period": PERIOD, "held": humanoid.standing, **arguments}
-        )
+        follower = JointFollower(**{"limits": limits, "start": home, "period": PERIOD, **arguments})
         follower.step(START)
         return follower
 
@@ -65,7 +60,7 @@ def new_follower(
 @pytest.fixture(scope="module")
 def swing(
     humanoid: Humanoid, limits: JointLimits, home: NDArray[np.float64]
-) -> Callable[..., PlainTrajectory]:
+) -> Callable[..., JointTrajectory]:
     """From home, one joint to an angle and back as (4 u (1 - u))^3: no acceleration at either end."""
 
     def make(
@@ -73,7 +68,7 @@ def swing(
         angle: float = -0.5,
         duration: float = 4.0,
         **stamp: int,
-    ) -> PlainTrajectory:
+    ) -> JointTrajectory:
         times = np.arange(1, round(duration / 0.1) + 1) * 0.1
         shape = np.zeros(len(home))
         shape[limits.names.index(joint)] = angle
@@ -81,39 +76,17 @@ def swing(
         derivatives = [shape * curve.deriv(order)(times)[:, None] for order in range(3)]
         derivatives[0] += home
         derivatives[1][-1] = 0.0
-        return plain_trajectory(limits.names, times, *derivatives, **stamp)
+        return trajectory_message(limits.names, times, *derivatives, **stamp)
 
     return make
 
 
 @pytest.fixture(scope="module")
-def as_ros() -> Callable[[PlainTrajectory], JointTrajectory]:
-    """Makes a ROS message of a plain one."""
-    return _as_ros
-
-
-def _as_ros(plain):
-    message = JointTrajectory(joint_names=list(plain.joint_names))
-    message.header.stamp.sec = plain.header.stamp.sec
-    message.header.stamp.nanosec = plain.header.stamp.nanosec
-    for point in plain.points:
-        ros = JointTrajectoryPoint(
-            positions=array("d", point.positions),
-            velocities=array("d", point.velocities),
-            accelerations=array("d", point.accelerations),
-        )
-        ros.time_from_start.sec = point.time_from_start.sec
-        ros.time_from_start.nanosec = point.time_from_start.nanosec
-        message.points.append(ros)
-    return message
-
-
-@pytest.fixture(scope="module")
-def one_way(swing: Callable[..., PlainTrajectory]) -> Callable[..., JointTrajectory]:
-    """The first half of a swing as a ROS message; it ends at rest at its angle."""
+def one_way(swing: Callable[..., JointTrajectory]) -> Callable[..., JointTrajectory]:
+    """The first half of a swing; it ends at rest at its angle."""
 
     def make(**arguments: object) -> JointTrajectory:
-        message = _as_ros(swing(**arguments))
+        message = swing(**arguments)
         del message.points[len(message.points) // 2 :]
         return message
 

@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
+from rclpy.serialization import serialize_message
 
+from driver_messages import trajectory_message
 from teo_description.humanoid import load_humanoid
 from teo_names import COMMANDED_JOINTS, LEFT_ARM, RIGHT_ARM
-from teo_sim_driver.checking.message import plain_trajectory
-from teo_sim_driver.checking.reading import MessageFields
 from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.follower_report import Mode, Source
@@ -37,8 +37,8 @@ class Robot:
         joints = GROUPS[group].joints
         goal = [self.home[column(name)] + (angle if name == joint else 0.0) for name in joints]
         still = np.zeros((1, len(joints)))
-        message = plain_trajectory(joints, [duration], [goal], still, still, stamp=stamp)
-        points = check(MessageFields(message), limits=self.follower.limits, rules=Rules(), group=joints)
+        message = trajectory_message(joints, [duration], [goal], still, still, stamp=stamp)
+        points = check(serialize_message(message), limits=self.follower.limits, rules=Rules(), group=joints)
         return self.follower.take(points, self.now, Source.TOPIC, group)
 
     def run(self, seconds):
@@ -169,9 +169,9 @@ def test_stop_stops_every_limb(robot):
 
 def test_joints_of_another_limb_are_refused_and_so_are_missing_ones(limits):
     for names, code in ((RIGHT_ARM, "other_group"), (LEFT_ARM[:5], "missing_joints")):
-        message = plain_trajectory(names, [1.0], np.zeros((1, len(names))))
+        message = trajectory_message(names, [1.0], np.zeros((1, len(names))))
         with pytest.raises(TrajectoryError) as refusal:
-            check(MessageFields(message), limits=limits, rules=Rules(), group=LEFT_ARM)
+            check(serialize_message(message), limits=limits, rules=Rules(), group=LEFT_ARM)
         assert refusal.value.code == code
 
 
@@ -185,14 +185,14 @@ def test_random_commands_of_limbs_and_body_break_no_limit_and_never_step(robot, 
         away = rng.uniform(0.0, 0.3, len(joints))
         away = np.where(home[columns] + away <= limits.upper[columns], away, -away)
         still = np.zeros((1, len(joints)))
-        message = plain_trajectory(
+        message = trajectory_message(
             joints,
             [rng.uniform(1.5, 4.0)],
             [np.clip(home[columns] + away, limits.lower[columns], None)],
             still,
             still,
         )
-        points = check(MessageFields(message), limits=limits, rules=Rules(), group=joints)
+        points = check(serialize_message(message), limits=limits, rules=Rules(), group=joints)
         try:
             command = robot.follower.take(points, robot.now, Source.ACTION, name)
         except TrajectoryError as refusal:

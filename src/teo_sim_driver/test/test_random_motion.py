@@ -7,11 +7,12 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from builtin_interfaces.msg import Duration, Time
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from driver_messages import send, trajectory_message
 from teo_description.humanoid import load_humanoid
-from teo_sim_driver.checking.message import PlainTime, plain_trajectory
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.motion.path_time import SECOND, Braking
@@ -78,7 +79,7 @@ def random_message(rng, limits, start, tightness, degree=None, points=None, **st
     slower = max((np.abs(velocities) / limits.velocity).max() / tightness, 1e-3)
     knots[1] /= slower
     knots[2] /= slower**2
-    message = plain_trajectory(
+    message = trajectory_message(
         limits.names,
         np.cumsum(durations * slower),
         knots[0, 1:],
@@ -122,7 +123,7 @@ def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
     rng = np.random.default_rng(seed)
     watch = Watch(new_follower(), limits)
     message, goal = random_message(rng, limits, home, tightness)
-    trajectory = watch.follower.accept(message, watch.now)
+    trajectory = send(watch.follower, message, watch.now)
     watch.run(rng, trajectory.duration + 0.05)
     np.testing.assert_array_equal(watch.state.positions, goal)
     assert not watch.state.velocities.any()
@@ -137,7 +138,7 @@ def test_a_trajectory_over_the_speed_limit_is_refused_for_its_speed(
     rng = np.random.default_rng(seed)
     message, _ = random_message(rng, limits, home, tightness)
     with pytest.raises(TrajectoryError) as refusal:
-        new_follower().accept(message, START)
+        send(new_follower(), message, START)
     assert refusal.value.code in TOO_FAST
 
 
@@ -147,7 +148,7 @@ def test_stopping_at_any_time_breaks_no_limit_and_ends_at_rest(new_follower, lim
     rng = np.random.default_rng(seed)
     watch = Watch(new_follower(braking=Braking(rng.uniform(0.2, 20.0), rng.uniform(20.0, 500.0))), limits)
     message, _ = random_message(rng, limits, home, 1.0)
-    trajectory = watch.follower.accept(message, watch.now)
+    trajectory = send(watch.follower, message, watch.now)
     watch.run(rng, rng.uniform(0.0, trajectory.duration))
     remaining = watch.follower.cancel(watch.now)
     # From the speed v with the deceleration d and the jerk j: v / d + d / j where d is reached, 2 sqrt(v / j)
@@ -181,7 +182,7 @@ def test_whatever_comes_in_whatever_order_breaks_no_limit(new_follower, limits, 
                     rng, limits, watch.state.positions, rng.uniform(0.3, 1.1), stamp=stamp
                 )
                 try:
-                    watch.follower.accept(message, watch.now)
+                    send(watch.follower, message, watch.now)
                     accepted += 1
                 except TrajectoryError as refusal:
                     assert refusal.code in set(Refusal) - {Refusal.INTERNAL}
@@ -202,7 +203,7 @@ ODD_NAMES = [
     "AxialNeck",
     "FrontalLeftKnee",
     "LeftThumbFingerDistal",
-    "ñ\x00\ud800",
+    "ñ\x00",
     "x" * 100_000,
     "axialneck",
 ]
@@ -236,14 +237,14 @@ def spoil_field(rng, message):
 def spoil_time(rng, message):
     if message.points:
         point = message.points[_some(rng, message.points)]
-        point.time_from_start = PlainTime(
-            ODD_SECONDS[_some(rng, ODD_SECONDS)], ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
+        point.time_from_start = Duration(
+            sec=ODD_SECONDS[_some(rng, ODD_SECONDS)], nanosec=ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
         )
 
 
 def spoil_stamp(rng, message):
-    message.header.stamp = PlainTime(
-        ODD_SECONDS[_some(rng, ODD_SECONDS)], ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
+    message.header.stamp = Time(
+        sec=ODD_SECONDS[_some(rng, ODD_SECONDS)], nanosec=ODD_NANOSECONDS[_some(rng, ODD_NANOSECONDS)]
     )
 
 
@@ -295,7 +296,7 @@ def test_thousands_of_spoilt_messages_never_crash_and_always_get_a_reason(new_fo
             each(rng, message)
         watch = Watch(new_follower(), limits)
         try:
-            watch.follower.accept(message, watch.now)
+            send(watch.follower, message, watch.now)
             codes["accepted"] += 1
         except TrajectoryError as refusal:
             codes[refusal.code] += 1

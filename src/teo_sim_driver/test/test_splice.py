@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
+from driver_messages import send, trajectory_message
 from teo_names import COMMANDED_JOINTS
-from teo_sim_driver.checking.message import plain_trajectory
 from teo_sim_driver.errors import TrajectoryError
 from teo_sim_driver.motion.path_time import SECOND
 
@@ -33,7 +33,7 @@ def message(home, begin, lead=0.0, **stamp):
     rows[0] = home
     rows[0][:, ELBOW], rows[1][:, ELBOW], rows[2][:, ELBOW] = angle, speed, acceleration
     rows[1:, -1] = 0.0
-    return plain_trajectory(COMMANDED_JOINTS, times - begin + lead, *rows, **stamp)
+    return trajectory_message(COMMANDED_JOINTS, times - begin + lead, *rows, **stamp)
 
 
 @pytest.mark.parametrize("ahead", [0.0, 0.2], ids=["at once", "scheduled"])
@@ -41,14 +41,14 @@ def message(home, begin, lead=0.0, **stamp):
 @pytest.mark.parametrize("moment", [0.75, 1.3])
 def test_a_sender_whose_clock_is_a_little_off_is_taken_over_smoothly(new_follower, home, moment, off, ahead):
     follower = new_follower()
-    follower.accept(message(home, 0.0), START)
+    send(follower, message(home, 0.0), START)
     states, now = [], START
     while now < START + round((moment - ahead) * SECOND):
         now += SECOND // 1000
         states.append(follower.step(now))
     # What the sender believes to be the robot's place at the start is that of a few milliseconds later.
     stamp = {"stamp": START + round(moment * SECOND)} if ahead else {}
-    follower.accept(message(home, moment + off, **stamp), now)
+    send(follower, message(home, moment + off, **stamp), now)
     while follower.trajectory is not None:
         now += SECOND // 1000
         states.append(follower.step(now))
@@ -64,14 +64,14 @@ def test_a_sender_whose_clock_is_a_little_off_is_taken_over_smoothly(new_followe
 @pytest.mark.parametrize("begin", np.arange(0.2, 2.2, 0.1))
 def test_two_that_take_over_at_the_same_moment_find_the_same_robot(new_follower, home, begin):
     follower = new_follower()
-    follower.accept(message(home, 0.0), START)
+    send(follower, message(home, 0.0), START)
     now = START
     while now < START + round((begin - 0.03) * SECOND):
         now += SECOND // 1000
         follower.step(now)
     rest = message(home, begin + SPACING, lead=SPACING, stamp=START + round(begin * SECOND))
     for _ in range(3):
-        follower.accept(rest, now)
+        send(follower, rest, now)
         now += SECOND // 1000
         follower.step(now)
     while now < START + round((begin + 0.1) * SECOND):
@@ -84,9 +84,9 @@ def test_two_that_take_over_at_the_same_moment_find_the_same_robot(new_follower,
 
 def test_farther_off_it_is_refused(new_follower, home):
     follower = new_follower()
-    follower.accept(message(home, 0.0), START)
+    send(follower, message(home, 0.0), START)
     for i in range(1, 76):
         follower.step(START + i * SECOND // 100)
     with pytest.raises(TrajectoryError) as refusal:
-        follower.accept(message(home, 0.85), START + 75 * SECOND // 100)
+        send(follower, message(home, 0.85), START + 75 * SECOND // 100)
     assert refusal.value.code == "start_mismatch"

@@ -6,10 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from builtin_interfaces.msg import Duration, Time
+from rclpy.serialization import serialize_message
 
+from driver_messages import trajectory_message
 from teo_names import LEG_JOINTS
-from teo_sim_driver.checking.message import PlainTime, plain_trajectory
-from teo_sim_driver.checking.scheduling import validate
+from teo_sim_driver.checking.scheduling import schedule
+from teo_sim_driver.checking.validation import check as check_message
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.rules import Rules
@@ -22,14 +25,9 @@ ELBOW = "FrontalRightElbow"
 def check(limits, home):
     def check(message, *, state=None, rules=None):
         where = state or MotionState.at_rest(home)
-        return validate(
-            message,
-            limits=limits,
-            rules=rules or Rules(),
-            now=NOW,
-            state_in=lambda _: where,
-            held=LEG_JOINTS,
-        )
+        given = {"limits": limits, "rules": rules or Rules()}
+        points = check_message(serialize_message(message), held=LEG_JOINTS, **given)
+        return schedule(points, now=NOW, state_in=lambda _: where, **given)
 
     return check
 
@@ -57,6 +55,10 @@ def change(field, value, point=3):
     return mutate
 
 
+def put_time(seconds, nanoseconds, point=3):
+    return change("time_from_start", Duration(sec=seconds, nanosec=nanoseconds), point)
+
+
 def put_value(field, value, point=3, column=5):
     return lambda message: put(message, point, field, column, value)
 
@@ -80,7 +82,7 @@ def drop_last_joint(message):
 
 def stamp(nanoseconds):
     def mutate(message):
-        message.header.stamp = PlainTime.of(nanoseconds)
+        message.header.stamp = Time(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
 
     return mutate
 
@@ -109,15 +111,21 @@ WRONG = {
     "too few accelerations": (change("accelerations", [0.0]), "wrong_length"),
     "accelerations alone": (only_accelerations, "accelerations_without_velocities"),
     "effort": (change("effort", [0.0] * 28), "effort_given"),
-    "nanoseconds over a second": (change("time_from_start", PlainTime(0, 1_000_000_000)), "bad_time"),
-    "a stamp with nanoseconds over a second": (
-        lambda m: setattr(m.header, "stamp", PlainTime(5, 4_000_000_000)),
+    "nanoseconds over a second": (
+        put_time(0, 1_000_000_000),
         "bad_time",
     ),
-    "a negative time": (change("time_from_start", PlainTime(-1, 0), point=0), "negative_time"),
-    "a time twice": (change("time_from_start", PlainTime(0, 300_000_000)), "times_not_increasing"),
-    "a time that goes back": (change("time_from_start", PlainTime(0, 1)), "times_not_increasing"),
-    "an absurd duration": (change("time_from_start", PlainTime(2**31 - 1, 0), point=-1), "too_long"),
+    "a stamp with nanoseconds over a second": (
+        lambda m: setattr(m.header, "stamp", Time(sec=5, nanosec=4_000_000_000)),
+        "bad_time",
+    ),
+    "a negative time": (put_time(-1, 0, point=0), "negative_time"),
+    "a time twice": (put_time(0, 300_000_000), "times_not_increasing"),
+    "a time that goes back": (put_time(0, 1), "times_not_increasing"),
+    "an absurd duration": (
+        put_time(2**31 - 1, 0, point=-1),
+        "too_long",
+    ),
     "an end that has passed": (stamp(NOW - 4_000_000_001), "ends_in_the_past"),
     "a negative stamp": (stamp(-5_000_000_000), "ends_in_the_past"),
     "a start in an hour": (stamp(NOW + 3600 * 10**9), "starts_too_late"),
@@ -138,7 +146,7 @@ WRONG = {
     "a first point due at once and elsewhere": (
         lambda m: (
             put(m, 0, "positions", 13, -0.05),
-            setattr(m.points[0], "time_from_start", PlainTime(0, 0)),
+            setattr(m.points[0], "time_from_start", Duration(sec=0, nanosec=0)),
         ),
         "start_mismatch",
     ),
@@ -208,7 +216,7 @@ def test_a_cubic_that_swings_out_of_the_limits_between_good_points_is_refused(li
     positions[:, elbow] = [limits.upper[elbow] - 0.01, limits.upper[elbow] - 0.01, 0.0]
     velocities = np.zeros((3, 28))
     velocities[0, elbow], velocities[1, elbow] = 0.5, -0.5
-    refusal = refused(plain_trajectory(limits.names, [1.0, 1.5, 3.0], positions, velocities))
+    refusal = refused(trajectory_message(limits.names, [1.0, 1.5, 3.0], positions, velocities))
     assert refusal.code == "position_between_points"
     assert "between points 0 and 1" in refusal.sentence
     assert "FrontalNeck" in refusal.sentence
@@ -219,7 +227,7 @@ def test_a_quintic_that_is_too_fast_between_slow_points_is_refused(limits, home,
     positions = np.tile(home, (2, 1))
     positions[1, elbow] = -0.8  # in 1 s: 0.8 rad/s on average, and 1.5 rad/s in the middle
     zeros = np.zeros((2, 28))
-    message = plain_trajectory(limits.names, [1.0, 2.0], positions, zeros, zeros)
+    message = trajectory_message(limits.names, [1.0, 2.0], positions, zeros, zeros)
     refusal = refused(message)
     assert refusal.code == "velocity_between_points"
     assert "between points 0 and 1" in refusal.sentence
@@ -232,7 +240,7 @@ def test_the_way_to_the_first_point_must_stay_within_the_limits(limits, home, re
     moving = np.zeros(28)
     moving[neck] = 0.5
     state = MotionState(where, moving, np.zeros(28))
-    message = plain_trajectory(limits.names, [1.0], home[None], np.zeros((1, 28)))
+    message = trajectory_message(limits.names, [1.0], home[None], np.zeros((1, 28)))
     assert refused(message, state=state).code == "start_leaves_limits"
 
 
@@ -240,32 +248,32 @@ def test_straight_lines_at_exactly_the_greatest_speed_are_accepted(limits, home,
     positions = np.tile(home, (2, 1))
     elbow = limits.names.index(ELBOW)
     positions[:, elbow] = [-limits.velocity[elbow], 0.0]
-    check(plain_trajectory(limits.names, [1.0, 2.0], positions))
+    check(trajectory_message(limits.names, [1.0, 2.0], positions))
 
 
 def test_a_point_exactly_on_a_limit_is_accepted(limits, home, check):
     positions = home[None].copy()
     elbow = limits.names.index(ELBOW)
     positions[0, elbow] = limits.lower[elbow]
-    check(plain_trajectory(limits.names, [5.0], positions, np.zeros((1, 28)), np.zeros((1, 28))))
+    check(trajectory_message(limits.names, [5.0], positions, np.zeros((1, 28)), np.zeros((1, 28))))
 
 
 def test_a_first_point_due_at_once_is_taken_as_where_the_robot_is(limits, home, check):
     positions = np.tile(home, (2, 1))
     positions[0] += 0.005  # within the tolerance, and at the fingers' lower limit inside
     positions[1] = home
-    scheduled = check(plain_trajectory(limits.names, [0.0, 1.0], positions))
+    scheduled = check(trajectory_message(limits.names, [0.0, 1.0], positions))
     np.testing.assert_array_equal(scheduled.trajectory.positions[0], home)
     assert scheduled.trajectory.duration == 1.0
 
 
 def test_a_single_point_due_at_once_where_the_robot_rests_is_a_hold(limits, home, check):
-    assert check(plain_trajectory(limits.names, [0.0], home[None])).trajectory.duration == 0.0
+    assert check(trajectory_message(limits.names, [0.0], home[None])).trajectory.duration == 0.0
 
 
 def test_a_single_point_due_at_once_cannot_stop_a_moving_robot(limits, home, refused):
     moving = MotionState(home, np.full(28, 0.1), np.zeros(28))
-    refusal = refused(plain_trajectory(limits.names, [0.0], home[None]), state=moving)
+    refusal = refused(trajectory_message(limits.names, [0.0], home[None]), state=moving)
     assert refusal.code == "start_mismatch"
 
 
@@ -299,7 +307,7 @@ def test_a_start_in_the_future_is_scheduled(swing, check):
 
 def test_joints_may_be_left_out_where_the_parameter_allows_it(check):
     rules = Rules(allow_partial_joints_goal=True)
-    message = plain_trajectory([ELBOW], [1.0], [[-0.3]], [[0.0]])
+    message = trajectory_message([ELBOW], [1.0], [[-0.3]], [[0.0]])
     assert check(message, rules=rules).trajectory.positions[-1].tolist() == [-0.3]
 
 

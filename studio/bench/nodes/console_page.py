@@ -23,7 +23,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from trajectory_msgs.msg import JointTrajectory
 
-from nodes.driver_rate import as_message, cpu_seconds, wave
+from nodes.driver_rate import cpu_seconds, wave
 from report import Figure
 from teo_bringup.graph import NODES, Graph, executable_of
 
@@ -122,7 +122,7 @@ def _move() -> None:
     try:
         while not commands.get_subscription_count():
             executor.spin_once(timeout_sec=0.1)
-        commands.publish(as_message(wave(2 * WATCHED)))
+        commands.publish(wave(2 * WATCHED))
         executor.spin_once(timeout_sec=0.5)
     finally:
         node.destroy_node()

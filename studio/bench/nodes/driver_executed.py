@@ -1,20 +1,18 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the driver executes of random sentences, judged by code that shares nothing with planner and driver.
+"""What the driver executes of random sentences, judged by its positions alone.
 
 `python -m nodes.driver_executed [SENTENCES]` draws sentences from the package's table, plans them, has the
 driver's core execute them, and looks at random moments of each: four positions, a millisecond apart. Their
-differences are velocity, acceleration and jerk; limits of position and velocity come from the URDF's XML,
-those of acceleration and jerk are written here; MuJoCo, which neither planner nor driver uses for it, says
-which parts of the robot touch. What has been judged is kept for as long as the code is the same, so that a
-run that was cut off goes on where it was.
+differences are velocity, acceleration and jerk (`MotionLimits.reached`); MuJoCo, which neither planner nor
+driver uses for it, says which parts of the robot touch. What has been judged is kept for as long as the code
+is the same, so that a run that was cut off goes on where it was.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-import xml.etree.ElementTree as ET
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
@@ -25,16 +23,17 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.progress import track
 
+from executed_motion import following
 from kept import kept_folder
 from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.sentence_form import SentenceForm, SentenceType
-from teo_names import COMMANDED_JOINTS, HOME, LEG_JOINTS, joint_limits, urdf_text
+from teo_motion.trajectory.limits import MotionLimits
+from teo_names import COMMANDED_JOINTS, HOME, urdf_text
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.tokens import Kind, Token
-from teo_sim_driver import JointFollower, plain_trajectory
 
 SENTENCES = 10_000
 _SHORT = 100  # sentences among the other benches
@@ -42,8 +41,6 @@ MOMENTS = 100  # of each sentence: 10^6 in all, since another sentence shows mor
 _BURST, _APART = 4, 0.001  # positions at a moment; time between two [s]
 _SECOND = 1_000_000_000
 
-# What teo_motion's README promises [rad/s^2], [rad/s^3].
-_ACCELERATION, _JERK = 7.0, 105.0
 # The least significant digit of a position of some radians, seen through three differences.
 _ROUNDING = {"position": 1.5e-5, "velocity": 1e-6, "acceleration": 1e-6, "jerk": 1e-5}
 _NEAR = 0.002  # [m]; parts that are nearer than this are looked at
@@ -78,18 +75,10 @@ class Judged:
 
 
 class Judge:
-    """Limits from the XML, distances from MuJoCo."""
+    """The limits of the motion, and distances by MuJoCo."""
 
     def __init__(self) -> None:
-        limits = {
-            joint.get("name"): joint.find("limit").attrib  # type: ignore[union-attr]
-            for joint in ET.fromstring(urdf_text()).iter("joint")
-            if joint.get("name") in COMMANDED_JOINTS
-        }
-        rows = [limits[name] for name in COMMANDED_JOINTS]
-        self._lower, self._upper, self._velocity = (
-            np.array([float(row[key]) for row in rows]) for key in ("lower", "upper", "velocity")
-        )
+        self._limits = MotionLimits.of_robot()
         spec = mujoco.MjSpec.from_string(urdf_text())
         for geom in spec.geoms:
             geom.margin = _NEAR / 2.0
@@ -113,13 +102,8 @@ class Judge:
 
     def judge(self, judged: Judged, positions: NDArray[np.float64]) -> None:
         """Look at the moments of a sentence. Shape (moments, burst, joints)."""
-        judged.beyond = float(max((self._lower - positions).max(), (positions - self._upper).max()))
-        speed, acceleration, jerk = (
-            np.abs(np.diff(positions, order, axis=1)).max(axis=(0, 1)) / _APART**order for order in (1, 2, 3)
-        )
-        judged.velocity = float((speed / self._velocity).max())
-        judged.acceleration = float(acceleration.max() / _ACCELERATION)
-        judged.jerk = float(jerk.max() / _JERK)
+        reached = self._limits.reached(positions, _APART)
+        judged.beyond, judged.velocity, judged.acceleration, judged.jerk = reached
         for moment in positions[:, 0]:
             distances, pairs = self._near(moment)
             if distances.size and distances.min() < judged.nearest:
@@ -181,13 +165,7 @@ def _executed(number: int, judge: Judge, planner: Planner, table: Lut) -> Judged
     except PlanError as error:
         judged.refused = error.code
         return judged
-    follower = JointFollower(
-        limits=joint_limits(COMMANDED_JOINTS), start=plan.positions[0], period=0.01, held=LEG_JOINTS
-    )
-    follower.step(0)
-    follower.accept(
-        plain_trajectory(COMMANDED_JOINTS, plan.times, plan.positions, plan.velocities, plan.accelerations), 0
-    )
+    follower = following(plan, period=0.01)
     judged.duration = plan.duration
     seen, last = [], 0
     for moment in np.sort(rng.uniform(0.0, plan.duration, MOMENTS)):

@@ -14,15 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.progress import track
 
+from executed_motion import following
 from nodes.driver_executed import one_hand, random_tokens
 from report import Figure
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
-from teo_names import BODY_JOINTS, COMMANDED_JOINTS, LEG_JOINTS, joint_limits
+from teo_names import BODY_JOINTS, COMMANDED_JOINTS
 from teo_signs.look_up_table import Lut, default_lut_directory
-from teo_sim_driver import JointFollower, plain_trajectory
 from teo_sim_driver.parameters import DEFAULT_FOLLOWING_ERROR
 from teo_sim_driver.plants.physics import PhysicsPlant
 from teo_sim_driver.plants.plant import IdealPlant
@@ -68,13 +68,7 @@ def measure(sentences: int = SENTENCES) -> list[Figure]:
 
 
 def _followed(plan: Plan, plant: IdealPlant | PhysicsPlant) -> Followed:
-    follower = JointFollower(
-        limits=joint_limits(COMMANDED_JOINTS), start=plan.positions[0], period=PERIOD, held=LEG_JOINTS
-    )
-    follower.step(0)
-    follower.accept(
-        plain_trajectory(COMMANDED_JOINTS, plan.times, plan.positions, plan.velocities, plan.accelerations), 0
-    )
+    follower = following(plan, PERIOD)
     errors = []
     sag, still = np.zeros(_BODY), 0
     torque = np.zeros(len(COMMANDED_JOINTS))

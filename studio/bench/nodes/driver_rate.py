@@ -23,12 +23,11 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+from trajectory_msgs.msg import JointTrajectory
 
+from driver_messages import trajectory_message
 from report import Figure, percentiles
 from teo_names import COMMANDED_JOINTS, HOME, joint_limits
-from teo_sim_driver.checking.cdr import CdrTrajectory
-from teo_sim_driver.checking.message import PlainTrajectory, plain_trajectory
 from teo_sim_driver.checking.validation import check
 from teo_sim_driver.follower_report import Mode
 from teo_sim_driver.joint_follower import JointFollower
@@ -49,7 +48,7 @@ def measure() -> list[Figure]:
     return [*_follower(), *_node()]
 
 
-def wave(duration: float, reach: NDArray[np.float64] | float = 0.1) -> PlainTrajectory:
+def wave(duration: float, reach: NDArray[np.float64] | float = 0.1) -> JointTrajectory:
     """All joints away from home and back, again and again, by 0.1 rad at up to 40 % of their greatest speed.
 
     Args:
@@ -68,20 +67,20 @@ def wave(duration: float, reach: NDArray[np.float64] | float = 0.1) -> PlainTraj
     speed = np.gradient(shape, times)
     speed[-1] = 0.0
     positions = home + shape[:, None] * reach
-    return plain_trajectory(COMMANDED_JOINTS, times, positions, speed[:, None] * reach)
+    return trajectory_message(COMMANDED_JOINTS, times, positions, speed[:, None] * reach)
 
 
 def _follower() -> list[Figure]:
     home = np.array([HOME[name] for name in COMMANDED_JOINTS])
     long = wave(_LONG)
-    data = serialize_message(as_message(long))
+    data = serialize_message(long)
     checks: list[float] = []
     takes: list[float] = []
     for _ in range(10):
         follower = JointFollower(limits=joint_limits(), start=home, period=PERIOD)
         follower.step(0)
         begin = time.perf_counter()
-        points = check(CdrTrajectory(data), limits=joint_limits(), rules=Rules())
+        points = check(data, limits=joint_limits(), rules=Rules())
         checks.append(time.perf_counter() - begin)
         begin = time.perf_counter()
         follower.take(points, 0)
@@ -121,7 +120,7 @@ def _node() -> list[Figure]:
     try:
         if not wait(lambda: bool(heard) and commands.get_subscription_count() > 0, _TIMEOUT):
             raise TimeoutError(f"no joint states within {_TIMEOUT} s")
-        commands.publish(as_message(wave(_SHORT)))
+        commands.publish(wave(_SHORT))
         if not wait(lambda: any(heard[-1].velocity), _TIMEOUT):
             raise TimeoutError(f"the driver did not move within {_TIMEOUT} s")
         heard.clear()
@@ -160,7 +159,7 @@ def _long_messages(
     wait(goals.server_is_ready, _TIMEOUT)
     for count in (2_000, 6_000, 20_000, 100_000):
         # Every point at the same time: it is refused, after it was read.
-        message = as_message(wave(2 * PERIOD))
+        message = wave(2 * PERIOD)
         message.points = message.points[:1] * count
         data = serialize_message(message)
         gaps = []
@@ -191,17 +190,6 @@ def _stamp(state: JointState) -> float:
 
 def _heard_after(heard: list[JointState], end: float) -> bool:
     return bool(heard) and _stamp(heard[-1]) > end
-
-
-def as_message(plain: PlainTrajectory) -> JointTrajectory:
-    """The same as a ROS message."""
-    message = JointTrajectory(joint_names=list(plain.joint_names))
-    for point in plain.points:
-        ros = JointTrajectoryPoint(positions=list(point.positions), velocities=list(point.velocities))
-        ros.time_from_start.sec = point.time_from_start.sec
-        ros.time_from_start.nanosec = point.time_from_start.nanosec
-        message.points.append(ros)
-    return message
 
 
 def cpu_seconds(pid: int) -> float:

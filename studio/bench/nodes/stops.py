@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether a robot that is stopped while it signs keeps every limit, as the driver executes it.
 
-`PYTHONPATH=../test/support python -m nodes.stops [STOPS [SEED]]` cancels random sentences of the package's
+`python -m nodes.stops [STOPS [SEED]]` cancels random sentences of the package's
 table at random moments, has the driver's core execute what the executor's queue has sent, and judges
 velocity, acceleration and jerk by differences of positions a millisecond apart. No DDS: time is simulated.
 Beside them stand stops of robots that do not follow, which are stopped from where joint states showed them.
@@ -14,21 +14,20 @@ import sys
 from collections.abc import Iterator
 
 import numpy as np
-from executed_motion import executed, most_of_limits
-from numpy.typing import NDArray
-from queue_world import World
 from rich.progress import track
 
+from driver_messages import send
+from executed_motion import STEP, executed, following
+from queue_world import World
 from report import Figure
-from teo_lut_executor.node.messages import to_stop, to_trajectory
+from teo_lut_executor.node.messages import to_stop
 from teo_motion.planner import Planner
 from teo_motion.trajectory.ruckig_segment import State
 from teo_motion.trajectory.stopping import stop
-from teo_names import COMMANDED_JOINTS, joint_limits
+from teo_names import COMMANDED_JOINTS
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.tokens import parse_printed
-from teo_sim_driver import JointFollower
 from teo_sim_driver.errors import TrajectoryError
 
 STOPS = 160
@@ -52,7 +51,7 @@ def measure(stops: int = STOPS, seed: int = _SEED) -> list[Figure]:
         world, duration = _stopped(table, glosses, dice)
         durations.append(duration)
         try:
-            most.append(most_of_limits(executed(world), world.planner.limits))
+            most.append(world.planner.limits.reached(executed(world), STEP)[1:])
         except TrajectoryError as refusal:
             refusals.append(refusal.code)
     worst = np.max(most, axis=0)
@@ -72,7 +71,7 @@ def _from_joint_states(
 ) -> Iterator[Figure]:
     """Stops with a single point, planned from a state that is some hundredths of a second old."""
     planner = Planner(table)
-    most: list[NDArray[np.float64]] = []
+    most: list[tuple[float, ...]] = []
     refusals: list[str] = []
     while len(most) + len(refusals) < stops:
         try:
@@ -86,21 +85,19 @@ def _from_joint_states(
         end, lead = stop(
             State(position=position, velocity=velocity, acceleration=plan.at(moment)[2]), planner.limits
         )
-        follower = JointFollower(limits=joint_limits(COMMANDED_JOINTS), start=plan.positions[0], period=0.001)
-        follower.step(0)
-        follower.accept(to_trajectory(COMMANDED_JOINTS, plan.samples, start=0.0), 0)
+        follower = following(plan, period=0.001)
         now = round(moment * 1e9)
         for time in range(0, now - 4 * _MILLISECOND, 10 * _MILLISECOND):
             follower.step(time)
         path = [follower.step(now - before * _MILLISECOND).positions for before in (3, 2, 1, 0)]
         try:
-            follower.accept(to_stop(COMMANDED_JOINTS, end, lead), now)
+            send(follower, to_stop(COMMANDED_JOINTS, end, lead), now)
         except TrajectoryError as refusal:
             refusals.append(refusal.code)
             continue
         times = range(now + _MILLISECOND, now + round(lead * 1e9), _MILLISECOND)
         path += [follower.step(time).positions for time in times]
-        most.append(most_of_limits(np.array(path), planner.limits))
+        most.append(planner.limits.reached(np.array(path), STEP)[1:])
     what = "stops from joint states"
     yield Figure(f"{what}, of {stops} over a limit", str(int((np.max(most, axis=1) > _ROUNDING).sum())))
     yield Figure(f"{what}, refused by the driver", f"{len(refusals)} {' '.join(refusals)}".strip())

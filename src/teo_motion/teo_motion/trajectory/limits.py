@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,17 @@ DEFAULT_JERK = 105.0
 # Share of the limits that segments are given [1]: positions are rounded to 2e-16 rad, which a driver's period
 # to the third power divides to 1e-10 rad/s^3.
 _HAIR = 1.0 - 1e-9
+
+
+class Reached(NamedTuple):
+    """The most of its limits that a motion reaches."""
+
+    beyond: float
+    """How far a position is outside its limits [rad]; negative inside."""
+    velocity: float
+    """Over the limit [1], as the two below."""
+    acceleration: float
+    jerk: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -106,6 +118,21 @@ class MotionLimits:
             jerk=self.jerk * _HAIR,
         )
 
+    def reached(self, positions: NDArray[np.float64], step: float) -> Reached:
+        """Judge an executed motion by differences of its positions alone, whatever it says of itself.
+
+        Args:
+            positions: At equal steps of time [rad]; of several stretches, each by itself. Shape
+                (..., steps, n), at least four steps.
+            step: Time between two positions [s].
+        """
+        shares = [
+            float((np.abs(np.diff(positions, order, axis=-2)) / limit).max() / step**order)
+            for order, limit in enumerate((self.velocity, self.acceleration, self.jerk), start=1)
+        ]
+        beyond = max((self.lower - positions).max(), (positions - self.upper).max())
+        return Reached(float(beyond), *shares)
+
     def least_times(self, distances: NDArray[np.float64], columns: list[int]) -> NDArray[np.float64]:
         """Least times in which joints move from rest to rest.
 
@@ -120,12 +147,18 @@ class MotionLimits:
             Durations [s]. Shape (m,).
         """
         distance = np.abs(distances)
-        speed, push, jerk = (values[columns] for values in (self.velocity, self.acceleration, self.jerk))
+        speed, acceleration, jerk = (
+            values[columns] for values in (self.velocity, self.acceleration, self.jerk)
+        )
         # With a phase of constant velocity; then with one of constant acceleration; then with neither.
-        ramp = np.where(speed * jerk >= push**2, speed / push + push / jerk, 2.0 * np.sqrt(speed / jerk))
+        ramp = np.where(
+            speed * jerk >= acceleration**2,
+            speed / acceleration + acceleration / jerk,
+            2.0 * np.sqrt(speed / jerk),
+        )
         without_cruise = np.where(
-            distance >= 2.0 * push**3 / jerk**2,
-            push / jerk + np.sqrt((push / jerk) ** 2 + 4.0 * distance / push),
+            distance >= 2.0 * acceleration**3 / jerk**2,
+            acceleration / jerk + np.sqrt((acceleration / jerk) ** 2 + 4.0 * distance / acceleration),
             np.cbrt(32.0 * distance / jerk),
         )
         return np.where(distance >= speed * ramp, ramp + distance / speed, without_cruise)

@@ -10,8 +10,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Generic, NamedTuple, TypeVar
 
 from teo_description import JointLimits
-from teo_sim_driver.checking.cdr import CdrTrajectory
-from teo_sim_driver.checking.reading import Fields, Points
+from teo_sim_driver.checking.reading import Points
 from teo_sim_driver.checking.validation import check
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.groups import JointGroup
@@ -50,13 +49,11 @@ class Intake(Generic[Sender]):
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="intake")
         self._waiting: deque[Checked[Sender]] = deque()
 
-    def put(
-        self, message: bytes | Fields, rules: Rules, sender: Sender, group: JointGroup | None = None
-    ) -> None:
+    def put(self, message: bytes, rules: Rules, sender: Sender, group: JointGroup | None = None) -> None:
         """Begin to check a message.
 
         Args:
-            message: Serialized, or as arrays.
+            message: Serialized.
             rules: Limits on the message.
             sender: Comes out with the result.
             group: Joints that the message is to be about; None: all.
@@ -64,14 +61,13 @@ class Intake(Generic[Sender]):
         Raises:
             TrajectoryError: refused at once: ``too_large`` or ``too_many_waiting``.
         """
-        if isinstance(message, bytes):
-            most = _HEAD + rules.max_points * (_POINT + 3 * 8 * len(self._limits.names))
-            if len(message) > most:
-                raise TrajectoryError(
-                    Refusal.TOO_LARGE,
-                    f"expected at most {most} bytes, room for {rules.max_points} points of all joints; got "
-                    f"{len(message)}: send fewer points, or in parts",
-                )
+        most = _HEAD + rules.max_points * (_POINT + 3 * 8 * len(self._limits.names))
+        if len(message) > most:
+            raise TrajectoryError(
+                Refusal.TOO_LARGE,
+                f"expected at most {most} bytes, room for {rules.max_points} points of all joints; got "
+                f"{len(message)}: send fewer points, or in parts",
+            )
         if len(self._waiting) >= MOST_WAITING:
             raise TrajectoryError(
                 Refusal.TOO_MANY_WAITING,
@@ -91,6 +87,5 @@ class Intake(Generic[Sender]):
         """End the thread, when it has done what it is at."""
         self._worker.shutdown(cancel_futures=True)
 
-    def _check(self, message: bytes | Fields, rules: Rules, group: tuple[str, ...]) -> Points:
-        fields = CdrTrajectory(message) if isinstance(message, bytes) else message
-        return check(fields, limits=self._limits, rules=rules, held=self._held, group=group)
+    def _check(self, message: bytes, rules: Rules, group: tuple[str, ...]) -> Points:
+        return check(message, limits=self._limits, rules=rules, held=self._held, group=group)

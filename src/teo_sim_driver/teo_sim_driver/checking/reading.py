@@ -8,14 +8,11 @@ import difflib
 from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sim_driver.checking.cdr import FIELDS
-from teo_sim_driver.checking.message import TrajectoryLike
+from teo_sim_driver.checking.cdr import FIELDS, CdrTrajectory
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import SECOND
@@ -45,65 +42,8 @@ class Points:
     degrees: NDArray[np.int8]
 
 
-class Fields(Protocol):
-    """A trajectory message as arrays, as it came; `cdr.CdrTrajectory` is one."""
-
-    @property
-    def stamp(self) -> tuple[int, int]:
-        """Of the header [s], [ns]."""
-
-    @property
-    def names(self) -> list[str]:
-        """Of the joints."""
-
-    @property
-    def count(self) -> int:
-        """Of the points."""
-
-    @property
-    def lengths(self) -> NDArray[np.int64]:
-        """Number of values of each of `cdr.FIELDS` at each point. Shape (n, 4)."""
-
-    @property
-    def times(self) -> NDArray[np.int64]:
-        """time_from_start of each point [s], [ns]. Shape (n, 2)."""
-
-    def table(self, field: int) -> FloatArray:
-        """One of `cdr.FIELDS`, 0 where a point does not give it; all that give it have the same number."""
-
-
-class MessageFields:
-    """The fields of a message that is made of objects."""
-
-    def __init__(self, message: TrajectoryLike) -> None:
-        self._points = message.points
-        self.names = list(message.joint_names)
-        self.stamp = (message.header.stamp.sec, message.header.stamp.nanosec)
-        self.count = len(self._points)
-
-    @cached_property
-    def lengths(self) -> NDArray[np.int64]:
-        """See `Fields`."""
-        return np.array([[len(getattr(point, name)) for name in FIELDS] for point in self._points])
-
-    @cached_property
-    def times(self) -> NDArray[np.int64]:
-        """See `Fields`."""
-        moments = (point.time_from_start for point in self._points)
-        return np.array([(moment.sec, moment.nanosec) for moment in moments], dtype=np.int64)
-
-    def table(self, field: int) -> FloatArray:
-        """See `Fields`."""
-        table = np.zeros((self.count, len(self.names)))
-        given = self.lengths[:, field] > 0
-        if given.any():
-            rows = (getattr(point, FIELDS[field]) for point in self._points)
-            table[given] = [row for row in rows if len(row)]
-        return table
-
-
 def read(
-    message: Fields,
+    message: CdrTrajectory,
     *,
     joints: Sequence[str],
     held: Collection[str],
@@ -113,7 +53,7 @@ def read(
     """Read a message into checked arrays.
 
     Args:
-        message: As received.
+        message: As it came.
         joints: Names that the driver commands, in its order.
         held: Names of joints that the robot has and the driver never moves, for a better answer.
         rules: Limits on the message.
@@ -126,11 +66,7 @@ def read(
     columns = _columns(names, joints, held, rules, group or joints)
     if not message.count:
         raise TrajectoryError(Refusal.NO_POINTS, "expected at least one point, got none")
-    if message.count > rules.max_points:
-        raise TrajectoryError(
-            Refusal.TOO_MANY_POINTS,
-            f"expected at most {rules.max_points} points, got {message.count}: send fewer, or in parts",
-        )
+    check_count(message.count, rules)
     _check_lengths(message.lengths, len(names))
     stamp = _stamp(message.stamp)
     times = _times(message.times, rules)
@@ -149,12 +85,25 @@ def read(
     return read_points
 
 
+def check_count(count: int, rules: Rules) -> None:
+    """Refuse a message of too many points.
+
+    Raises:
+        TrajectoryError: ``too_many_points``.
+    """
+    if count > rules.max_points:
+        raise TrajectoryError(
+            Refusal.TOO_MANY_POINTS,
+            f"expected at most {rules.max_points} points, got {count}: send fewer, or in parts",
+        )
+
+
 def quoted(name: str) -> str:
     """A name as it came, short and printable whatever it holds."""
     return repr(name if len(name) <= 40 else name[:40] + "...")
 
 
-def listed(names: Sequence[str], most: int = 6) -> str:
+def _listed(names: Sequence[str], most: int = 6) -> str:
     """Names in a row, the first few of many."""
     shown = ", ".join(quoted(name) for name in names[:most])
     return shown if len(names) <= most else f"{shown} and {len(names) - most} more"
@@ -181,23 +130,23 @@ def _columns(
             )
         else:
             hint = f"did you mean {near[0]!r}?" if near else f"expected some of {', '.join(joints)}"
-        raise TrajectoryError(Refusal.UNKNOWN_JOINT, f"no joint is called {listed(unknown)}: {hint}")
+        raise TrajectoryError(Refusal.UNKNOWN_JOINT, f"no joint is called {_listed(unknown)}: {hint}")
     if others := [name for name in names if name not in group]:
         raise TrajectoryError(
             Refusal.OTHER_GROUP,
-            f"expected some of {', '.join(group)}, got {listed(others)}: send it to their group",
+            f"expected some of {', '.join(group)}, got {_listed(others)}: send it to their group",
         )
     given = set(names)
     if len(given) < len(names):
         twice = [name for name, count in Counter(names).items() if count > 1]
         raise TrajectoryError(
-            Refusal.DUPLICATE_JOINT, f"expected each joint once, got more of {listed(twice)}"
+            Refusal.DUPLICATE_JOINT, f"expected each joint once, got more of {_listed(twice)}"
         )
     missing = [name for name in group if name not in given]
     if missing and not rules.allow_partial_joints_goal:
         raise TrajectoryError(
             Refusal.MISSING_JOINTS,
-            f"expected all {len(group)} joints, missing: {listed(missing)}; "
+            f"expected all {len(group)} joints, missing: {_listed(missing)}; "
             "give them all, or set the parameter allow_partial_joints_goal",
         )
     return np.array([index[name] for name in names], dtype=np.intp)

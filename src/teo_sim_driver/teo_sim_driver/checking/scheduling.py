@@ -4,15 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from teo_description import JointLimits
-from teo_sim_driver.checking.message import TrajectoryLike
-from teo_sim_driver.checking.reading import MessageFields, Points
-from teo_sim_driver.checking.validation import Codes, check, check_between, first_place, of_joints, per_joint
+from teo_sim_driver.checking.reading import Points
+from teo_sim_driver.checking.validation import Codes, check_between, first_place, of_joints, per_joint
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import SECOND
@@ -84,24 +83,6 @@ def schedule(
         _START,
     )
     return Scheduled(delay, trajectory)
-
-
-def validate(
-    message: TrajectoryLike,
-    *,
-    limits: JointLimits,
-    rules: Rules,
-    now: int,
-    state_in: Callable[[float], MotionState],
-    held: Collection[str] = (),
-) -> Scheduled:
-    """Check a message in every respect and make it ready: `check` and `schedule` in one.
-
-    Raises:
-        TrajectoryError: with one reason, the first found; nothing of the message may be executed.
-    """
-    points = check(MessageFields(message), limits=limits, rules=rules, held=held)
-    return schedule(points, limits=limits, rules=rules, now=now, state_in=state_in)
 
 
 def _schedule(points: Points, now: int, rules: Rules) -> tuple[float, int]:

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description import JointLimits
-from teo_sim_driver.checking.reading import Fields, Points, read
+from teo_sim_driver.checking.cdr import CdrTrajectory
+from teo_sim_driver.checking.reading import Points, read
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.motion.bezier import first_excess
 from teo_sim_driver.motion.path_time import SECOND
@@ -37,7 +38,7 @@ _BETWEEN = Codes(
 
 
 def check(
-    message: Fields,
+    data: bytes,
     *,
     limits: JointLimits,
     rules: Rules,
@@ -47,7 +48,7 @@ def check(
     """Check all of a message that can be judged without knowing where the robot is; takes its time.
 
     Args:
-        message: As received.
+        data: The message, serialized.
         limits: Of the commanded joints, in the driver's order.
         rules: Limits on the message.
         held: Names of joints that the robot has and the driver never moves.
@@ -56,7 +57,7 @@ def check(
     Raises:
         TrajectoryError: with one reason, the first found; nothing of the message may be executed.
     """
-    points = read(message, joints=limits.names, held=held, rules=rules, group=group)
+    points = read(CdrTrajectory(data), joints=limits.names, held=held, rules=rules, group=group)
     limits = of_joints(limits, points.columns)
     _check_points(points, limits)
     trajectory = Trajectory(

@@ -16,6 +16,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from teo_description.humanoid import Humanoid
 from teo_sim_driver.checking.intake import MOST_WAITING, Checked, Intake
+from teo_sim_driver.checking.reading import check_count
 from teo_sim_driver.errors import Refusal, TrajectoryError
 from teo_sim_driver.follower_report import Source
 from teo_sim_driver.goal_monitor import ResultCode
@@ -115,7 +116,8 @@ class CommandInputs:
             self._on_refused(refusal)
 
     def _on_goal(self, group: JointGroup, goal: Goal) -> None:
-        self._intake.put(goal.points, self._follower.rules, _Sender(group, goal), group)
+        check_count(goal.points, self._follower.rules)
+        self._intake.put(goal.trajectory, self._follower.rules, _Sender(group, goal), group)
 
     def _on_refused(self, refusal: TrajectoryError) -> None:
         self._follower.count_refusal(refusal)

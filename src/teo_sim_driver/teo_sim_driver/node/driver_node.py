@@ -61,9 +61,7 @@ class DriverNode(LifecycleNode):
         hand_drive = self.get_parameter("hand_drive").value
         self._humanoid = humanoid = load_humanoid(self.get_parameter("robot").value)
         limits, home = humanoid.limits(hand_drive=hand_drive), humanoid.hanging
-        self._follower = JointFollower(
-            limits=limits, start=home, period=1.0 / self._rate, held=humanoid.standing
-        )
+        self._follower = JointFollower(limits=limits, start=home, period=1.0 / self._rate)
         self._follower.block(Mode.INACTIVE, "not active", self._now())
         self._plant = FaultyPlant(_plant(self.get_parameter("plant").value, humanoid), limits, home)
         self._state_line = StateLine()

@@ -65,7 +65,7 @@ class Goal:
         Raises:
             TrajectoryError: ``bad_tolerance`` or ``multi_dof``.
         """
-        request, self.points = handle.request
+        request, self.points, self.trajectory = handle.request
         if (
             request.multi_dof_trajectory.joint_names
             or request.multi_dof_trajectory.points

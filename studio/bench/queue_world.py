@@ -78,15 +78,18 @@ class World:
         self._answers: list[tuple[float, Callable[[], list[Event]]]] = []
 
     def sign(self, text: str, **fields: object) -> int:
+        """Submit a sentence, printed; returns its ticket."""
         sentence = Sentence(tokens=parse_printed(text), **fields)  # type: ignore[arg-type]
         ticket, events = self.queue.submit(sentence, self.now)
         self.take(events)
         return ticket
 
     def cancel(self, ticket: int) -> None:
+        """Cancel a sentence."""
         self.take(self.queue.cancel(ticket, self.now))
 
     def driver_says(self, mode: DriverMode, *, speed_scaling: float = 1.0) -> None:
+        """Let the driver report a mode and a pace."""
         self.pace = 0.0 if mode is DriverMode.PAUSED else speed_scaling
         self._mode = None if mode in (DriverMode.HOLDING, DriverMode.MOVING) else mode
         if self._mode not in (None, DriverMode.PAUSED):
@@ -94,6 +97,7 @@ class World:
         self._report()
 
     def take(self, events: Iterable[Event]) -> None:
+        """Do what events ask of the driver and the planner."""
         for event in events:
             self.events.append(event)
             if isinstance(event, PlanWanted | ReturnWanted):
@@ -192,17 +196,20 @@ class World:
             self.take(answer())
 
     def run(self, seconds: float) -> None:
+        """Let time pass."""
         end = self.now + seconds
         while self.now < end:
             self.tick()
 
     def run_until(self, condition: Callable[[], bool], most: float = 120.0) -> None:
+        """Let time pass until something holds, at most so long [s]."""
         end = self.now + most
         while not condition():
             assert self.now < end, f"not within {most} s"
             self.tick()
 
     def tick(self) -> None:
+        """Let one period of the node pass."""
         self.now += TICK
         self._path_time += TICK * self.pace
         self._ticks += 1
@@ -230,12 +237,15 @@ class World:
         self.queue.progress(self.now)
 
     def finished(self) -> list[tuple[int, Outcome]]:
+        """Tickets that are done with, and how they ended."""
         return [(event.ticket, event.outcome) for event in self.events if isinstance(event, Finished)]
 
     def statuses(self) -> list[Status]:
+        """Every status, in order."""
         return [event for event in self.events if isinstance(event, Status)]
 
     def activities(self) -> list[Activity]:
+        """What the queue said that it did, in order."""
         return [status.activity for status in self.statuses()]
 
 

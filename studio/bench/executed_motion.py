@@ -1,24 +1,41 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the driver makes of the motions that a world's queue has sent, judged by differences."""
+"""What the driver makes of a plan, and of the motions that a world's queue has sent."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
-from queue_world import World
 from trajectory_msgs.msg import JointTrajectory
 
+from driver_messages import send
+from queue_world import World
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_lut_executor.execution.events import StopReady, TrajectoryReady
 from teo_lut_executor.node.messages import to_stop, to_trajectory
-from teo_motion.trajectory.limits import MotionLimits
+from teo_motion.sentence.plan import Plan
 from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_sim_driver.joint_follower import JointFollower
 
-_STEP = 1_000_000  # [ns]
+STEP = 0.001  # [s] between two positions that are looked at
+_STEP = 1_000_000  # [ns], the same
+
+
+def following(plan: Plan, period: float) -> JointFollower:
+    """A follower that has taken a plan as the executor sends it, at time 0.
+
+    Args:
+        plan: From where the robot stands.
+        period: Usual time between two steps [s].
+    """
+    follower = JointFollower(
+        limits=joint_limits(COMMANDED_JOINTS), start=plan.positions[0].copy(), period=period
+    )
+    follower.step(0)
+    send(follower, to_trajectory(COMMANDED_JOINTS, plan.samples, start=0.0), 0)
+    return follower
 
 
 def executed(world: World) -> Array:
@@ -40,7 +57,7 @@ def executed(world: World) -> Array:
     path, now, end = [], messages[0][0], round(world.now * 1e9)
     while now < end:
         while messages and messages[0][0] <= now:
-            follower.accept(messages.pop(0)[1], now)
+            send(follower, messages.pop(0)[1], now)
         path.append(follower.step(now).positions)
         now += _STEP
     assert not messages
@@ -55,12 +72,3 @@ def _message(names: Sequence[str], event: TrajectoryReady | StopReady) -> JointT
     if isinstance(event, StopReady):
         return to_stop(names, event.end, event.lead)
     return to_trajectory(names, event.samples, start=event.start)
-
-
-def most_of_limits(path: Array, limits: MotionLimits) -> Array:
-    """The most that a joint reaches, over its limit [1]: of velocity, acceleration and jerk. Shape (3,)."""
-    step = _STEP * 1e-9
-    orders = enumerate((limits.velocity, limits.acceleration, limits.jerk), start=1)
-    return np.array(
-        [(np.abs(np.diff(path, n=order, axis=0)) / step**order / limit).max() for order, limit in orders]
-    )
