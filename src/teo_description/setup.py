@@ -11,7 +11,7 @@ setup(
     name=PACKAGE,
     version="0.2.0",
     packages=find_packages(exclude=["test"]),
-    package_data={PACKAGE: ["py.typed", "teo/data/*.csv", "pictures/fonts/*"]},
+    package_data={PACKAGE: ["py.typed", "pictures/fonts/*"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
         (f"share/{PACKAGE}", ["package.xml"]),
@@ -35,7 +35,6 @@ setup(
         "console_scripts": [
             "render = teo_description.pictures.render_cli:main",
             "robots = teo_description.robots_cli:main",
-            "build_urdf = teo_description.teo.build_urdf:main",
         ],
     },
 )

@@ -24,7 +24,6 @@ from report import Figure
 from teo_common.text_folding import without_accents
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_description.teo.hand_drives import DEFAULT_HAND_DRIVE, HAND_DRIVES
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.posture_choice import choose_postures
@@ -42,7 +41,8 @@ REST = load_humanoid().ready
 NAMES, WORDS = 200, 1000
 _SHORTEST, _LONGEST = 3, 10
 _BATCH = 25
-_OTHERS = tuple(drive for drive in HAND_DRIVES if drive != DEFAULT_HAND_DRIVE)
+_TEO = load_humanoid("teo")
+_OTHERS = tuple(drive for drive in _TEO.hand_drives if drive != _TEO.default_hand_drive)
 
 
 class Word(NamedTuple):
@@ -101,7 +101,7 @@ def names() -> list[list[str]]:
     return words[:NAMES]
 
 
-def spelled(letters: list[str], drive: str = DEFAULT_HAND_DRIVE) -> Word:
+def spelled(letters: list[str], drive: str = _TEO.default_hand_drive) -> Word:
     """Plan a word with the alphabet as it is, for a hand with this drive."""
     return _timed([Token(gloss=letter, kind=Kind.LETTER) for letter in letters], _planner(drive), _alphabet())
 
@@ -181,7 +181,7 @@ def _captured() -> dict[str, Sign]:
 
 
 @cache
-def _planner(drive: str = DEFAULT_HAND_DRIVE) -> Planner:
+def _planner(drive: str = _TEO.default_hand_drive) -> Planner:
     return Planner(_alphabet(), robot=_robot(), limits=MotionLimits.of_robot(hand_drive=drive))
 
 

@@ -9,7 +9,6 @@ import pytest
 from teo_description import DescriptionError
 from teo_description.hand_setpoints import hand_setpoints
 from teo_description.humanoid import load_humanoid
-from teo_description.teo.hand_drives import HAND_DRIVES
 from teo_names import ALL_JOINTS, BODY_JOINTS, LEFT_HAND, RIGHT_HAND, joint_limits, urdf_text
 
 
@@ -37,7 +36,7 @@ def test_a_finger_at_its_limit_winds_its_tendon_as_fast_as_the_loaded_spool(driv
         assert wound[side + 1] / step <= 34.0 / 45.0 * spool * (1.0 + 1e-9)
 
 
-@pytest.mark.parametrize("drive", HAND_DRIVES)
+@pytest.mark.parametrize("drive", load_humanoid("teo").hand_drives)
 def test_a_drive_changes_the_speed_of_the_hands_alone_and_no_axis_outruns_fingers_and_body(drive):
     usual, limits = joint_limits(ALL_JOINTS), joint_limits(ALL_JOINTS, hand_drive=drive)
     assert np.array_equal(usual.lower, limits.lower)

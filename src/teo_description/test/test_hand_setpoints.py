@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from teo_description import DescriptionError
-from teo_description.hand_setpoints import hand_setpoints
+from teo_description.hand_setpoints import hand_setpoints, setpoint_axes
 from teo_description.humanoid import load_humanoid
-from teo_description.teo.tendons import RIGHT_AXES
 from teo_names import HOME, LEFT_HAND, RIGHT_HAND, joint_limits
 
 HANDS = LEFT_HAND + RIGHT_HAND
 TEO = load_humanoid("teo")
+LEFT_AXES, RIGHT_AXES = setpoint_axes(TEO, "left"), setpoint_axes(TEO, "right")
 HOME_SETPOINTS = [0.0, 10.0 / 3.0, 0.0, 0.0, 0.0, 0.0]  # abductor, thumb, fingers
 
 
@@ -42,3 +42,31 @@ def test_an_angle_outside_the_range_is_refused(degrees):
         hand_setpoints(TEO, positions)
     assert refusal.value.code == "outside_hand_range"
     assert "RightIndexFinger" in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("joint", "degrees", "setpoint"),
+    [
+        ("LeftIndexFinger", 7.0, 0.0),
+        ("LeftIndexFinger", 85.0, 20.0),
+        ("RightPinkyFinger", 46.0, 10.0),
+        ("RightThumbFinger", -90.0, 0.0),
+        ("LeftThumbFinger", 0.0, 5.0),
+        ("RightThumbFinger", 7.2, 5.4),
+        ("RightThumbFinger", 90.0, 10.0),
+        ("LeftHandAbductor", 0.0, 0.0),
+        ("LeftHandAbductor", 57.3, 57.3),
+        ("RightHandAbductor", 90.0, 90.0),
+    ],
+)
+def test_an_angle_is_a_tendon_travel_or_a_servo_angle(joint, degrees, setpoint):
+    axis = next(axis for axis in LEFT_AXES + RIGHT_AXES if axis.joint == joint)
+    assert axis.setpoint(math.radians(degrees)) == pytest.approx(setpoint, abs=1e-9)
+    assert math.degrees(axis.angle(setpoint)) == pytest.approx(degrees)
+
+
+@pytest.mark.parametrize("millimetres", [-0.1, 20.1, math.nan])
+def test_a_setpoint_outside_the_range_is_refused(millimetres):
+    with pytest.raises(DescriptionError, match="RightIndexFinger") as refusal:
+        RIGHT_AXES[2].angle(millimetres)
+    assert refusal.value.code == "outside_hand_range"

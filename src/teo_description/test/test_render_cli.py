@@ -7,8 +7,6 @@ import cv2
 import pytest
 
 from teo_description.pictures import render_cli
-from teo_description.teo import build_urdf
-from teo_names import urdf_text
 
 PLAN = "time,FrontalRightElbow\n0.0,0.0\n0.4,-0.3\n"
 
@@ -88,14 +86,3 @@ def test_mistakes_end_with_a_sentence_and_no_picture(render, plan, monkeypatch, 
     assert says in said.replace("\n", " ")
     assert "Traceback" not in said
     assert not {file.suffix for file in plan.parent.iterdir()} & {".png", ".mp4"}
-
-
-def test_urdf_is_printed_or_written_whole(monkeypatch, capsys, tmp_path):
-    code, printed, _ = run(monkeypatch, capsys, build_urdf.main)
-    assert (code, printed) == (0, urdf_text())
-    code, _, _ = run(monkeypatch, capsys, build_urdf.main, "--out", tmp_path / "teo.urdf")
-    assert code == 0
-    assert (tmp_path / "teo.urdf").read_text(encoding="utf-8") == urdf_text()
-    code, _, said = run(monkeypatch, capsys, build_urdf.main, "--out", tmp_path / "nowhere" / "teo.urdf")
-    assert code == 1
-    assert "nowhere" in said

@@ -11,7 +11,6 @@ import pytest
 import teo_names
 from teo_description import DescriptionError
 from teo_description.humanoid import urdf_hash
-from teo_description.teo.urdf_writer import urdf
 from teo_names import (
     ALL_JOINTS,
     COMMANDED_JOINTS,
@@ -20,7 +19,6 @@ from teo_names import (
     RIGHT_HAND,
     description_hash,
     joint_limits,
-    urdf_path,
     urdf_text,
 )
 
@@ -69,12 +67,6 @@ DEXTRA_HANDS = 2 * (0.3 + 15 * 0.1)  # [kg] dextra-yarp-devices' placeholders
 @pytest.fixture(scope="module")
 def tree():
     return ET.fromstring(urdf_text())
-
-
-def test_committed_file_is_what_the_generator_writes():
-    assert urdf_path().read_text(encoding="utf-8") == urdf(), (
-        "run: ros2 run teo_description build_urdf --out urdf/teo.urdf"
-    )
 
 
 def test_limits_are_the_published_ones():

@@ -19,7 +19,6 @@ import numpy as np
 from glosses.systems import lines
 from report import Figure
 from teo_description.robot import Robot
-from teo_description.teo.hand_drives import DEFAULT_HAND_DRIVE
 from teo_motion.planner import Planner
 from teo_motion.sentence.plan import Plan
 from teo_motion.sentence.rest_posture import RestPosture
@@ -49,9 +48,9 @@ def measure(step: int = STEP) -> list[Figure]:
     }
     figures = []
     for what, signs, rest, drive in (
-        ("as planned", table, RestPosture.READY, DEFAULT_HAND_DRIVE),
-        ("baseline: arms hang at rest", table, RestPosture.HANGING, DEFAULT_HAND_DRIVE),
-        ("baseline: and words as captured", as_captured, RestPosture.HANGING, DEFAULT_HAND_DRIVE),
+        ("as planned", table, RestPosture.READY, ""),
+        ("baseline: arms hang at rest", table, RestPosture.HANGING, ""),
+        ("baseline: and words as captured", as_captured, RestPosture.HANGING, ""),
         (f"as planned with hands of {_FASTEST}", table, RestPosture.READY, _FASTEST),
     ):
         figures += _figures(what, signs, rest, drive, sentences)

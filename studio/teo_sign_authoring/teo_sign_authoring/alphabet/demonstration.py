@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.humanoid import Humanoid
+from teo_description.hand_setpoints import setpoint_axes
+from teo_description.humanoid import Humanoid, load_humanoid
 from teo_description.robot import Robot
-from teo_description.teo.tendons import RIGHT_AXES
 from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
@@ -95,8 +95,8 @@ def flexions(motors: tuple[float, ...]) -> Array:
     Returns:
         The six axes of a hand [rad]. Shape (6,).
     """
-    # Both hands count alike.
-    return np.array([axis.angle(motor) for axis, motor in zip(RIGHT_AXES, motors, strict=True)])
+    axes = setpoint_axes(load_humanoid("teo"), "right")  # both hands count alike
+    return np.array([axis.angle(motor) for axis, motor in zip(axes, motors, strict=True)])
 
 
 def demonstrated_signs(robot: Robot) -> list[Sign]:
