@@ -14,7 +14,7 @@ from teo_description.other_side import OtherSide
 from teo_description.robot_file import RobotFile
 from teo_description.schema.urdf import Follow, Frame, Limit, Origin, Solid
 
-ROOT_LINK = "base_link"
+_ROOT_LINK = "base_link"
 
 
 class Urdf(NamedTuple):
@@ -47,9 +47,9 @@ def completed_urdf(text: str, robot: RobotFile, where: str) -> Urdf:
         raise DescriptionError("bad_robot", f"{where}: urdf: expected a robot with one root link, got {got}")
     _check_names(robot, links, joints, where)
     changes = (robot.limits, robot.follows, robot.origins, robot.frames, robot.collision.shapes)
-    if not any(changes) and ROOT_LINK in links:
+    if not any(changes) and _ROOT_LINK in links:
         return Urdf(text, root)
-    if ROOT_LINK not in links:
+    if _ROOT_LINK not in links:
         _add_root(root, *tops)
     for name, limit in robot.limits.items():
         _set_limit(joints[name], limit)
@@ -95,7 +95,7 @@ def _check_names(
     _check(robot.follows, joints, f"{where}: follows")
     _check((follow.joint for follow in robot.follows.values()), joints, f"{where}: follows")
     _check(robot.origins, joints, f"{where}: origins")
-    frames = {**links, **robot.frames, ROOT_LINK: None}
+    frames = {**links, **robot.frames, _ROOT_LINK: None}
     _check((frame.link for frame in robot.frames.values()), frames, f"{where}: frames")
     _check(robot.collision.shapes, links, f"{where}: collision.shapes")
     hand, arm = robot.hand, robot.collision.right_arm
@@ -114,9 +114,9 @@ def _end(joint: ET.Element, which: str) -> str:
 
 def _add_root(root: ET.Element, top: str) -> None:
     """An empty root of the name that the project uses, where the URDF's own root is."""
-    ET.SubElement(root, "link", name=ROOT_LINK)
-    joint = ET.SubElement(root, "joint", name=f"{ROOT_LINK}_fixed", type="fixed")
-    ET.SubElement(joint, "parent", link=ROOT_LINK)
+    ET.SubElement(root, "link", name=_ROOT_LINK)
+    joint = ET.SubElement(root, "joint", name=f"{_ROOT_LINK}_fixed", type="fixed")
+    ET.SubElement(joint, "parent", link=_ROOT_LINK)
     ET.SubElement(joint, "child", link=top)
 
 

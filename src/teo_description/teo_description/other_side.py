@@ -12,8 +12,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from teo_common.arrays import Array
-from teo_description.schema.numbers import Vector
-from teo_description.schema.urdf import Frame, Solid
+from teo_description.schema.urdf import Frame, Solid, Vector
 
 # The mirror image about the plane between left and right.
 _MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])

@@ -11,8 +11,17 @@ import msgspec
 
 from teo_common.checked_yaml import YamlError, read_checked_yaml
 from teo_description.errors import DescriptionError
-from teo_description.schema.arms import Detour, NaturalArm, Postures, SigningArms
-from teo_description.schema.body import CameraView, Collision, Groups, PlaceOnBody, Reach
+from teo_description.schema.body import (
+    CameraView,
+    Collision,
+    Detour,
+    Groups,
+    NaturalArm,
+    PlaceOnBody,
+    Postures,
+    Reach,
+    SigningArms,
+)
 from teo_description.schema.controllers import Controllers
 from teo_description.schema.hand import Hand, HandDrives
 from teo_description.schema.urdf import Follow, Frame, Limit, MeshSource, Origin, UrdfSource

@@ -18,7 +18,7 @@ from teo_signs.tokens import Kind, Token
 
 # Between two rows [s]: drives take no more than 50 set-points a second, and straight lines over more than 0.1
 # s cut the corners of a sign by more than 2 deg.
-PERIOD_RANGE = (0.001, 0.1)
+_PERIOD_RANGE = (0.001, 0.1)
 
 # Greatest motion of a joint that counts as standing still [rad]: the last digit of an entry.
 _STILL = 1e-6
@@ -33,10 +33,10 @@ def sign_motion(planner: Planner, sign: Sign, *, period: float = DEFAULT_PERIOD)
         period: Time between two rows [s].
 
     Raises:
-        LutError: The period is outside `PERIOD_RANGE` ("bad_period").
+        LutError: The period is outside `_PERIOD_RANGE` ("bad_period").
         PlanError: The sign cannot be planned.
     """
-    least, most = PERIOD_RANGE
+    least, most = _PERIOD_RANGE
     if not least <= period <= most:
         raise LutError("bad_period", f"period: expected {least:g} to {most:g} s, got {period}")
     plan = planner.plan([Token(gloss=sign.gloss, kind=Kind[sign.kind.upper()])])

@@ -47,7 +47,7 @@ def result_code(refusal: str) -> ResultCode:
     return _RESULT.get(Refusal(refusal), ResultCode.INVALID_GOAL)
 
 
-class ToleranceLike(Protocol):
+class _ToleranceLike(Protocol):
     """control_msgs/JointTolerance."""
 
     @property
@@ -85,8 +85,8 @@ class Tolerances:
     @staticmethod
     def read(
         joints: Sequence[str],
-        path: Iterable[ToleranceLike],
-        goal: Iterable[ToleranceLike],
+        path: Iterable[_ToleranceLike],
+        goal: Iterable[_ToleranceLike],
         goal_time: float,
         goal_default: float = np.inf,
     ) -> Tolerances:
@@ -114,7 +114,7 @@ class Tolerances:
 
 
 def _table(
-    joints: Sequence[str], tolerances: Iterable[ToleranceLike], what: str, default: float
+    joints: Sequence[str], tolerances: Iterable[_ToleranceLike], what: str, default: float
 ) -> FloatArray:
     table = np.full((2, len(joints)), np.inf)
     table[0] = default

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from teo_common.parameters import ROBOT, ParameterRow
 from teo_sim_driver.motion.path_time import DEFAULT_STOP_DECELERATION, DEFAULT_STOP_JERK
-from teo_sim_driver.plants.faults import Faults
+from teo_sim_driver.plants.plant import Faults
 from teo_sim_driver.rules import Rules
 
 # Which joints the driver drives.

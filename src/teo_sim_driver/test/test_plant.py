@@ -5,8 +5,7 @@ import pytest
 
 from teo_description import JointLimits
 from teo_sim_driver.motion.trajectory import MotionState
-from teo_sim_driver.plants.faults import Faults, FaultyPlant, StateLine
-from teo_sim_driver.plants.plant import IdealPlant
+from teo_sim_driver.plants.plant import Faults, FaultyPlant, IdealPlant, StateLine
 
 SPEED = 20.0  # [rad/s]
 LIMITS = JointLimits(

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from teo_sim_driver.motion.commanded_path import Part, side_by_side, slowed_down
 from teo_sim_driver.motion.path_time import Braking
-from teo_sim_driver.motion.side_by_side import Part, side_by_side, slowed_down
 from teo_sim_driver.motion.trajectory import Trajectory
 
 DEGREES = st.lists(st.sampled_from([1, 3, 5]), min_size=0, max_size=5)

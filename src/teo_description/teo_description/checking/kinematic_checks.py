@@ -20,7 +20,7 @@ _POSTURES = 200
 
 # So far the mirror image of a frame may be from the one of the other side [m]: signs are made for the right
 # hand and mirrored, and a finger tip is as wide.
-MIRROR_TOLERANCE = 0.01
+_MIRROR_TOLERANCE = 0.01
 
 # So far limits of mirrored joints may differ [rad]: 1 deg, which nobody sees.
 _LIMIT_TOLERANCE = math.radians(1.0)
@@ -61,10 +61,10 @@ def frame_checks(robot: Robot) -> Iterator[Finding]:
 
 def symmetry_checks(robot: Robot) -> Iterator[Finding]:
     """Mirrored positions of the joints give the mirror image."""
-    worst, frame = mirror_deviation(robot)
+    worst, frame = _mirror_deviation(robot)
     yield Finding(
-        worst <= MIRROR_TOLERANCE,
-        f"left and right are mirror images within {MIRROR_TOLERANCE * 1e3:.0f} mm",
+        worst <= _MIRROR_TOLERANCE,
+        f"left and right are mirror images within {_MIRROR_TOLERANCE * 1e3:.0f} mm",
         f"worst of {_POSTURES} random postures: {worst * 1e3:.2f} mm, {frame}",
         "origins",
     )
@@ -84,7 +84,7 @@ def symmetry_checks(robot: Robot) -> Iterator[Finding]:
     )
 
 
-def mirror_deviation(robot: Robot) -> tuple[float, str]:
+def _mirror_deviation(robot: Robot) -> tuple[float, str]:
     """Worst distance of a hand's frame from the mirror image of the other's [m], and its name."""
     humanoid = robot.humanoid
     frames = hand_frames(humanoid)

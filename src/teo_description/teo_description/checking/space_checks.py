@@ -60,7 +60,7 @@ def reach_checks(robot: Robot) -> Iterator[Finding]:
         return
     for side in SIDES:
         arm = ArmReach(robot, side)
-        places = reached_places(robot, arm)
+        places = _reached_places(robot, arm)
         failed = [f"{name} ({reach.why})" for name, reach in places.items() if not reach.ok]
         share = 1.0 - len(failed) / len(places)
         yield Finding(
@@ -69,7 +69,7 @@ def reach_checks(robot: Robot) -> Iterator[Finding]:
             f"{share:.0%} of {len(places)}" + (f"; not {', '.join(failed)}" if failed else ""),
             "places",
         )
-        grid = grid_points(robot)
+        grid = _grid_points(robot)
         mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
         count = sum(arm.to(point * mirror, arm.palm, body=False).ok for point in grid)
         yield Finding(
@@ -80,7 +80,7 @@ def reach_checks(robot: Robot) -> Iterator[Finding]:
         )
 
 
-def reached_places(robot: Robot, arm: ArmReach) -> dict[str, Reached]:
+def _reached_places(robot: Robot, arm: ArmReach) -> dict[str, Reached]:
     """For every place how an arm comes there: with the finger tip on the body, with the palm in the air."""
     found = {}
     for name, place in robot.humanoid.file.places.items():
@@ -89,7 +89,7 @@ def reached_places(robot: Robot, arm: ArmReach) -> dict[str, Reached]:
     return found
 
 
-def grid_points(robot: Robot) -> Array:
+def _grid_points(robot: Robot) -> Array:
     """Points before the chest for the right hand [m]. Shape (n, 3)."""
     points: Array = np.array(robot.humanoid.file.places["space"].point) + _GRID
     return points

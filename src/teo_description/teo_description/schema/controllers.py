@@ -9,7 +9,7 @@ from typing import Literal
 import msgspec
 
 from teo_description.schema.body import Groups
-from teo_description.schema.numbers import Finite, Positive
+from teo_description.schema.urdf import Finite, Positive
 
 
 class Setpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -8,7 +8,7 @@ from typing import Literal
 
 import msgspec
 
-from teo_description.schema.numbers import Finite, Positive, Vector
+from teo_description.schema.urdf import Finite, Positive, Vector
 
 AXES = ("abductor", "thumb", "index", "middle", "ring", "pinky")
 FINGERS = AXES[2:]

@@ -4,9 +4,17 @@
 
 from __future__ import annotations
 
+import sys
+from typing import Annotated
+
 import msgspec
 
-from teo_description.schema.numbers import Finite, Positive, Vector
+# NaN is within no bounds, and infinity beyond the greatest number.
+_MOST = sys.float_info.max
+
+Finite = Annotated[float, msgspec.Meta(ge=-_MOST, le=_MOST)]
+Positive = Annotated[float, msgspec.Meta(gt=0.0, le=_MOST)]
+Vector = tuple[Finite, Finite, Finite]
 
 
 class UrdfSource(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -19,8 +19,14 @@ from teo_motion.sentence.plan import Plan, Samples
 from teo_motion.trajectory.driver_points import point_times, spline_points
 from teo_motion.trajectory.joint_motion import JointMotion, Pieces, take
 from teo_motion.trajectory.limits import MotionLimits
-from teo_motion.trajectory.relaxed_limits import relaxed_bounds
-from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSegment, RuckigSolver, State
+from teo_motion.trajectory.ruckig_segment import (
+    ROUNDING,
+    Bounds,
+    RuckigSegment,
+    RuckigSolver,
+    State,
+    relaxed_bounds,
+)
 from teo_motion.trajectory.stopping import stop
 
 # Parts of the robot keep so much more than their least distance during an opening [m]: postures are looked at

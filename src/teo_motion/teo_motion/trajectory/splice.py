@@ -11,8 +11,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
-from teo_motion.trajectory.relaxed_limits import relaxed_bounds
-from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSolver, State
+from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSolver, State, relaxed_bounds
 
 # A segment fits its time when it needs no more than this beyond it [s]: rounding of sums of times.
 _FITS = 1e-9

@@ -36,11 +36,11 @@ def stop(state: State, limits: MotionLimits) -> tuple[State, float]:
     Returns:
         State at the end, within the position limits, and the time to it [s].
     """
-    speed, push, jerk = np.abs(state.velocity), np.abs(state.acceleration), limits.jerk
+    speed, acceleration, jerk = np.abs(state.velocity), np.abs(state.acceleration), limits.jerk
     # The second is the root of jerk T^2 - 4 a T - 6 v.
     needed = np.maximum(
         1.5 * speed / limits.acceleration,
-        (2.0 * push + np.sqrt(4.0 * push**2 + 6.0 * speed * jerk)) / jerk,
+        (2.0 * acceleration + np.sqrt(4.0 * acceleration**2 + 6.0 * speed * jerk)) / jerk,
     )
     still = np.zeros_like(speed)
     for ease in _EASES:

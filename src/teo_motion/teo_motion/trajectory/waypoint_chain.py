@@ -8,8 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_motion.trajectory.relaxed_limits import relaxed_bounds
-from teo_motion.trajectory.ruckig_segment import ROUNDING, Bounds, RuckigSegment, RuckigSolver, State
+from teo_motion.trajectory.ruckig_segment import (
+    ROUNDING,
+    Bounds,
+    RuckigSegment,
+    RuckigSolver,
+    State,
+    relaxed_bounds,
+)
 from teo_motion.trajectory.waypoint_states import waypoint_states
 
 # While times are looked for, a segment that fitted is tried again only when the velocity or acceleration at

@@ -39,7 +39,7 @@ class Excess(NamedTuple):
     """The curve there, in the unit of the control points."""
 
 
-def end_derivatives(
+def _end_derivatives(
     durations: FloatArray,
     degrees: NDArray[np.int8],
     positions: FloatArray,
@@ -78,12 +78,12 @@ def control_points(
     velocities: FloatArray,
     accelerations: FloatArray,
 ) -> FloatArray:
-    """Control points [rad] of every segment between n + 1 points; arguments as in `end_derivatives`.
+    """Control points [rad] of every segment between n + 1 points; arguments as in `_end_derivatives`.
 
     Returns:
         Shape (6, n, joints).
     """
-    v0, v1, a0, a1 = end_derivatives(durations, degrees, positions, velocities, accelerations)
+    v0, v1, a0, a1 = _end_derivatives(durations, degrees, positions, velocities, accelerations)
     time = durations[:, None]
     reach = time / DEGREE
     bend = time * time / (DEGREE * (DEGREE - 1))

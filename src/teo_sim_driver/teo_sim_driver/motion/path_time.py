@@ -25,7 +25,7 @@ SECOND = 1_000_000_000
 
 # Longest gap between two steps that the motion follows [s]: longer than receiving the longest message takes.
 # A greater one is a clock that was set or a process that stood still, and no path is cut short for either.
-LONGEST_GAP = 0.5
+_LONGEST_GAP = 0.5
 
 
 class PathClock:
@@ -52,7 +52,7 @@ class PathClock:
         if last is None:
             return 0.0
         gap = (now - last) / SECOND
-        if 0.0 <= gap <= LONGEST_GAP:
+        if 0.0 <= gap <= _LONGEST_GAP:
             return gap
         self.jumps += 1
         return self._period

@@ -26,16 +26,15 @@ from teo_sim_driver.joint_follower import JointFollower
 from teo_sim_driver.motion.path_time import Braking
 from teo_sim_driver.motion.trajectory import MotionState
 from teo_sim_driver.node.command_inputs import CommandInputs
-from teo_sim_driver.node.hands import HandPublisher
 from teo_sim_driver.node.operator_services import OperatorServices
 from teo_sim_driver.node.state_topics import (
     ControllerStatePublisher,
     DriverStatePublisher,
+    HandPublisher,
     JointStatePublisher,
 )
 from teo_sim_driver.parameters import FAULT_PARAMETERS, IDEAL, MUJOCO, PARAMETERS, RULE_PARAMETERS
-from teo_sim_driver.plants.faults import Faults, FaultyPlant, StateLine
-from teo_sim_driver.plants.plant import IdealPlant, Plant
+from teo_sim_driver.plants.plant import Faults, FaultyPlant, IdealPlant, Plant, StateLine
 from teo_sim_driver.plants.watch import fault, where_to_hold
 from teo_sim_driver.rules import Rules
 

@@ -10,6 +10,7 @@ Needs `mujoco` (requirements/physics.txt).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import mujoco
@@ -17,19 +18,36 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.humanoid import Humanoid
+from teo_description.schema.controllers import Servo
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.trajectory import MotionState
-from teo_sim_driver.plants.servos import servos_of
+
+# Inertia of a drive of which nothing is published [kg m^2]: those of TEO, a rotor of 1e-5 kg m^2 behind a
+# gear of 100:1 in body and arms, and that of a small gearmotor in the hands.
+_BODY_INERTIA, _HAND_INERTIA = 0.1, 0.01
+
+
+def _servos_of(humanoid: Humanoid) -> Mapping[str, Servo]:
+    """The drive of each commanded joint."""
+    if humanoid.file.controllers is not None:
+        servos = humanoid.file.controllers.servos
+        return {name: servos.body.get(name, servos.hand) for name in humanoid.commanded_joints}
+    efforts = humanoid.effort_limits(humanoid.commanded_joints).tolist()
+    return {
+        name: Servo(torque=effort, inertia=_BODY_INERTIA if name in humanoid.body_joints else _HAND_INERTIA)
+        for name, effort in zip(humanoid.commanded_joints, efforts, strict=True)
+    }
+
 
 # [s]; ten to a step of the driver. The servos' time constant is 16 of them.
-TIMESTEP = 0.001
+_TIMESTEP = 0.001
 
 # Of a phalanx that its tendon moves with another one [kg m^2]: keeps its bond to that one well conditioned.
 _FOLLOWER_INERTIA = 1e-3
 
 # Natural frequency of a servo [rad/s], 10 Hz, critically damped: a fifth of the rate at which the real drives
 # hear of set-points (50 Hz).
-SERVO_FREQUENCY = 2.0 * np.pi * 10.0
+_SERVO_FREQUENCY = 2.0 * np.pi * 10.0
 
 # Of an arm that signs [rad], for the inertia about its shoulder and wrist.
 _BENT_ELBOW = -1.5
@@ -71,8 +89,8 @@ class PhysicsPlant:
         Hands say that they are where they were told to be: the real Dextra measures nothing.
         """
         self._behind += duration
-        steps = round(self._behind / TIMESTEP)
-        self._behind -= steps * TIMESTEP
+        steps = round(self._behind / _TIMESTEP)
+        self._behind -= steps * _TIMESTEP
         before, self._told = self._told, asked
         for i in range(1, steps + 1):
             part = i / steps
@@ -119,9 +137,9 @@ def _model(humanoid: Humanoid) -> mujoco.MjModel:
     Those are the ones that two joints at most connect, whose boxes reach into each other when they turn, and
     those that overlap at home.
     """
-    servos = servos_of(humanoid)
+    servos = _servos_of(humanoid)
     spec = mujoco.MjSpec.from_string(humanoid.urdf_text())
-    spec.option.timestep = TIMESTEP
+    spec.option.timestep = _TIMESTEP
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST  # damping of servos is stiff
     for joint in spec.joints:
         if joint.name in servos:
@@ -141,7 +159,7 @@ def _model(humanoid: Humanoid) -> mujoco.MjModel:
     inertias = _inertias(bare, data, humanoid.elbows)
     for name in humanoid.all_joints:
         inertia = inertias[bare.joint(name).dofadr[0]]
-        stiffness, damping = inertia * SERVO_FREQUENCY**2, 2.0 * inertia * SERVO_FREQUENCY
+        stiffness, damping = inertia * _SERVO_FREQUENCY**2, 2.0 * inertia * _SERVO_FREQUENCY
         actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         actuator.gainprm[0], actuator.biastype = stiffness, mujoco.mjtBias.mjBIAS_AFFINE
         actuator.biasprm[:3] = 0.0, -stiffness, -damping
