@@ -115,6 +115,7 @@ class Watch:
             self.step(int(rng.integers(2_000_000, 80_000_000)))
 
 
+@pytest.mark.slow
 @settings(max_examples=1000, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 2**32), tightness=st.floats(0.6, 1.0))
 def test_what_is_within_the_limits_is_accepted_and_executed_within_them(
@@ -283,6 +284,7 @@ SPOIL = [
 ]
 
 
+@pytest.mark.slow
 def test_thousands_of_spoilt_messages_never_crash_and_always_get_a_reason(new_follower, limits, swing):
     good = swing(duration=0.6, angle=-0.05)
     codes: Counter[str] = Counter()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What the driver tells: `joint_states`, `controller_state`, `driver_state`, and what real hands would be told."""
+"""What the driver publishes: joint states, controller state, its own state, set-points of real hands."""
 
 from __future__ import annotations
 
