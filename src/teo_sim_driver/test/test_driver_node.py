@@ -225,28 +225,26 @@ def test_messages_and_goals_of_many_points_do_not_stop_the_joint_states(context,
         until(lambda: heard and refusals and commands.get_subscription_count())
         message = one_way(duration=2.0, angle=-0.2)
         first = message.points[0]
-        for i, (count, code) in enumerate(((20_000, "times_not_increasing"), (100_000, "too_large"))):
-            message.points = [first] * count
-            data = serialize_message(message)
-            begin = time.monotonic()
-            deserialize_message(data, JointTrajectory)
-            as_objects = time.monotonic() - begin
-            executor.spin_once(timeout_sec=0.0)
-            heard.clear()
-            commands.publish(data)
-            until(lambda i=i: refusals[-1].refused == i + 1)
-            assert refusals[-1].refusal_code == code
-            until(lambda: len(heard) > 20)
-            stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
-            # To make objects of the message alone took this long on this machine now.
-            assert np.diff(stamps).max() < max(0.5 * as_objects, 0.05)
+        message.points = [first] * 20_000
+        data = serialize_message(message)
+        begin = time.monotonic()
+        deserialize_message(data, JointTrajectory)
+        as_objects = time.monotonic() - begin
+        executor.spin_once(timeout_sec=0.0)
+        heard.clear()
+        commands.publish(data)
+        until(lambda: refusals[-1].refused == 1)
+        assert refusals[-1].refusal_code == "times_not_increasing"
+        until(lambda: len(heard) > 20)
+        stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
+        # To make objects of the message alone took this long on this machine now.
+        assert np.diff(stamps).max() < max(0.5 * as_objects, 0.05)
         # The same as a goal; its points alone, as objects, take longer than this.
         goals = ActionClient(client, FollowJointTrajectory, "follow_joint_trajectory")
         until(goals.server_is_ready)
-        message.points = [first] * 20_000
         answer = goals.send_goal_async(FollowJointTrajectory.Goal(trajectory=message))
         heard.clear()
-        until(lambda: refusals[-1].refused == 3)
+        until(lambda: refusals[-1].refused == 2)
         until(lambda: len(heard) > 20)
         until(answer.done)
         stamps = [state.header.stamp.sec + state.header.stamp.nanosec * 1e-9 for state in heard]
