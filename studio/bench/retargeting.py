@@ -28,6 +28,7 @@ from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import CollisionModel
 from teo_sign_capture.retarget.robot_motion import RobotMotion
+from teo_sign_capture.tracks.signer_motion import SignerMotion, signer_motion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.sign_schema import Handedness
 
@@ -81,7 +82,7 @@ def measure() -> list[Figure]:
 def _compared(robot: Robot, what: str, tracks: list[tuple[SkeletonTrack, Handedness]]) -> list[Figure]:
     ours, copied = [], []
     for track, hands in tracks:
-        motion = robot_motion.retarget_motion(robot, track, handedness=hands)
+        motion = robot_motion.retarget_motion(robot, signer_motion(track, handedness=hands))
         for side in ("right", "left") if hands == "both" else (hands,):
             ours.append(errors(robot, track, side, motion.joints, motion.positions))
             copied.append(errors(robot, track, side, *copied_joints(track, side)))
@@ -126,18 +127,24 @@ def _watched() -> Iterator[_Watch]:
         return arms
 
     def clearing(
-        problem: ArmProblem, model: CollisionModel, track: SkeletonTrack, bounds: list[Bounds], arms: Array
+        problem: ArmProblem,
+        model: CollisionModel,
+        times: Array,
+        bounds: list[Bounds],
+        arms: Array,
+        *,
+        source: str,
     ) -> tuple[Array, Array]:
         start = time.process_time()
-        cleared = clear_arms(problem, model, track, bounds, arms)
+        cleared = clear_arms(problem, model, times, bounds, arms, source=source)
         watch.clearing += time.process_time() - start
         return cleared
 
-    def retargeting(robot: Robot, track: SkeletonTrack, *, handedness: Handedness) -> RobotMotion:
+    def retargeting(robot: Robot, signer: SignerMotion) -> RobotMotion:
         start = time.process_time()
-        motion = retarget(robot, track, handedness=handedness)
+        motion = retarget(robot, signer)
         watch.all += time.process_time() - start
-        watch.frames += len(track.times)
+        watch.frames += len(signer.times)
         return motion
 
     with (

@@ -3,8 +3,9 @@
 """From a person to a sign of the robot: recordings in, entries of the look-up table out.
 
     >>> from teo_description.robot import Robot
-    >>> from teo_sign_capture import read_skeletons, retarget_motion
-    >>> motion = retarget_motion(Robot.load(), read_skeletons(bag), handedness="right")
+    >>> from teo_sign_capture import read_skeletons, retarget_motion, signer_motion
+    >>> signer = signer_motion(read_skeletons(bag), handedness="right")
+    >>> motion = retarget_motion(Robot.load(), signer)
 
 Each room imports only rooms above it in this list; the README says more of each.
 

@@ -21,4 +21,6 @@ from .recordings.pose_file import read_pose_file as read_pose_file
 from .recordings.skeleton_bag import read_skeletons as read_skeletons
 from .retarget.robot_motion import RobotMotion as RobotMotion
 from .retarget.robot_motion import retarget_motion as retarget_motion
+from .tracks.signer_motion import SignerMotion as SignerMotion
+from .tracks.signer_motion import signer_motion as signer_motion
 from .tracks.skeleton_track import SkeletonTrack as SkeletonTrack

@@ -26,9 +26,10 @@ from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance
 from teo_sign_capture.recordings.recording import open_recording, points_of
 from teo_sign_capture.retarget.arm_bounds import mirrored
-from teo_sign_capture.retarget.free_motion import free_motion
+from teo_sign_capture.retarget.robot_motion import free_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
+from teo_sign_capture.tracks.signer_motion import signer_motion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
 from teo_signs.errors import LutError
@@ -121,13 +122,13 @@ def _track_joints(robot: Robot, track: SkeletonTrack) -> Array:
     smooth = smooth_track(track).track
     span = the_sign(smooth)
     stroke = smooth.between(span.start, span.end)
-    free = free_motion(robot, stroke, handedness=span.handedness, person=measure_person(track))
+    signer = signer_motion(stroke, handedness=span.handedness, person=measure_person(track))
+    free = free_motion(robot, signer)
     moments = np.linspace(0.0, float(stroke.times[-1]), MOMENTS)
     limbs: dict[str, Array] = {}
-    joints = free.chain.count
-    for at, side in enumerate(free.sides):
-        arm = free.arms[:, joints * at : joints * (at + 1)]
-        limb = np.hstack([arm if side == "right" else mirrored(robot.humanoid, arm), free.shapes[side].axes])
+    for side, hand in free.hands.items():
+        arm = free.arm(side, free.arms)
+        limb = np.hstack([arm if side == "right" else mirrored(robot.humanoid, arm), hand.axes])
         limbs[side] = np.column_stack([np.interp(moments, stroke.times, column) for column in limb.T])
     return _both(limbs)
 

@@ -13,6 +13,7 @@ from teo_description.robot import Robot
 from teo_sign_capture.retarget.robot_motion import RobotMotion, retarget_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import SignSpan, the_sign
+from teo_sign_capture.tracks.signer_motion import signer_motion
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
 from teo_sign_capture.tracks.smoothing import Gap, Smoothed, runs, seen, smooth_track
 from teo_signs.errors import LutError
@@ -82,7 +83,7 @@ def capture_take(
 
     Raises:
         LutError: "outside_recording", "no_motion", "several_signs", "too_long", "hand_lost" or
-            what `retarget_motion` raises.
+            what `signer_motion` and `retarget_motion` raise.
     """
     cut = cut or Cut()
     offset, raw, smoothed = _cut(track, cut)
@@ -98,14 +99,14 @@ def capture_take(
     )
     stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
     _check_seen(stroke, handedness, offset + span.start)
-    motion = retarget_motion(robot, stroke, handedness=handedness, person=measure_person(track))
+    signer = signer_motion(stroke, handedness=handedness, person=measure_person(track))
     return Take(
         source=track.source,
         recorded=track.recorded,
         span=_moved(span, offset),
         has_rest=not (span.cut_start and span.cut_end) or cut != Cut(),
         track=stroke,
-        motion=motion,
+        motion=retarget_motion(robot, signer),
         gaps=tuple(replace(gap, start=gap.start + offset, end=gap.end + offset) for gap in gaps),
         lost=_lost(raw, span),
         smoothing=_difference(raw, smoothed.track, span),

@@ -23,10 +23,11 @@ from teo_description.humanoid import SIDES
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_bounds import mirrored, mirrored_hand
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
-from teo_sign_capture.retarget.free_motion import free_motion
 from teo_sign_capture.retarget.hand_goals import HandGoals
-from teo_sign_capture.tracks.person import Person, measure_person
+from teo_sign_capture.retarget.robot_motion import free_motion
+from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign
+from teo_sign_capture.tracks.signer_motion import SignerMotion, signer_motion
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_sign_capture.tracks.smoothing import smooth_track
 from teo_signs.sign import Sign
@@ -100,36 +101,23 @@ def recording_appearance(
     first, last = 0.0 if start is None else start, float(track.times[-1]) if end is None else end
     smooth = smooth_track(track.between(first, last)).track
     span = the_sign(smooth, offset=first, cut_start=start is not None, cut_end=end is not None)
-    return demonstration_appearance(
-        robot,
-        smooth.between(span.start, span.end),
-        handedness=handedness or span.handedness,
-        person=measure_person(track),
-    )
+    stroke = smooth.between(span.start, span.end)
+    signer = signer_motion(stroke, handedness=handedness or span.handedness, person=measure_person(track))
+    return demonstration_appearance(robot, signer)
 
 
-def demonstration_appearance(
-    robot: Robot, track: SkeletonTrack, *, handedness: Handedness, person: Person
-) -> Array:
+def demonstration_appearance(robot: Robot, signer: SignerMotion) -> Array:
     """What a person shows. Shape (MOMENTS, 2 hands of 16 numbers).
 
-    Args:
-        robot: The robot.
-        track: The stroke, smoothed.
-        handedness: The hands that take part. A left hand alone is taken for the right one in a mirror, as
-            left-handed signers sign.
-        person: The person's measures.
-
-    Raises:
-        LutError: "no_arm" or "no_hand" if what is needed was never seen.
+    A left hand alone is taken for the right one in a mirror, as left-handed signers sign.
     """
-    free = free_motion(robot, track, handedness=handedness, person=person)
-    moments = np.linspace(0.0, float(track.times[-1]), MOMENTS)
+    free = free_motion(robot, signer)
+    moments = np.linspace(0.0, float(signer.times[-1]), MOMENTS)
     hands: dict[str, Array] = {}
-    for side in free.sides:
-        bends = free.shapes[side].axes
+    for side, hand in free.hands.items():
+        bends = hand.axes
         shown = (_wanted(free.goals[side], bends) + _of_arm(free.poses(side, free.arms), bends)) / 2.0
-        hands[side] = np.column_stack([np.interp(moments, track.times, column) for column in shown.T])
+        hands[side] = np.column_stack([np.interp(moments, signer.times, column) for column in shown.T])
     return _both(hands)
 
 

@@ -14,7 +14,6 @@ from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import TRUSTED, refine_arms
 from teo_sign_capture.retarget.clearance_samples import ClearanceSamples, sample_clearance
 from teo_sign_capture.retarget.collision_terms import LEAST, WANTED, WATCHED, CollisionModel, CollisionTerms
-from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 
 # Most passes. Each finds anew what is near and solves what still touches; after three most hands are off.
@@ -45,16 +44,23 @@ _OPENING = 0.12
 
 
 def clear_arms(
-    problem: ArmProblem, model: CollisionModel, track: SkeletonTrack, bounds: list[Bounds], arms: Array
+    problem: ArmProblem,
+    model: CollisionModel,
+    times: Array,
+    bounds: list[Bounds],
+    arms: Array,
+    *,
+    source: str,
 ) -> tuple[Array, Array]:
     """Move a motion of the arms off all that it would touch.
 
     Args:
         problem: What is wanted of the arms.
         model: The robot, which must not touch itself.
-        track: The person, for times and errors.
+        times: Of the frames [s]. Shape (T,).
         bounds: Of each arm [rad].
         arms: Shape (T, m) [rad].
+        source: Name of the recording, for errors.
 
     Returns:
         The arms, and the smallest distance between parts of the robot in each frame [m], shape (T,). Straight
@@ -63,18 +69,18 @@ def clear_arms(
     Raises:
         LutError: "self_collision" where no way off is found.
     """
-    work = _Clearing(problem, model, track.times, bounds)
+    work = _Clearing(problem, model, times, bounds)
     wished, count = arms, len(arms)
     samples = best = sample_clearance(model, arms)
     shares, careful, moved = np.ones(count), np.zeros(count, bool), np.zeros(count)
     touched = np.zeros(count, bool)
     for turn in range(_PASSES):
         unsettled = careful & (moved >= _SETTLED) & (turn < _RESTART_AFTER)
-        at_work = _widened(track.times, samples.tight | unsettled)
+        at_work = _widened(times, samples.tight | unsettled)
         if not at_work.any():
             break
         if turn == _SPREAD_AFTER:
-            around = _around(track.times, samples.tight)
+            around = _around(times, samples.tight)
             at_work = careful = around > _FAINT
             samples = work.spread_apart(samples, wished, around, at_work)
         if turn >= _RESTART_AFTER:
@@ -95,7 +101,7 @@ def clear_arms(
     found = model.clearance(worst, best.arms[worst])
     raise LutError(
         "self_collision",
-        f"{track.source}: expected a posture that TEO can take at {track.times[worst]:.2f} s, got one in "
+        f"{source}: expected a posture that TEO can take at {times[worst]:.2f} s, got one in "
         f"which {found.first} comes within {1000.0 * found.distance:.0f} mm of {found.second} (at least "
         f"{1000.0 * LEAST:.0f}) however it is moved: leave this part out, or show the sign farther from the "
         "body",

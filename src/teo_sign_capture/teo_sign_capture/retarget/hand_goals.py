@@ -10,16 +10,19 @@ the nearest of the other. All is said as for a right hand; a left hand is seen i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
+from teo_description.humanoid import Side
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
-from teo_sign_capture.signing_space.hand_points import COUNT, HEEL, MIRROR, PALM, person_hand_points
-from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.signing_space.hand_points import COUNT, HEEL, MIRROR, PALM
+from teo_sign_capture.tracks.signer_motion import SignerArm
 
 # [m] Points of a hand whose distances to the body differ by less than this share the contact: about a
 # finger's width.
@@ -99,82 +102,88 @@ class PairGoals:
     order: Array
 
 
-def hand_goals(body: BodyMap, head: HeadMotion, side: str, hand: Array, arm: Array, teo: Array) -> HandGoals:
-    """Find what is wanted of a hand.
+class ContactPart(NamedTuple):
+    """The point of a hand that counts, and how much it is on the body.
 
-    Args:
-        body: The map from the person to TEO.
-        head: The heads of both.
-        side: "right" or "left".
-        hand: The person's 21 keypoints, none NaN, in the axes of the track [m]. Shape (T, 21, 3).
-        arm: The person's shoulder, elbow and wrist, none NaN [m]. Shape (T, 3, 3).
-        teo: `robot_hand_points` of the hand. Shape (T, COUNT, 3).
+    Attributes:
+        shares: Of each point of the hand in it. Shape (T, COUNT).
+        contact: 1 on the body, 0 in the air. Shape (T,).
     """
-    points = person_hand_points(hand)
-    part, contact = _part_that_counts(body.distance(points, head))
-    meant = (part[:, :, None] * points).sum(axis=1)
-    place = body.outside(body.place_with_head(meant[:, None], head)[:, 0])
-    flip = MIRROR if side == "left" else np.ones(3)
-    axes = palm_axes(hand * flip)
-    limbs = np.diff(arm, axis=1) * flip
-    limbs /= np.linalg.norm(limbs, axis=2, keepdims=True)
-    return HandGoals(
-        local=(part[:, :, None] * teo).sum(axis=1),
-        place=place * flip,
-        contact=contact,
-        palm=axes[:, :, 2],
-        fingers=axes[:, :, 0],
-        upper_arm=limbs[:, 0],
-        fore_arm=limbs[:, 1],
-    )
+
+    shares: Array
+    contact: Array
+
+    def point(self, points: Array) -> Array:
+        """That point among those of a hand, a person's or a robot's. Shapes (T, COUNT, 3) and (T, 3)."""
+        point: Array = (self.shares[:, :, None] * points).sum(axis=1)
+        return point
 
 
-def point_that_counts(body: BodyMap, head: HeadMotion, hand: Array) -> Array:
-    """The point of a person's hand whose place `hand_goals` asks for [m]. Shape (T, 3)."""
-    points = person_hand_points(hand)
-    part, _ = _part_that_counts(body.distance(points, head))
-    meant: Array = (part[:, :, None] * points).sum(axis=1)
-    return meant
-
-
-def _part_that_counts(away: Array) -> tuple[Array, Array]:
-    """Share of each point of a hand in the point that counts, and how much it is on the body.
+def contact_part(body: BodyMap, head: HeadMotion, points: Array) -> ContactPart:
+    """Find the point that counts.
 
     The end of the hand at the wrist touches nothing: on an arm that is folded it is near the chest while the
     hand is held up in the air, as letters are.
 
     Args:
-        away: Distances of the points from the body [m]. Shape (T, COUNT).
-
-    Returns:
-        Shapes (T, COUNT) and (T,).
+        body: The map from the person to TEO.
+        head: The heads of both.
+        points: Of the person's hand, in the axes of the track [m]. Shape (T, COUNT, 3).
     """
-    away = np.where(np.arange(COUNT) == HEEL, np.inf, away)
+    away = np.where(np.arange(COUNT) == HEEL, np.inf, body.distance(points, head))
     nearest = away.min(axis=1)
     contact = smooth_step((_OFF_BODY - nearest) / (_OFF_BODY - _ON_BODY))
     touching = np.exp((nearest[:, None] - away) / _BLEND)
     touching /= touching.sum(axis=1, keepdims=True)
-    part = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
-    return part, contact
+    shares = contact[:, None] * touching + (1.0 - contact[:, None]) * (np.arange(COUNT) == PALM)
+    return ContactPart(shares, contact)
+
+
+def hand_goals(body: BodyMap, head: HeadMotion, arm: SignerArm, part: ContactPart, teo: Array) -> HandGoals:
+    """Find what is wanted of a hand.
+
+    Args:
+        body: The map from the person to TEO.
+        head: The heads of both.
+        arm: The person's.
+        part: The point of the hand that counts.
+        teo: `robot_hand_points` of TEO's hand. Shape (T, COUNT, 3).
+    """
+    place = body.outside(body.place_with_head(part.point(arm.points)[:, None], head)[:, 0])
+    flip = MIRROR if arm.side == "left" else np.ones(3)
+    limbs = np.diff(arm.joints, axis=1) * flip
+    limbs /= np.linalg.norm(limbs, axis=2, keepdims=True)
+    return HandGoals(
+        local=part.point(teo),
+        place=place * flip,
+        contact=part.contact,
+        palm=arm.axes[:, :, 2],
+        fingers=arm.axes[:, :, 0],
+        upper_arm=limbs[:, 0],
+        fore_arm=limbs[:, 1],
+    )
 
 
 def pair_goals(
-    body: BodyMap,
-    times: Array,
-    hands: tuple[Array, Array],
-    arms: tuple[Array, Array],
-    teo: tuple[Array, Array],
+    body: BodyMap, times: Array, arms: Mapping[Side, SignerArm], teo: Mapping[Side, Array]
 ) -> PairGoals:
-    """Find what is wanted of two hands together; right and left, arguments as for `hand_goals`."""
-    right, left = (person_hand_points(hand) for hand in hands)
-    of_right, of_left, nearest = _shares(right, left)
-    way = (of_right[..., None] * right).sum(axis=1) - (of_left[..., None] * left).sum(axis=1)
+    """Find what is wanted of two hands together.
+
+    Args:
+        body: The map from the person to TEO.
+        times: [s]. Shape (T,).
+        arms: The person's two.
+        teo: `robot_hand_points` of TEO's hands. Shape (T, COUNT, 3) each.
+    """
+    right, left = arms["right"], arms["left"]
+    of_right, of_left, nearest = _shares(right.points, left.points)
+    way = (of_right[..., None] * right.points).sum(axis=1) - (of_left[..., None] * left.points).sum(axis=1)
     return PairGoals(
-        right=(of_right[..., None] * teo[0]).sum(axis=1),
-        left=(of_left[..., None] * teo[1]).sum(axis=1),
+        right=(of_right[..., None] * teo["right"]).sum(axis=1),
+        left=(of_left[..., None] * teo["left"]).sum(axis=1),
         way=way * body.scale,
         nearness=smooth_step((_APART - nearest) / (_APART - _TOGETHER)),
-        order=_order(times, hands, arms),
+        order=_order(times, right, left),
     )
 
 
@@ -187,14 +196,9 @@ def _shares(right: Array, left: Array) -> tuple[Array, Array, Array]:
     return shares.sum(axis=2), shares.sum(axis=1), nearest
 
 
-def _order(times: Array, hands: tuple[Array, Array], arms: tuple[Array, Array]) -> Array:
+def _order(times: Array, right_arm: SignerArm, left_arm: SignerArm) -> Array:
     """As `PairGoals.order`; of arms that cross only what is before and above, for beside leads nowhere."""
-    right, left = (
-        np.concatenate([elbow + _FOREARM[:, None] * (wrist - elbow), hand], axis=1)
-        for hand, elbow, wrist in (
-            (hand, arm[:, 1:2], arm[:, 2:]) for hand, arm in zip(hands, arms, strict=True)
-        )
-    )
+    right, left = (_forearm_and_hand(arm) for arm in (right_arm, left_arm))
     of_right, of_left, nearest = _shares(right, left)
     way = (of_right[..., None] * right).sum(axis=1) - (of_left[..., None] * left).sum(axis=1)
     way /= np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1e-6)
@@ -205,3 +209,9 @@ def _order(times: Array, hands: tuple[Array, Array], arms: tuple[Array, Array]) 
     near = smooth_step((_ASUNDER - nearest) / (_ASUNDER - _BESIDE))
     order: Array = near[:, None] * steady / np.maximum(np.linalg.norm(steady, axis=1, keepdims=True), 1e-6)
     return order
+
+
+def _forearm_and_hand(arm: SignerArm) -> Array:
+    """Points along the forearm, and the keypoints of the hand [m]. Shape (T, k, 3)."""
+    elbow, wrist = arm.joints[:, 1:2], arm.joints[:, 2:]
+    return np.concatenate([elbow + _FOREARM[:, None] * (wrist - elbow), arm.keypoints], axis=1)

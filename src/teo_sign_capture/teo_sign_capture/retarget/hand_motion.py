@@ -25,7 +25,7 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry, HandTable
 from teo_sign_capture.signing_space.hand_points import KNUCKLES, finger_rows
 from teo_sign_capture.tracks.body_axes import smoothed
-from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
+from teo_sign_capture.tracks.signer_motion import SignerArm
 from teo_sign_capture.viterbi import cheapest_path
 
 # Joints of a person's finger.
@@ -44,17 +44,15 @@ class HandMotion(NamedTuple):
     error: Array
 
 
-def follow_hand(table: HandTable, times: Array, hand: Array, straight: Array) -> HandMotion:
+def follow_hand(table: HandTable, times: Array, arm: SignerArm) -> HandMotion:
     """Find the robot's hand in each frame.
 
     Args:
         table: The robot's hand.
         times: Of the frames [s]. Shape (T,).
-        hand: 21 keypoints of a right hand, or of a left one in a mirror, none NaN [m]. Shape (T, 21, 3).
-        straight: `Person.straight` [rad]. Shape (4, 3).
+        arm: The person's, with its hand.
     """
-    local = in_palm(hand)
-    bends = finger_bends(local) - straight
+    local, bends = arm.local, arm.bends
     fingers = finger_flexions(table, bends)
     bones = [np.linalg.norm(np.diff(local[:, row : row + 4], axis=1), axis=2).sum(axis=1) for row in KNUCKLES]
     scaled = local * (table.hand.finger_length / float(np.median(bones)))

@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A person's motion as a motion of TEO."""
+"""A person's motion as a motion of a robot.
+
+First the arms are found that come nearest to the person's, as if nothing could touch (`free_motion`); then
+they are moved off what they would touch (`retarget_motion`).
+"""
 
 from __future__ import annotations
 
@@ -9,21 +13,91 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.humanoid import Humanoid
+from teo_description.hand_geometry import hand_table
+from teo_description.humanoid import Humanoid, Side
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Side, mirrored, mirrored_hand
-from teo_sign_capture.retarget.arm_kinematics import angles_between
+from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored, mirrored_hand, search_starts
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, angles_between
+from teo_sign_capture.retarget.arm_residuals import ArmProblem
+from teo_sign_capture.retarget.arm_trajectory import solve_arms
+from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import CollisionModel
-from teo_sign_capture.retarget.free_motion import FreeMotion, free_motion
-from teo_sign_capture.retarget.hand_goals import point_that_counts
-from teo_sign_capture.retarget.head_motion import follow_trunk
+from teo_sign_capture.retarget.folded_arm import before_folded_arm
+from teo_sign_capture.retarget.hand_goals import HandGoals, contact_part, hand_goals, pair_goals
+from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
+from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head, follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
-from teo_sign_capture.tracks.person import Person, measure_person
-from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
-from teo_signs.sign_schema import Handedness
+from teo_sign_capture.signing_space.hand_points import robot_hand_points
+from teo_sign_capture.tracks.signer_motion import SignerMotion
 
 _COLUMN = {"right": 0, "left": 1}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FreeMotion:
+    """What a person did, as TEO would do it if no part of it could touch another. All hands as right hands.
+
+    Attributes:
+        chain: TEO's arm.
+        body: The map from the person to TEO.
+        head: The heads of both.
+        hands: TEO's fingers of each side.
+        meant: The point of the person's hand whose place counts, of each side, in the axes of the track [m].
+            Shape (T, 3).
+        goals: What is wanted of the hand of each side.
+        problem: What is wanted of the arms, as far as they have room.
+        bounds: Lower and upper bounds of each side's arm [rad].
+        arms: The arms that come nearest, one after the other [rad]. Shape (T, j or 2 j).
+    """
+
+    chain: ArmKinematics
+    body: BodyMap
+    head: HeadMotion
+    hands: dict[Side, HandMotion]
+    meant: dict[Side, Array]
+    goals: dict[Side, HandGoals]
+    problem: ArmProblem
+    bounds: list[Bounds]
+    arms: Array
+
+    def arm(self, side: Side, arms: Array) -> Array:
+        """The joints of one side among `arms` [rad]. Shape (T, j)."""
+        at = self.chain.count * list(self.hands).index(side)
+        return arms[:, at : at + self.chain.count]
+
+    def poses(self, side: Side, arms: Array) -> ArmPoses:
+        """Where a side's hand is with arms as in `arms`."""
+        return self.chain.poses(self.arm(side, arms))
+
+
+def free_motion(robot: Robot, signer: SignerMotion) -> FreeMotion:
+    """Find the arms that come nearest to a person's, collisions left aside."""
+    chain, table = ArmKinematics(robot), hand_table(robot)
+    head = follow_head(robot, signer.head, signer.person)
+    body = BodyMap(robot, chain, signer.person)
+    hands = {side: follow_hand(table, signer.times, arm) for side, arm in signer.arms.items()}
+    points = {side: robot_hand_points(table, hand.axes) for side, hand in hands.items()}
+    parts = {side: contact_part(body, head, arm.points) for side, arm in signer.arms.items()}
+    goals = {
+        side: hand_goals(body, head, arm, parts[side], points[side]) for side, arm in signer.arms.items()
+    }
+    pair = None
+    if len(signer.arms) == 2:
+        pair = pair_goals(body, signer.times, signer.arms, points)
+    problem = ArmProblem(chain, tuple(before_folded_arm(chain, goal) for goal in goals.values()), pair)
+    bounds = [arm_bounds(robot.humanoid, side) for side in signer.arms]
+    return FreeMotion(
+        chain=chain,
+        body=body,
+        head=head,
+        hands=hands,
+        meant={side: parts[side].point(arm.points) for side, arm in signer.arms.items()},
+        goals=goals,
+        problem=problem,
+        bounds=bounds,
+        arms=solve_arms(problem, signer.times, bounds, search_starts(robot.humanoid)),
+    )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -65,46 +139,32 @@ class RobotMotion:
     clearance: Array
 
 
-def retarget_motion(
-    robot: Robot, track: SkeletonTrack, *, handedness: Handedness, person: Person | None = None
-) -> RobotMotion:
-    """Bring a person's motion onto TEO.
-
-    Args:
-        robot: The robot.
-        track: The person; smoothed, as what trembles in it trembles in TEO.
-        handedness: The hands that take part.
-        person: The person's measures, best from a whole recording of which the track is a part; measured on
-            the track itself without.
+def retarget_motion(robot: Robot, signer: SignerMotion) -> RobotMotion:
+    """Bring a person's motion onto a robot.
 
     Raises:
-        LutError: "no_arm" or "no_hand" if what is needed was never seen, "self_collision" if TEO cannot take
-            a posture without touching itself.
+        LutError: "self_collision" if the robot cannot take a posture without touching itself.
     """
-    person = person or measure_person(track)
-    free = free_motion(robot, track, handedness=handedness, person=person)
+    free = free_motion(robot, signer)
     humanoid = robot.humanoid
-    trunk = follow_trunk(robot, np.zeros((len(track.times), 3)) if track.trunk is None else track.trunk)
+    trunk = follow_trunk(robot, signer.trunk)
     others: dict[str, Array] = {}
     if free.head.moves:
         others |= dict(zip(humanoid.head, free.head.axes.T, strict=True))
     if trunk.moves:
         others |= dict(zip(humanoid.trunk, trunk.axes.T, strict=True))
-    fingers = tuple(free.shapes[side].axes for side in free.sides)
-    collisions = CollisionModel(robot, free.chain, free.sides, fingers, others)
-    arms, clearance = clear_arms(free.problem, collisions, track, free.bounds, free.arms)
-    joints = tuple(joint for side in free.sides for joint in humanoid.arm(side) + humanoid.hand(side))
-    joints += tuple(others)
-    count = free.chain.count
-    parts = [
-        _limb(humanoid, side, arms[:, count * at : count * (at + 1)], free.shapes[side].axes)
-        for at, side in enumerate(free.sides)
-    ]
+    hands = tuple(hand.axes for hand in free.hands.values())
+    collisions = CollisionModel(robot, free.chain, tuple(free.hands), hands, others)
+    arms, clearance = clear_arms(
+        free.problem, collisions, signer.times, free.bounds, free.arms, source=signer.source
+    )
+    joints = tuple(joint for side in free.hands for joint in humanoid.arm(side) + humanoid.hand(side))
+    limbs = [_limb(humanoid, side, free.arm(side, arms), hand.axes) for side, hand in free.hands.items()]
     return RobotMotion(
-        times=track.times,
-        joints=joints,
-        positions=np.concatenate([*parts, *(values[:, None] for values in others.values())], axis=1),
-        **_hand_figures(free, person, arms),
+        times=signer.times,
+        joints=joints + tuple(others),
+        positions=np.concatenate([*limbs, *(values[:, None] for values in others.values())], axis=1),
+        **_hand_figures(free, signer, arms),
         head_error=free.head.error,
         trunk_error=trunk.error,
         clearance=clearance,
@@ -117,7 +177,7 @@ def _limb(humanoid: Humanoid, side: Side, arm: Array, hand: Array) -> Array:
     return np.concatenate([arm, hand], axis=1)
 
 
-def _hand_figures(free: FreeMotion, person: Person, arms: Array) -> dict[str, Array]:
+def _hand_figures(free: FreeMotion, signer: SignerMotion, arms: Array) -> dict[str, Array]:
     """Errors of the hands, their contacts and places, by the fields of `RobotMotion`. Shapes (T, 2)."""
     names = (
         "place_error",
@@ -130,16 +190,16 @@ def _hand_figures(free: FreeMotion, person: Person, arms: Array) -> dict[str, Ar
         "wrong_place",
     )
     found = {name: np.full((len(arms), 2), np.nan) for name in names}
-    for side in free.sides:
-        column, wanted, poses = _COLUMN[side], free.goals[side], free.poses(side, arms)
+    moved = free.head.places - signer.person.head
+    for side, wanted in free.goals.items():
+        column, poses = _COLUMN[side], free.poses(side, arms)
         hand = poses.points(wanted.local)
         found["place_error"][:, column] = np.linalg.norm(hand - wanted.place, axis=1)
         found["palm_error"][:, column] = angles_between(poses.rotation[:, :, 2], wanted.palm)
         found["finger_error"][:, column] = angles_between(poses.rotation[:, :, 0], wanted.fingers)
-        found["flexion_error"][:, column] = free.shapes[side].error
+        found["flexion_error"][:, column] = free.hands[side].error
         found["contact"][:, column] = wanted.contact
-        meant = point_that_counts(free.body, free.head, free.keypoints[side])
-        places = place_figures(free.body, person, meant, free.head.places - person.head, hand, side)
+        places = place_figures(free.body, signer.person, free.meant[side], moved, hand, side)
         found["same_zone"][:, column] = places.same
         found["same_zone_of_middle"][:, column] = places.middles_same
         found["wrong_place"][:, column] = places.wrong

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from robot_person import JOINTS, keypoints, track_of
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
@@ -33,11 +32,6 @@ def robot():
 
 
 @pytest.fixture(scope="module")
-def track(robot):
-    return track_of(TIMES, keypoints(robot, JOINTS, np.zeros((FRAMES, len(JOINTS)))), source="belly")
-
-
-@pytest.fixture(scope="module")
 def wanted(robot):
     """A problem that wants the hand to go into the belly, and the robot."""
     chain = ArmKinematics(robot)
@@ -56,10 +50,12 @@ def wanted(robot):
     return ArmProblem(chain, (goals,), None), CollisionModel(robot, chain, ("right",), (hand,), {})
 
 
-def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
+def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted):
     problem, model = wanted
     assert min(model.clearance(frame, ARMS[frame]).distance for frame in range(FRAMES)) < -0.02
-    arms, distances = clear_arms(problem, model, track, [arm_bounds(load_humanoid(), "right")], ARMS)
+    arms, distances = clear_arms(
+        problem, model, TIMES, [arm_bounds(load_humanoid(), "right")], ARMS, source="belly"
+    )
     assert distances.min() >= LEAST
     measured = [model.clearance(frame, arms[frame]).distance for frame in range(FRAMES)]
     assert distances == pytest.approx(np.array(measured), abs=2e-4)
@@ -68,17 +64,17 @@ def test_a_hand_is_moved_off_the_body_no_farther_than_it_must(wanted, track):
     assert distances[FRAMES // 2] < 0.05
 
 
-def test_arms_that_touch_nothing_stay_as_they_are(wanted, track):
+def test_arms_that_touch_nothing_stay_as_they_are(wanted):
     problem, model = wanted
     free = np.tile(OFF, (FRAMES, 1))
-    arms, _ = clear_arms(problem, model, track, [arm_bounds(load_humanoid(), "right")], free)
+    arms, _ = clear_arms(problem, model, TIMES, [arm_bounds(load_humanoid(), "right")], free, source="belly")
     assert arms is free
 
 
-def test_a_posture_without_a_way_out_is_refused_with_its_time_and_parts(wanted, track):
+def test_a_posture_without_a_way_out_is_refused_with_its_time_and_parts(wanted):
     problem, model = wanted
     stuck = np.tile(INSIDE, (FRAMES, 1))
     held = (INSIDE - 1e-6, INSIDE + 1e-6)
     with pytest.raises(LutError, match=r"belly: .* at 0\.\d\d s, .*Right.*Trunk_link") as error:
-        clear_arms(problem, model, track, [held], stuck)
+        clear_arms(problem, model, TIMES, [held], stuck, source="belly")
     assert error.value.code == "self_collision"

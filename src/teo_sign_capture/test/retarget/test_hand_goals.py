@@ -10,14 +10,16 @@ from teo_description.hand_geometry import HandTable
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.body_map import BodyMap
-from teo_sign_capture.retarget.hand_goals import hand_goals, pair_goals
+from teo_sign_capture.retarget.hand_goals import contact_part, hand_goals, pair_goals
 from teo_sign_capture.retarget.head_motion import follow_head
 from teo_sign_capture.signing_space.hand_points import MIRROR, PALM, robot_hand_points
 from teo_sign_capture.tracks.head_pose import head_pose
 from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.signer_motion import signer_arm
 
 # Among the points of a hand: palm, heel, four knuckles, four middle joints, then the tips.
 INDEX_TIP = 10
+STRAIGHT = np.zeros((4, 3))
 ARM = np.array([[[0.0, -0.35, 0.0], [0.1, -0.35, -0.3], [0.3, -0.2, -0.1]]])
 
 
@@ -40,8 +42,16 @@ class Scene:
         self.hand = hand @ turn.T
 
     def goals(self, hand, side="right"):
-        arm = ARM if side == "right" else ARM * MIRROR
-        return hand_goals(self.body, self.head, side, hand[None], arm, self.teo)
+        arm = signer_arm(side, ARM if side == "right" else ARM * MIRROR, hand[None], STRAIGHT)
+        return hand_goals(self.body, self.head, arm, contact_part(self.body, self.head, arm.points), self.teo)
+
+    def pair(self, right, left, joints=None):
+        joints = joints or (ARM, ARM * MIRROR)
+        arms = {
+            side: signer_arm(side, own, hand[None], STRAIGHT)
+            for side, own, hand in zip(("right", "left"), joints, (right, left), strict=True)
+        }
+        return pair_goals(self.body, np.zeros(1), arms, dict.fromkeys(arms, self.teo))
 
 
 @pytest.fixture(scope="module")
@@ -96,8 +106,7 @@ def test_directions_are_those_of_the_hand(scene):
 def test_hands_that_are_near_each_other_keep_the_way_between_them(scene, apart, nearness):
     right = scene.hand + np.array([0.35, 0.0, 0.0])
     left = right + np.array([apart, 0.0, 0.0])  # palm to back, the left one behind
-    arms = (ARM, ARM * MIRROR)
-    pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
+    pair = scene.pair(right, left)
     assert pair.nearness[0] == pytest.approx(nearness)
     assert pair.way[0] == pytest.approx(scene.body.scale * (-apart, 0.0, 0.0), abs=0.01)
 
@@ -111,17 +120,14 @@ def test_of_arms_that_cross_the_one_in_front_is_told(scene, ahead, front):
         np.array([[(0.0, -side * 0.2, 0.0), (0.2 + x, -side * 0.15, -0.25), hand[0]]])
         for side, x, hand in ((1.0, ahead, right), (-1.0, 0.0, left))
     ]
-    pair = pair_goals(
-        scene.body, np.zeros(1), (right[None], left[None]), (arms[0], arms[1]), (scene.teo, scene.teo)
-    )
+    pair = scene.pair(right, left, arms)
     assert pair.order[0, 0] * front > 0.9
     assert pair.order[0, 1] <= 0.0  # beside leads nowhere
 
 
 def test_hands_far_from_each_other_have_no_order(scene):
     right, left = scene.hand + np.array([0.3, -0.4, 0.0]), scene.hand * MIRROR + np.array([0.3, 0.4, 0.0])
-    arms = (ARM * (1.0, 2.0, 1.0), ARM * MIRROR * (1.0, 2.0, 1.0))
-    pair = pair_goals(scene.body, np.zeros(1), (right[None], left[None]), arms, (scene.teo, scene.teo))
+    pair = scene.pair(right, left, (ARM * (1.0, 2.0, 1.0), ARM * MIRROR * (1.0, 2.0, 1.0)))
     assert pair.order[0] == pytest.approx(np.zeros(3))
 
 

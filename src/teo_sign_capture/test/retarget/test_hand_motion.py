@@ -12,6 +12,7 @@ from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.hand_motion import follow_hand
 from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm, straight_bends
+from teo_sign_capture.tracks.signer_motion import signer_arm
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 STRAIGHT = np.zeros((4, 3))
@@ -41,13 +42,17 @@ def person_hand(bends, frames=10, length=0.09):
     return np.tile(points, (frames, 1, 1))
 
 
+def followed(table, times, hand, straight):
+    return follow_hand(table, times, signer_arm("right", np.zeros((len(hand), 3, 3)), hand, straight))
+
+
 def test_a_hand_of_teo_is_recovered(robot, table):
     knots = np.radians([[10, -60, 10, 20, 30, 40], [30, -40, 60, 50, 30, 20], [10, -60, 80, 80, 80, 80]])
     times = np.linspace(0.0, 2.0, 41)
     axes = np.stack([np.interp(times, [0.0, 1.0, 2.0], knot) for knot in knots.T], axis=1)
     motion = np.concatenate([np.zeros((41, 6)), axes], axis=1)
     _, _, hand, _ = keypoints(robot, JOINTS, motion)
-    found = follow_hand(table, times, hand, STRAIGHT)
+    found = followed(table, times, hand, STRAIGHT)
     assert np.degrees(np.abs(found.axes[:, 2:] - axes[:, 2:])).max() < 1.5
     thumb, wanted = (table.thumb_points(row[:, 0], row[:, 1])[:, 2] for row in (found.axes, axes))
     assert 1000.0 * np.linalg.norm(thumb - wanted, axis=1).max() < 12.0
@@ -65,7 +70,7 @@ def test_a_hand_of_teo_is_recovered(robot, table):
     ],
 )
 def test_shapes_become_what_the_inventory_calls_them(table, bends, least, most):
-    found = follow_hand(table, np.arange(10) / 30.0, person_hand(bends), STRAIGHT)
+    found = followed(table, np.arange(10) / 30.0, person_hand(bends), STRAIGHT)
     flexions = np.degrees(found.axes[:, 2:])
     assert (flexions >= np.array(least) - 0.5).all()
     assert (flexions <= np.array(most) + 0.5).all()
@@ -74,9 +79,7 @@ def test_shapes_become_what_the_inventory_calls_them(table, bends, least, most):
 def test_what_the_coupled_joints_cannot_do_is_reported(table):
     straight, bent, fist = (
         float(
-            np.degrees(
-                follow_hand(table, np.arange(5) / 30.0, person_hand([joints] * 4, 5), STRAIGHT).error[0]
-            )
+            np.degrees(followed(table, np.arange(5) / 30.0, person_hand([joints] * 4, 5), STRAIGHT).error[0])
         )
         for joints in ((0, 0, 0), (90, 0, 0), (80, 80, 80))
     )
@@ -90,7 +93,7 @@ def test_size_and_attitude_of_a_hand_change_nothing(table):
     hand = person_hand([(10, 20, 10), (40, 50, 30), (60, 70, 40), (80, 90, 50)])
     turn = Rotation.from_rotvec((0.4, -1.1, 2.0))
     moved = turn.apply(2.0 * hand.reshape(-1, 3)).reshape(hand.shape) + np.array([1.0, 2.0, 3.0])
-    first, second = (follow_hand(table, times, one, STRAIGHT).axes for one in (hand, moved))
+    first, second = (followed(table, times, one, STRAIGHT).axes for one in (hand, moved))
     assert second == pytest.approx(first, abs=1e-6)
 
 
@@ -99,7 +102,7 @@ def test_a_finger_that_seems_bent_while_straight_is_straight_for_its_signer(tabl
     hand = np.concatenate([person_hand(seeming, 20), person_hand([(80, 90, 60)] * 4, 20)])
     straight = straight_bends(hand)
     assert np.degrees(straight) == pytest.approx(np.array(seeming, float), abs=0.1)
-    found = follow_hand(table, np.arange(40) / 30.0, hand, straight)
+    found = followed(table, np.arange(40) / 30.0, hand, straight)
     assert np.degrees(finger_bends(in_palm(hand)) - straight)[0].max() < 0.1
     assert np.degrees(found.axes[0, 2:]) == pytest.approx(np.full(4, 7.0), abs=0.1)
 
@@ -122,7 +125,7 @@ def test_a_thumb_on_the_index_touches_it_and_nothing_goes_through_anything(table
     tip = hand[0, 8]
     hand[:, 4] = tip + np.array([0.0, -0.008, 0.004])
     hand[:, 3] = hand[:, 4] * 0.7 + (0.0, -0.01, 0.0)
-    found = follow_hand(table, np.arange(10) / 30.0, hand, STRAIGHT)
+    found = followed(table, np.arange(10) / 30.0, hand, STRAIGHT)
     fingers = table.finger_points(found.axes[:, 2:])[0]
     thumb = table.thumb_points(found.axes[:, 0], found.axes[:, 1])[0]
     assert np.linalg.norm(thumb[2] - fingers[0, 3]) < 0.03

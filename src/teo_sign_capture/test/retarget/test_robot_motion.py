@@ -18,12 +18,17 @@ from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget.arm_bounds import mirrored
 from teo_sign_capture.retarget.robot_motion import retarget_motion
 from teo_sign_capture.tracks.person import measure_person
+from teo_sign_capture.tracks.signer_motion import signer_motion
 from teo_sign_capture.tracks.skeleton_track import Keypoints
 from teo_signs.errors import LutError
 
 SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 TIMES = np.arange(31) / 15.0
 RIGHT, LEFT = RIGHT_ARM + RIGHT_HAND, LEFT_ARM + LEFT_HAND
+
+
+def retargeted(robot, track, **options):
+    return retarget_motion(robot, signer_motion(track, **options))
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +67,7 @@ def points(robot, played):
 
 @pytest.fixture(scope="module")
 def both(robot, points):
-    return retarget_motion(robot, track_of(TIMES, points), handedness="both")
+    return retargeted(robot, track_of(TIMES, points), handedness="both")
 
 
 def palms(robot, joints, positions, side="right"):
@@ -120,19 +125,19 @@ def nearest_on_ways(robot, motion):
 
 @pytest.mark.parametrize("size", [0.5, 2.0])
 def test_a_person_of_another_size_gives_the_same_motion(robot, points, both, size):
-    found = retarget_motion(robot, track_of(TIMES, [size * one for one in points]), handedness="both")
+    found = retargeted(robot, track_of(TIMES, [size * one for one in points]), handedness="both")
     assert np.degrees(np.abs(found.positions - both.positions)).max() < 6.0
 
 
 def test_a_person_turned_and_displaced_gives_the_same_motion(robot, points, both):
     turn, shift = Rotation.from_rotvec((0.3, -0.2, 1.5)), np.array([2.0, -1.0, 0.5])
     moved = [turn.apply(one.reshape(-1, 3)).reshape(one.shape) + shift for one in points]
-    found = retarget_motion(robot, track_of(TIMES, moved), handedness="both")
+    found = retargeted(robot, track_of(TIMES, moved), handedness="both")
     assert found.positions == pytest.approx(both.positions, abs=1e-3)
 
 
 def test_a_person_in_a_mirror_gives_the_mirrored_motion(robot, points, both):
-    found = retarget_motion(robot, track_of(TIMES, mirrored_points(points)), handedness="both")
+    found = retargeted(robot, track_of(TIMES, mirrored_points(points)), handedness="both")
     for joints, others in ((RIGHT_ARM, LEFT_ARM), (RIGHT_HAND, LEFT_HAND)):
         ours, theirs = (
             motion.positions[:, [motion.joints.index(joint) for joint in names]]
@@ -148,9 +153,7 @@ def test_one_hand_leaves_the_other_out(robot, points, side, joints, column):
     body, left, right, face = points
     hands = {"left": np.full_like(left, np.nan), "right": right} if side == "right" else {"left": left}
     hands = {"left": left, "right": np.full_like(right, np.nan)} | hands
-    found = retarget_motion(
-        robot, track_of(TIMES, (body, hands["left"], hands["right"], face)), handedness=side
-    )
+    found = retargeted(robot, track_of(TIMES, (body, hands["left"], hands["right"], face)), handedness=side)
     assert found.joints == joints
     assert np.isfinite(found.place_error[:, column]).all()
     assert np.isnan(found.place_error[:, 1 - column]).all()
@@ -158,7 +161,7 @@ def test_one_hand_leaves_the_other_out(robot, points, side, joints, column):
 
 def test_a_finger_at_a_persons_chin_is_at_teos_chin(robot):
     track = read_skeletons(SHIPPED, topic="/truth/skeletons").between(2.6, 3.5)
-    found = retarget_motion(robot, track, handedness="right")
+    found = retargeted(robot, track, handedness="right")
     person = np.linalg.norm(track.right_hand.positions[:, 12] - track.face.positions[:, 8], axis=1)
     touching = np.flatnonzero(person < 0.04)
     assert len(touching) > 2
@@ -174,7 +177,7 @@ def test_a_hand_that_would_go_into_the_body_is_moved_off_and_says_by_how_much(ro
     into = np.array([0.0, 0.0, 0.40]) - right.mean(axis=1)  # the middle of the chest
     right += into[:, None]
     body[:, 4] += into
-    found = retarget_motion(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
+    found = retargeted(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
     assert found.clearance.min() >= 0.010
     # The chest is 12 cm deep before its middle.
     assert np.median(found.place_error[:, 0]) > 0.05
@@ -188,7 +191,7 @@ def test_hands_that_pass_through_each_other_on_teo_are_led_past(robot, points):
         shift = np.array([0.35, 0.0, 0.40]) + sign * share * (0.0, 0.15, 0.0) - hand.mean(axis=1)
         hand += shift[:, None]
         body[:, row] += shift
-    found = retarget_motion(robot, track_of(TIMES, (body, left, right, face)), handedness="both")
+    found = retargeted(robot, track_of(TIMES, (body, left, right, face)), handedness="both")
     assert found.clearance.min() >= 0.010
     assert nearest_on_ways(robot, found) > 0.0
 
@@ -197,7 +200,7 @@ def test_hands_that_pass_through_each_other_on_teo_are_led_past(robot, points):
 def test_hands_that_meet_go_through_nothing_between_frames(robot, start, end):
     """Fingers that interlock, and a fist onto a palm: the shipped recording."""
     track = read_skeletons(SHIPPED, topic="/truth/skeletons")
-    found = retarget_motion(robot, track.between(start, end), handedness="both", person=measure_person(track))
+    found = retargeted(robot, track.between(start, end), handedness="both", person=measure_person(track))
     assert nearest_on_ways(robot, found) > 0.0
     arms = [index for index, joint in enumerate(found.joints) if joint in RIGHT_ARM + LEFT_ARM]
     assert np.degrees(np.abs(np.diff(found.positions[:, arms], axis=0))).max() < 40.0  # 15 frames a second
@@ -211,7 +214,7 @@ def test_a_head_that_turns_takes_part_and_reports_what_it_cannot(robot, points):
     turns = Rotation.from_euler("z", 80.0 * (TIMES > 1.0)[:, None], degrees=True).as_matrix()
     for one, rows in ((body, (0, 15, 16, 17, 18)), (face, range(70))):
         one[:, rows] = np.einsum("tij,tkj->tki", turns, one[:, rows] - neck) + neck
-    found = retarget_motion(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
+    found = retargeted(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
     assert found.joints == RIGHT + HEAD
     assert np.degrees(found.positions[-1, -2]) == pytest.approx(60.0)
     assert np.degrees(found.head_error[-1]) == pytest.approx(20.0, abs=1.0)
@@ -221,7 +224,7 @@ def test_a_head_that_turns_takes_part_and_reports_what_it_cannot(robot, points):
 def test_a_part_of_a_recording_uses_what_is_known_of_the_person(robot, points, both):
     track = track_of(TIMES, points)
     part = track.between(0.5, 1.5)
-    found = retarget_motion(robot, part, handedness="both", person=measure_person(track))
+    found = retargeted(robot, part, handedness="both", person=measure_person(track))
     inside = (TIMES >= 0.5 - 1e-9) & (TIMES <= 1.5 + 1e-9)
     assert np.degrees(np.abs(found.positions - both.positions[inside])[2:-2]).max() < 5.0
 
@@ -231,7 +234,7 @@ def test_gaps_of_a_hand_are_bridged(robot, points, both):
     holed = track.right_hand.positions.copy()
     holed[10:13] = np.nan
     holed[::2, 8] = np.nan  # the index's tip comes and goes
-    found = retarget_motion(robot, replace(track, right_hand=part(holed)), handedness="both")
+    found = retargeted(robot, replace(track, right_hand=part(holed)), handedness="both")
     assert np.isfinite(found.positions).all()
     assert np.degrees(np.abs(found.positions - both.positions)).max() < 15.0
 
@@ -241,7 +244,7 @@ def test_a_hand_that_is_never_seen_is_refused(robot, points, side):
     track = track_of(TIMES, points)
     lost = Keypoints.lost(len(TIMES), 21)
     with pytest.raises(LutError, match=r"hand .* picture") as error:
-        retarget_motion(robot, replace(track, left_hand=lost, right_hand=lost), handedness=side)
+        retargeted(robot, replace(track, left_hand=lost, right_hand=lost), handedness=side)
     assert error.value.code == "no_hand"
 
 
@@ -249,11 +252,11 @@ def test_an_arm_that_is_never_seen_is_refused(robot, points):
     body, left, right, face = (one.copy() for one in points)
     body[:, (3, 6)] = np.nan
     with pytest.raises(LutError, match="elbow") as error:
-        retarget_motion(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
+        retargeted(robot, track_of(TIMES, (body, left, right, face)), handedness="right")
     assert error.value.code == "no_arm"
 
 
 def test_one_frame_is_a_motion(robot, points):
-    found = retarget_motion(robot, track_of(TIMES[:1], [one[:1] for one in points]), handedness="both")
+    found = retargeted(robot, track_of(TIMES[:1], [one[:1] for one in points]), handedness="both")
     assert found.positions.shape == (1, len(JOINTS))
     assert found.clearance[0] >= 0.010
