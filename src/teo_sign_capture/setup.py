@@ -54,7 +54,7 @@ setup(
             "capture = teo_sign_capture.cli.capture:capture",
             "import = teo_sign_capture.cli.import_pose:import_pose",
             "recognise = teo_sign_capture.cli.recognise:recognise",
-            "record = teo_sign_capture.cli.record:record",
+            "record = teo_sign_capture.node.record:record",
         ],
         "teo.commands": ["capture_node = teo_sign_capture.node.capture_node:main"],
     },

@@ -26,7 +26,7 @@ from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_score
-from teo_sign_capture.entries.bag_capture import Job, Saved, Settings, capture_bags
+from teo_sign_capture.entries.bag_capture import CaptureJob, Saved, Settings, capture_bags
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recordings.recording import open_recording, points_of, track_of
 from teo_sign_capture.tracks.skeleton_track import WRIST, SkeletonTrack
@@ -69,7 +69,7 @@ def _performed(robot: Robot, folder: Path) -> list[Figure]:
         _run(write_take(iter(frames), bag))
         settings = Settings(table=folder / "lut", cache=folder / "cache", accept=True, standing=_STANDING)
         begins = time.monotonic()
-        saved += _captured(robot, Job(gloss=gloss, bags=(film,)), settings)
+        saved += _captured(robot, CaptureJob(gloss=gloss, bags=(film,)), settings)
         lasted.append(time.monotonic() - begins)
         truth, _ = track_of(open_recording(bag), cache=folder / "cache", topic="/truth/skeletons")
         seen, _ = track_of(open_recording(bag), cache=folder / "cache")
@@ -102,12 +102,12 @@ def _letters(robot: Robot, folder: Path) -> list[Figure]:
             standing=_STANDING,
         )
         begins = time.monotonic()
-        saved += _captured(robot, Job(gloss=letter, bags=(clips / clip.file,)), settings)
+        saved += _captured(robot, CaptureJob(gloss=letter, bags=(clips / clip.file,)), settings)
         lasted.append(time.monotonic() - begins)
     return _quality("clips of letters", saved, len(letters), lasted)
 
 
-def _captured(robot: Robot, job: Job, settings: Settings) -> list[Saved]:
+def _captured(robot: Robot, job: CaptureJob, settings: Settings) -> list[Saved]:
     try:
         return [capture_bags(robot, job, settings)]
     except LutError:

@@ -22,7 +22,7 @@ from signs.signer_tracks import signer_track
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.lifting.clip import lift_clip
-from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.hand_shape import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, SHOULDER, WRIST, SkeletonTrack
 
 SCRIPTS = ("signing", "face", "crossing", "spelling")

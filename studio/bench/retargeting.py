@@ -22,7 +22,7 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.retarget import robot_motion
-from teo_sign_capture.retarget.arm_bounds import Bounds
+from teo_sign_capture.retarget.arm_kinematics import Bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.collision_clearing import clear_arms

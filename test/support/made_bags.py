@@ -11,7 +11,7 @@ from made_tracks import HANGING, Move, make_track, path
 from std_msgs.msg import Header
 from teo_sign_msgs.msg import Keypoint3D, Skeleton3D, SkeletonArray
 
-from teo_sign_capture.entries.live_capture import write_skeletons
+from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_sign_capture.tracks.skeleton_track import Keypoints, SkeletonTrack
 
 DISTANCE = 2.0  # [m] from the camera

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
 from .entries.bag_capture import (
-    Job as Job,
+    CaptureJob as CaptureJob,
 )
 from .entries.bag_capture import (
     Saved as Saved,
@@ -13,7 +13,6 @@ from .entries.bag_capture import (
     capture_bags as capture_bags,
 )
 from .entries.take import Cut as Cut
-from .entries.take import Take as Take
 from .entries.take import capture_take as capture_take
 from .lifting.clip import lift_clip as lift_clip
 from .recordings.pose_file import PoseClip as PoseClip

@@ -12,8 +12,7 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.retarget.body_map import body_boxes, on_skin
 from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.tracks.finger_bends import finger_bends, in_palm
-from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.hand_shape import finger_bends, in_palm, palm_axes
 from teo_sign_capture.tracks.skeleton_track import EAR, MID_HIP, NECK, NOSE, SkeletonTrack
 
 _TIPS = (4, 8, 12, 16, 20)

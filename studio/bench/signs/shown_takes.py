@@ -25,7 +25,7 @@ from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recognition.appearance import MOMENTS, recording_appearance
 from teo_sign_capture.recordings.recording import open_recording, points_of
-from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import free_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.segmentation import the_sign

@@ -24,9 +24,8 @@ from teo_sign_authoring.notation.score_file import default_scores_directory, rea
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.notation.targets import HandTarget, Posture, postures
 from teo_sign_authoring.signwriting.compiler import compile_fsw
-from teo_sign_authoring.signwriting.dictionary_file import read_dictionary
-from teo_sign_authoring.signwriting.errors import UnreadableError
-from teo_sign_authoring.signwriting.glosses import GlossNames
+from teo_sign_authoring.signwriting.dictionary_file import GlossNames, read_dictionary
+from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_signs.errors import LutError
 
 # A place that is nearer is the same part of the body or the space [m]; a palm that is turned less looks the

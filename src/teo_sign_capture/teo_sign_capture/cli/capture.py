@@ -6,102 +6,49 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, cast
+from typing import TYPE_CHECKING, cast
 
 import typer
 
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import DEFAULT_ROBOT, load_humanoid
+from teo_sign_capture.cli.options import (
+    Accept,
+    AsJson,
+    Bags,
+    Cache,
+    Camera,
+    Dask,
+    Draw,
+    End,
+    Film,
+    Gloss,
+    Hands,
+    KindOption,
+    Licence,
+    Manifest,
+    Notes,
+    Person,
+    Picture,
+    Replace,
+    RobotName,
+    Seconds,
+    Slop,
+    StandingOption,
+    Start,
+    TableDirectory,
+    Topic,
+    Trial,
+    Workers,
+)
 from teo_sign_capture.cli.reporting import JsonReporter, Reporter, TerminalReporter
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import user_lut_directory
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 if TYPE_CHECKING:  # they take a second to load, which the other commands of `lut` need not wait for
-    from teo_sign_capture.entries.bag_capture import Job, Settings
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings
     from teo_sign_capture.entries.outcome import Outcome
-
-Bags = Annotated[
-    list[Path] | None,
-    typer.Argument(
-        help="Video (mp4, mov, webm), bag of colour and depth images or of skeletons, or .pose file; several "
-        "are takes of one sign. Or one folder of them (or of folders of takes), named after their glosses: "
-        "GLOSS, or GLOSS_1, GLOSS_2."
-    ),
-]
-
-
-def upper_case(gloss: str | None) -> str | None:
-    """A gloss as it is written, however it was typed."""
-    return gloss and gloss.upper()
-
-
-Gloss = Annotated[str | None, typer.Option(help="Name of the sign; not with a folder.", callback=upper_case)]
-Start = Annotated[float | None, typer.Option(help="Look at the recording from this second on.")]
-End = Annotated[float | None, typer.Option(help="Look at the recording up to this second.")]
-TableDirectory = Annotated[
-    Path | None, typer.Option("--lut", help="Directory of the table; your own without it.")
-]
-RobotName = Annotated[str, typer.Option("--robot", help="Name of the robot whose sign it becomes.")]
-Replace = Annotated[bool, typer.Option("--replace", help="Take the place of an entry that is there.")]
-Person = Annotated[int | None, typer.Option(help="Id of the person; the signer without it.")]
-Hands = Annotated[
-    Literal["right", "left", "both"] | None,
-    typer.Option(help="Hands that make the sign; those that leave rest without it."),
-]
-KindOption = Annotated[Literal["lexical", "letter", "number"], typer.Option("--kind", help="Kind of sign.")]
-StandingOption = Annotated[
-    Literal["recorded", "measured", "described", "sketched"] | None,
-    typer.Option(
-        "--standing",
-        help="How well founded the form is. Without it: recorded, or sketched where a program drew the "
-        "recording.",
-    ),
-]
-Licence = Annotated[str, typer.Option(help="Terms of the recording, for the entry.")]
-Notes = Annotated[str, typer.Option(help="What a reader must know, for the entry.")]
-Accept = Annotated[
-    bool,
-    typer.Option("--accept", help="Take a sign beyond a gate as it is, one level less well founded."),
-]
-Camera = Annotated[
-    int | None, typer.Option(min=0, help="Film the sign with this webcam first: 0 is the usual one.")
-]
-Seconds = Annotated[
-    float, typer.Option(min=1.0, max=30.0, help="With --camera: how long it films after the countdown [s].")
-]
-Topic = Annotated[str | None, typer.Option(help="Topic of the skeletons; found by itself.")]
-Slop = Annotated[
-    float,
-    typer.Option(
-        min=0.0, max=1.0, help="Greatest difference between the stamps of colour and depth images [s]."
-    ),
-]
-Cache = Annotated[
-    Path | None, typer.Option(help="Where skeletons found in images are kept; the user's cache without it.")
-]
-Picture = Annotated[
-    Path | None, typer.Option(help="Directory of the pictures; beside the entries without it.")
-]
-Draw = Annotated[bool, typer.Option("--draw/--no-draw", help="Draw demonstration and robot side by side.")]
-Film = Annotated[bool, typer.Option("--film", help="Film them as well (MP4).")]
-Trial = Annotated[
-    Path | None,
-    typer.Option(help="Write entry and picture into this directory, to look at; the table stays as it is."),
-]
-Manifest = Annotated[
-    Path | None, typer.Option(help="CSV with a row for each take: bag, gloss[, start, end, hands, person].")
-]
-Workers = Annotated[
-    int | None, typer.Option("--jobs", min=1, help="Signs captured at a time; one for each core without it.")
-]
-Dask = Annotated[
-    str | None, typer.Option(help="Address of a Dask scheduler that does the work: tcp://HOST:8786.")
-]
-AsJson = Annotated[
-    bool,
-    typer.Option("--json", help="Say progress and outcome as a JSON object a line, for programs."),
-]
 
 
 def capture(
@@ -138,7 +85,7 @@ def capture(
     Exit status: 0 captured, 1 not (code and reason on standard error), 2 wrong options.
     """
     reporter = JsonReporter() if as_json else TerminalReporter()
-    from teo_sign_capture.entries.bag_capture import Job, Settings, check_free
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, check_free
     from teo_sign_capture.entries.batch import find_jobs, read_manifest
     from teo_sign_capture.entries.take import Cut
     from teo_sign_capture.recordings.recording import default_cache, is_bag
@@ -169,7 +116,7 @@ def capture(
             check_free(gloss, settings)
             bags = [_filmed(camera, gloss, seconds, reporter)]
         if gloss is not None and bags and manifest is None:
-            job = Job(gloss=gloss, bags=tuple(bags), cut=cut, handedness=hands, person=person)
+            job = CaptureJob(gloss=gloss, bags=tuple(bags), cut=cut, handedness=hands, person=person)
             _capture_one(job, settings, reporter)
             return
         one_folder = bags is not None and len(bags) == 1 and bags[0].is_dir() and not is_bag(bags[0])
@@ -205,7 +152,7 @@ def _filmed(camera: int, gloss: str, seconds: float, reporter: Reporter) -> Path
     return film_webcam(camera, out, seconds=seconds, on_state=reporter.camera)
 
 
-def _capture_one(job: Job, settings: Settings, reporter: Reporter) -> None:
+def _capture_one(job: CaptureJob, settings: Settings, reporter: Reporter) -> None:
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import capture_bags
     from teo_sign_capture.entries.outcome import captured_outcome
@@ -216,7 +163,7 @@ def _capture_one(job: Job, settings: Settings, reporter: Reporter) -> None:
 
 
 def _capture_all(
-    jobs: list[Job], settings: Settings, count: int, dask: str | None, reporter: Reporter
+    jobs: list[CaptureJob], settings: Settings, count: int, dask: str | None, reporter: Reporter
 ) -> None:
     from teo_sign_capture.entries.batch import run_jobs, workers
     from teo_sign_capture.entries.outcome import failures

@@ -12,7 +12,7 @@ import typer
 from rich.console import Console
 
 from teo_common.offered_commands import NotOfferedError, offered_command
-from teo_sign_capture.cli.capture import (
+from teo_sign_capture.cli.options import (
     Accept,
     Draw,
     End,
@@ -115,7 +115,7 @@ def import_pose(
         fail(LutError("bad_arguments", "expected FILE.pose --gloss GLOSS, or --signwriting FILE"))
 
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags
+    from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags
     from teo_sign_capture.entries.outcome import captured_outcome
     from teo_sign_capture.entries.take import Cut
     from teo_signs.look_up_table import user_lut_directory
@@ -132,7 +132,9 @@ def import_pose(
         recorded=None if recorded is None else recorded.strftime(_DAY),
         pictures=(picture or table) if draw else None,
     )
-    job = Job(gloss=gloss, bags=(file,), cut=Cut(start=start, end=end), handedness=hands, person=person)
+    job = CaptureJob(
+        gloss=gloss, bags=(file,), cut=Cut(start=start, end=end), handedness=hands, person=person
+    )
     try:
         with _errors.status(f"capturing {file.name}"):
             saved = capture_bags(Robot.load(), job, settings)

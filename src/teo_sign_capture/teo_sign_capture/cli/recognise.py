@@ -15,15 +15,22 @@ from rich.table import Table
 
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import DEFAULT_ROBOT
-from teo_sign_capture.cli.capture import AsJson, Cache, End, Hands, Person, Start, Topic
+from teo_sign_capture.cli.options import (
+    AsJson,
+    Cache,
+    End,
+    Hands,
+    LanguageCode,
+    Person,
+    RobotName,
+    Start,
+    Topic,
+)
 from teo_sign_capture.cli.reporting import JsonReporter, TerminalReporter, write_json
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 
 _output = Console(highlight=False)
-
-RobotName = Annotated[str, typer.Option("--robot", help="Name of the robot.")]
-Code = Annotated[str, typer.Option("--language", help="Code of the sign language.")]
 
 
 def recognise(
@@ -41,7 +48,7 @@ def recognise(
         ),
     ] = None,
     robot_name: RobotName = DEFAULT_ROBOT,
-    language: Code = DEFAULT_LANGUAGE,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     start: Start = None,
     end: End = None,
     hands: Hands = None,
@@ -60,8 +67,7 @@ def recognise(
     from teo_description.robot import Robot
     from teo_sign_capture.entries.bag_capture import Settings, recorded_track
     from teo_sign_capture.recognition.appearance import recording_appearance, sign_appearance
-    from teo_sign_capture.recognition.comparison import compare
-    from teo_sign_capture.recognition.sign_index import SignIndex
+    from teo_sign_capture.recognition.sign_index import SignIndex, compare
     from teo_sign_capture.recordings.recording import default_cache, open_recording
     from teo_signs.look_up_table import Lut, user_lut_directory
 

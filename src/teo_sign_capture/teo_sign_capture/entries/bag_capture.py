@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import datetime
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
@@ -16,9 +18,9 @@ from teo_description.humanoid import DEFAULT_ROBOT
 from teo_description.robot import Robot
 from teo_sign_capture.entries.capture_picture import save_capture_film, save_capture_picture
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
-from teo_sign_capture.entries.similar_signs import SimilarSign, similar_signs
-from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_sign_capture.entries.take import Cut, SignTake, capture_take
 from teo_sign_capture.lifting.clip import lift_clip
+from teo_sign_capture.recognition.sign_index import SimilarSign, similar_signs
 from teo_sign_capture.recordings.recording import (
     Recording,
     default_cache,
@@ -26,6 +28,7 @@ from teo_sign_capture.recordings.recording import (
     points_of,
     track_of,
 )
+from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry
@@ -45,11 +48,11 @@ LIFTED = (
 )
 
 # Told what is done, how much of it, of how much.
-Progress = Callable[[str, int, int], None]
+StageProgress = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Job:
+class CaptureJob:
     """One sign to capture.
 
     Attributes:
@@ -126,7 +129,9 @@ class Saved:
     warnings: tuple[str, ...]
 
 
-def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progress | None = None) -> Saved:
+def capture_bags(
+    robot: Robot, job: CaptureJob, settings: Settings, on_progress: StageProgress | None = None
+) -> Saved:
     """Capture a sign from its takes and save it.
 
     Args:
@@ -146,9 +151,9 @@ def capture_bags(robot: Robot, job: Job, settings: Settings, on_progress: Progre
         return _captured(robot, job, settings, on_progress)
 
 
-def _captured(robot: Robot, job: Job, settings: Settings, on_progress: Progress | None) -> Saved:
+def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: StageProgress | None) -> Saved:
     recordings = [open_recording(bag, slop=settings.slop) for bag in job.bags]
-    takes: list[Take] = []
+    takes: list[SignTake] = []
     warnings: list[str] = []
     failed: list[LutError] = []
     tell = on_progress or (lambda *_: None)
@@ -214,7 +219,7 @@ def recorded_track(
     return lift_clip(clip, recorded=settings.recorded), ()
 
 
-def is_captured(job: Job, table: Path) -> bool:
+def is_captured(job: CaptureJob, table: Path) -> bool:
     """Whether the table's entry was made from these very recordings, cut like this."""
     path = table / f"{gloss_key(job.gloss)}.json"
     if not path.is_file():
@@ -250,7 +255,9 @@ def check_free(gloss: str, settings: Settings) -> None:
         )
 
 
-def _origin(job: Job, settings: Settings, recordings: Sequence[Recording], left_out: Sequence[str]) -> Origin:
+def _origin(
+    job: CaptureJob, settings: Settings, recordings: Sequence[Recording], left_out: Sequence[str]
+) -> Origin:
     rendered = any(recording.rendered for recording in recordings)
     flat = any(recording.is_flat for recording in recordings)
     return Origin(
@@ -301,3 +308,37 @@ def _with_picture(saved: Saved, recordings: Sequence[Recording], settings: Setti
     except OSError as error:
         return replace(saved, warnings=(*saved.warnings, f"{picture}: not drawn: {error}"))
     return saved
+
+
+def keep_and_capture(
+    robot: Robot, gloss: str, messages: Sequence[Any], recordings: Path, settings: Settings
+) -> Saved:
+    """Write a recording beside the others, then capture it.
+
+    A recording that is no good is kept as well: it shows what went wrong.
+
+    Args:
+        robot: The robot.
+        gloss: Name of the sign.
+        messages: `SkeletonArray` of the recording, in order.
+        recordings: Directory of recordings.
+        settings: Of the capture.
+
+    Raises:
+        LutError: "not_written", or what `capture_bags` raises.
+    """
+    now = datetime.datetime.now().strftime("%Y%m%dT%H%M%S")
+    path = recordings / f"{gloss_key(gloss)}-{now}.mcap"
+    try:
+        recordings.mkdir(parents=True, exist_ok=True)
+        write_skeletons(path, messages)
+    except OSError as error:
+        raise LutError(
+            "not_written", f"{recordings}: expected a directory to write to, got: {error}"
+        ) from error
+    return capture_bags(robot, CaptureJob(gloss=gloss, bags=(path,)), settings)
+
+
+def default_recordings() -> Path:
+    """Where recordings are kept if nobody says otherwise."""
+    return default_cache().parent / "recordings"

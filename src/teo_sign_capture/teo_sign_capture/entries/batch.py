@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from teo_description.robot import Robot
-from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags, is_captured
+from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags, is_captured
 from teo_sign_capture.entries.outcome import (
     CRASHED,
     UNCHANGED,
@@ -41,7 +41,7 @@ _COLUMNS = ("bag", "gloss", "start", "end", "hands", "person")
 _CONNECT_TIMEOUT = 10.0  # [s] a scheduler that does not answer, or has no worker, by then will not
 
 
-def find_jobs(folder: Path) -> list[Job]:
+def find_jobs(folder: Path) -> list[CaptureJob]:
     """The signs of a folder: each recording, or sub-folder of recordings, is named after its gloss, by gloss.
 
     Names may be in lower case, as telephones and file systems like them.
@@ -65,10 +65,10 @@ def find_jobs(folder: Path) -> list[Job]:
             "expected a folder of bags, videos or .pose files that are named after their glosses, got none "
             f"in {folder}",
         )
-    return [Job(gloss=gloss, bags=tuple(bags)) for gloss, bags in sorted(takes.items())]
+    return [CaptureJob(gloss=gloss, bags=tuple(bags)) for gloss, bags in sorted(takes.items())]
 
 
-def read_manifest(path: Path) -> list[Job]:
+def read_manifest(path: Path) -> list[CaptureJob]:
     """The signs of a CSV file with a row for each take: bag and gloss; start, end, hands, person if needed.
 
     Bags are named relative to the file. Rows of one gloss are takes of one sign, and agree in the rest.
@@ -76,7 +76,7 @@ def read_manifest(path: Path) -> list[Job]:
     Raises:
         LutError: "bad_manifest", naming the line.
     """
-    jobs: dict[str, Job] = {}
+    jobs: dict[str, CaptureJob] = {}
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             rows = csv.DictReader(file)
@@ -91,7 +91,7 @@ def read_manifest(path: Path) -> list[Job]:
                 if (known.cut, known.handedness, known.person) != (job.cut, job.handedness, job.person):
                     expected = f"the same start, end, hands and person in every take of {job.gloss}"
                     raise _bad_manifest(path, rows.line_num, expected, "others")
-                jobs[job.gloss] = Job(
+                jobs[job.gloss] = CaptureJob(
                     gloss=job.gloss,
                     bags=known.bags + job.bags,
                     cut=job.cut,
@@ -106,7 +106,7 @@ def read_manifest(path: Path) -> list[Job]:
 
 
 def run_jobs(
-    executor: Executor, jobs: Sequence[Job], settings: Settings, on_done: Callable[[Outcome], None]
+    executor: Executor, jobs: Sequence[CaptureJob], settings: Settings, on_done: Callable[[Outcome], None]
 ) -> list[Outcome]:
     """Capture signs; one that fails stops no other.
 
@@ -147,7 +147,7 @@ def run_jobs(
     return sorted(outcomes, key=lambda outcome: outcome.gloss)
 
 
-def capture_job(job: Job, settings: Settings) -> Outcome:
+def capture_job(job: CaptureJob, settings: Settings) -> Outcome:
     """Capture one sign, in whatever process this is."""
     try:
         if not settings.replace and is_captured(job, settings.table):
@@ -200,7 +200,7 @@ def _gloss(name: str) -> str:
     return gloss_key(name).upper()
 
 
-def _job(path: Path, line: int, row: dict[str, str | None]) -> Job:
+def _job(path: Path, line: int, row: dict[str, str | None]) -> CaptureJob:
     cells = {name: (row.get(name) or "").strip() for name in _COLUMNS}
     if not cells["bag"] or not cells["gloss"] or None in row:
         raise _bad_manifest(path, line, "a bag and a gloss", str(list(row.values())))
@@ -214,7 +214,7 @@ def _job(path: Path, line: int, row: dict[str, str | None]) -> Job:
         raise _bad_manifest(path, line, "start and end in seconds, person a number", str(error)) from error
     if cells["hands"] and cells["hands"] not in get_args(Handedness):
         raise _bad_manifest(path, line, f"hands of {', '.join(get_args(Handedness))}", cells["hands"])
-    return Job(
+    return CaptureJob(
         gloss=_gloss(cells["gloss"]),
         bags=(path.parent / cells["bag"],),
         cut=cut,

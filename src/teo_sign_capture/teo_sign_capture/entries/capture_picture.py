@@ -13,7 +13,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.pictures.rendering import Image, film_strip, save_png, write_video
 from teo_sign_capture.entries.sign_entry import Captured
-from teo_sign_capture.entries.take import Take
+from teo_sign_capture.entries.take import SignTake
 from teo_sign_capture.recordings.colour_images import colour_images, video_pictures
 from teo_sign_capture.recordings.recording import Recording, skeletons_of
 from teo_signs.pictures import FRAME_RATE, render_sign
@@ -73,7 +73,7 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording | Non
     return write_video(path, frames, [sign.gloss] * len(shares), frames_per_second=FRAME_RATE)
 
 
-def _drawer(take: Take, recording: Recording | None, cache: Path) -> Drawer:
+def _drawer(take: SignTake, recording: Recording | None, cache: Path) -> Drawer:
     start = take.span.start
     end = start + float(take.track.times[-1])
     if recording is None or (recording.is_flat and recording.has_skeletons):
@@ -89,7 +89,7 @@ def _drawer(take: Take, recording: Recording | None, cache: Path) -> Drawer:
     return lambda time: images[int(np.argmin(np.abs(times - time)))][1]
 
 
-def draw_person(take: Take, time: float) -> Image:
+def draw_person(take: SignTake, time: float) -> Image:
     """The keypoints of a take at a time, as from the front: the person's left is on the right."""
     frame = int(np.argmin(np.abs(take.track.times - time)))
     picture = np.full((_SIZE[1], _SIZE[0], 3), _PAPER, np.uint8)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from teo_sign_capture.entries.bag_capture import Saved
 from teo_sign_capture.entries.gates import RefusedError, Verdict
-from teo_sign_capture.entries.similar_signs import SimilarSign
+from teo_sign_capture.recognition.sign_index import SimilarSign
 from teo_signs.errors import LutError
 from teo_signs.sign import gloss_key
 

@@ -14,11 +14,15 @@ from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_capture.entries.gates import Verdict, accepted_standing, judge, objections
 from teo_sign_capture.entries.playback import Playback, play
-from teo_sign_capture.entries.take import Take
+from teo_sign_capture.entries.take import SignTake
 from teo_sign_capture.entries.take_combination import Combined, combine
-from teo_sign_capture.retarget.knot_reduction import TOLERANCE, deviations, reduce_to_knots
-from teo_sign_capture.retarget.motion_smoothing import smoothest_motion
-from teo_sign_capture.retarget.quality_figures import limit_margin_deg
+from teo_sign_capture.retarget.knots import (
+    TOLERANCE,
+    deviations,
+    limit_margin_deg,
+    reduce_to_knots,
+    smoothest_motion,
+)
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign, gloss_key
@@ -65,12 +69,12 @@ class Captured:
     """
 
     sign: Sign
-    takes: tuple[Take, ...]
+    takes: tuple[SignTake, ...]
     combined: Combined
     verdicts: tuple[Verdict, ...]
 
     @property
-    def take(self) -> Take:
+    def take(self) -> SignTake:
         """The take that leads."""
         return self.takes[self.combined.leader]
 
@@ -78,7 +82,7 @@ class Captured:
 def make_sign(
     robot: Robot,
     gloss: str,
-    takes: Sequence[Take],
+    takes: Sequence[SignTake],
     origin: Origin,
     *,
     kind: Kind = "lexical",
@@ -147,7 +151,7 @@ def _played(robot: Robot, whole: Sign) -> tuple[Sign, Playback]:
     raise AssertionError("the last share returns or raises")
 
 
-def _provenance(robot: Robot, origin: Origin, takes: Sequence[Take], combined: Combined) -> Provenance:
+def _provenance(robot: Robot, origin: Origin, takes: Sequence[SignTake], combined: Combined) -> Provenance:
     take = takes[combined.leader]
     gaps = [gap for index in combined.used for gap in takes[index].gaps]
     filled = "; ".join(f"{gap.part.replace('_', ' ')} {gap.start:.2f} to {gap.end:.2f} s" for gap in gaps)
@@ -174,7 +178,7 @@ def _provenance(robot: Robot, origin: Origin, takes: Sequence[Take], combined: C
 
 
 def _quality(
-    robot: Robot, takes: Sequence[Take], sign: Sign, playback: Playback, away: Array
+    robot: Robot, takes: Sequence[SignTake], sign: Sign, playback: Playback, away: Array
 ) -> dict[str, float]:
     def usual(errors: str) -> float:
         """The worse hand's error that 95 of 100 frames keep below, mean of the takes."""
@@ -214,7 +218,7 @@ def _quality(
     return {name: round(float(value), _DECIMALS.get(name, 1)) + 0.0 for name, value in figures.items()}
 
 
-def _contact_figure(takes: Sequence[Take]) -> dict[str, float]:
+def _contact_figure(takes: Sequence[SignTake]) -> dict[str, float]:
     """The error of the place where a hand is on the body; nothing of a sign that touches nothing."""
     off = [take.motion.place_error[take.motion.contact > _TOUCHING] for take in takes]
     touching = [errors for errors in off if errors.size]

@@ -43,7 +43,7 @@ class Cut:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Take:
+class SignTake:
     """One demonstration of a sign, on TEO.
 
     Attributes:
@@ -72,7 +72,7 @@ class Take:
 
 def capture_take(
     robot: Robot, track: SkeletonTrack, *, cut: Cut | None = None, handedness: Handedness | None = None
-) -> Take:
+) -> SignTake:
     """Find the sign in a recording and bring it onto TEO.
 
     Args:
@@ -100,7 +100,7 @@ def capture_take(
     stroke = smoothed.track.between(span.start - _ROUNDING, span.end + _ROUNDING)
     _check_seen(stroke, handedness, offset + span.start)
     signer = signer_motion(stroke, handedness=handedness, person=measure_person(track))
-    return Take(
+    return SignTake(
         source=track.source,
         recorded=track.recorded,
         span=_moved(span, offset),

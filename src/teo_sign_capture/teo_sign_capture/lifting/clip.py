@@ -15,13 +15,12 @@ from dataclasses import replace
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_capture.lifting.arms import lift_arm
-from teo_sign_capture.lifting.body_measure import BodyMeasure, measure_body
+from teo_sign_capture.lifting.arms import BodyMeasure, lift_arm, measure_body
 from teo_sign_capture.lifting.hands import LiftedHand, has_depth, lift_hand
 from teo_sign_capture.lifting.head import POINTS, lift_head
 from teo_sign_capture.recordings.pose_file import Points, PoseClip
 from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.hand_model import MIDDLE, RING, WRIST
+from teo_sign_capture.tracks.hand_shape import MIDDLE, RING, WRIST
 from teo_sign_capture.tracks.skeleton_track import (
     ELBOW,
     FACE,

@@ -6,7 +6,7 @@ Across the view a point is good to a pixel or two. Its depth is what a detector 
 For each bone, the depth that fits its length and the guess best is taken; the guess says above all which
 way. The palm is then made rigid: one shape for all frames, laid into each (Kabsch 1976).
 
-`hand_model.fit_hand` is the thorough way, for the few hands of a letter: it takes half a second for each.
+`fit_hand` of teo_sign_authoring is the thorough way, for the few hands of a letter: half a second each.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from teo_common.arrays import Array
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
 from teo_sign_capture.recordings.pose_file import Points
 from teo_sign_capture.signing_space.hand_points import MIRROR
-from teo_sign_capture.tracks.hand_model import INDEX, KNUCKLES, LITTLE, PALM, THUMB, WRIST, palm_axes
+from teo_sign_capture.tracks.hand_shape import INDEX, KNUCKLES, LITTLE, PALM, THUMB, WRIST, palm_axes
 
 # Points that a bone joins: of thumb, index, middle, ring and little finger, from the wrist out.
 BONES = tuple(

@@ -24,8 +24,13 @@ from teo_sign_msgs.srv import CaptureSign
 from teo_common.node_process import run_node
 from teo_common.parameters import declare_parameters
 from teo_description.robot import Robot
-from teo_sign_capture.entries.bag_capture import Saved, Settings, check_free
-from teo_sign_capture.entries.live_capture import default_recordings, keep_and_capture
+from teo_sign_capture.entries.bag_capture import (
+    Saved,
+    Settings,
+    check_free,
+    default_recordings,
+    keep_and_capture,
+)
 from teo_sign_capture.node.parameters import CAPTURE_PARAMETERS
 from teo_sign_capture.recordings.live_take import LiveTake, Phase
 from teo_signs.errors import LutError

@@ -21,8 +21,7 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.humanoid import SIDES
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import mirrored, mirrored_hand
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, mirrored, mirrored_hand
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.retarget.robot_motion import free_motion
 from teo_sign_capture.tracks.person import measure_person

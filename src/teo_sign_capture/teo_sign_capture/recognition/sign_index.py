@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The signs of a table that look most like what somebody shows, by dynamic time warping.
+"""The signs of a table that look most like what somebody shows, and which parts of a sign differ.
 
 Time is warped by the library dtaidistance; most signs are never compared, as a lower bound of their distance
 (Keogh and Ratanamahatana, Knowledge and Information Systems 7, 2005: how far the shown leaves the band that a
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from dtaidistance import dtw_ndim  # type: ignore[import-untyped]  # ships no types
@@ -18,7 +19,10 @@ from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.recognition.appearance import MOMENTS, sign_appearance
+from teo_sign_capture.recognition.appearance import HAND, MOMENTS, PARTS, sign_appearance
+from teo_signs.errors import LutError
+from teo_signs.likeness import nearest_pairs
+from teo_signs.look_up_table import Lut, user_lut_directory
 from teo_signs.sign import Sign
 
 # Moments by which one sign may be ahead of another: a quarter of it, as a hold or a beat may be longer.
@@ -93,3 +97,130 @@ def distance_between(shown: Array, sign: Array) -> float:
     # The library counts the diagonal as one.
     warped = dtw_ndim.distance_fast(shown, sign, window=AHEAD + 1)
     return float(warped) / float(np.sqrt(MOMENTS))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """How what was shown differs from a sign, by the parts of which signs are made (Stokoe 1960).
+
+    Differences are root mean squares over the sign, its time warped, of the hand that differs more, in the
+    units of `appearance`: 1 is what a person's sign differs by from its entry in half of the known takes, 4
+    what another sign does.
+
+    Attributes:
+        gloss: The sign.
+        distance: Of both, as `Match.distance`.
+        hands: Whether the same number of hands take part. Of a hand that does so in one of them alone nothing
+            else is said.
+        handshape: By the bends of the fingers.
+        orientation: By the ways palm and fingers point.
+        place: By where the hand is on the whole.
+        movement: By the hand's way from there.
+    """
+
+    gloss: str
+    distance: float
+    hands: bool
+    handshape: float
+    orientation: float
+    place: float
+    movement: float
+
+
+def compare(gloss: str, shown: Array, sign: Array) -> Comparison:
+    """Compare what was shown with a sign.
+
+    Args:
+        gloss: The sign's name.
+        shown: As `recording_appearance` gives it. Shape (MOMENTS, 2 * HAND).
+        sign: As `sign_appearance` gives it; of the same shape.
+    """
+    shown, sign = (np.ascontiguousarray(given, dtype=np.float64) for given in (shown, sign))
+    path = np.array(dtw_ndim.warping_path(shown, sign, window=AHEAD + 1))
+    apart = shown[path[:, 0]] - sign[path[:, 1]]
+    taking_part = [
+        (bool(shown[0, first + PARTS.presence]), bool(sign[0, first + PARTS.presence])) for first in (0, HAND)
+    ]
+    hands = [
+        _by_part(apart[:, first : first + HAND])
+        for first, parts in zip((0, HAND), taking_part, strict=True)
+        if all(parts)
+    ]
+    worst = np.max(hands, axis=0) if hands else np.zeros(4)
+    handshape, orientation, place, movement = np.round(worst, 3).tolist()
+    return Comparison(
+        gloss=gloss,
+        distance=round(distance_between(shown, sign), 3),
+        hands=all(one == other for one, other in taking_part),
+        handshape=handshape,
+        orientation=orientation,
+        place=place,
+        movement=movement,
+    )
+
+
+def _by_part(apart: Array) -> Array:
+    """Handshape, orientation, place and movement of one hand's differences. Shape (4,)."""
+    where = apart[:, PARTS.place]
+    place = where.mean(axis=0)
+    parts = (apart[:, PARTS.bends], apart[:, PARTS.turns], place[None, :], where - place)
+    return np.array([np.sqrt((part**2).sum(axis=1).mean()) for part in parts])
+
+
+# Signs whose largest difference is below two of those that are just seen are told apart only by who looks for
+# it; no two words of the shipped table are below one.
+_ALIKE = 2.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimilarSign:
+    """A sign of the table beside a new one.
+
+    Attributes:
+        gloss: Its name.
+        seen: The largest difference of both [differences that are just seen]; 0 of one and the same motion.
+    """
+
+    gloss: str
+    seen: float
+
+    def warning(self, gloss: str) -> str | None:
+        """What the teacher of a new sign should know; None where both are told apart."""
+        if self.seen == 0.0:
+            return f"{gloss} is the same motion as {self.gloss}."
+        if self.seen < _ALIKE:
+            return (
+                f"{gloss} looks nearly like {self.gloss}: what differs most is {self.seen:.1f} times what is "
+                "just seen."
+            )
+        return None
+
+
+def similar_signs(robot: Robot, sign: Sign, table: Path) -> tuple[SimilarSign, ...]:
+    """The signs of a table that look most like a new one, the most alike first.
+
+    Args:
+        robot: The robot.
+        sign: The new sign; an entry of the same name is no other sign.
+        table: Directory that it goes to; of the user's own, what the package's table holds counts as well.
+    """
+    others: dict[str, Sign] = {}
+    try:
+        name = robot.humanoid.name
+        signs = Lut.open(None if table == user_lut_directory(robot=name) else table, robot=name)
+    except LutError:  # a table that is made with its first sign
+        return ()
+    for gloss in signs.glosses():
+        try:
+            other = signs[gloss]
+        except LutError:  # entries that are not valid are `lut validate`'s to tell
+            continue
+        if gloss != sign.gloss and other.kind == sign.kind:
+            others[gloss] = other
+    if not others:
+        return ()
+    found = []
+    for match in SignIndex.of_signs(robot, others.values()).nearest(sign_appearance(robot, sign)):
+        pairs = nearest_pairs(robot, [sign, others[match.gloss]])  # two names of one motion are no pair
+        found.append(SimilarSign(gloss=match.gloss, seen=round(pairs[0].seen, 2) if pairs else 0.0))
+    return tuple(sorted(found, key=lambda similar: similar.seen))

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a sign is captured from: a bag of skeletons or images, a video, or a clip of a person's points."""
+"""What a sign is captured from: a bag of skeletons or images, a video, or a clip of a person's points.
+
+Skeletons of a bag's images are found by the retriever, in a process of its own, and kept in a cache.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +17,58 @@ from pathlib import Path
 
 from rosbags.highlevel import AnyReader
 
-from teo_sign_capture.recordings.own_process import Progress
+from teo_sign_capture.recordings.own_process import Progress, not_retrieved, work_apart
 from teo_sign_capture.recordings.pose_file import PoseClip, read_pose_file
-from teo_sign_capture.recordings.retrieval import retrieve_apart
 from teo_sign_capture.recordings.skeleton_bag import TRUTH, TYPE, is_rendered, read_skeletons
-from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, is_video
-from teo_sign_capture.recordings.video_points import find_points_apart
+from teo_sign_capture.recordings.video import VIDEO_SUFFIXES, find_points_apart, is_video
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
+
+
+def retrieve_apart(
+    bag: Path, out: Path, on_progress: Progress | None = None, *, slop: float = DEFAULT_SLOP
+) -> tuple[str, ...]:
+    """Find people in the images of a bag and write their skeletons, in a process of its own.
+
+    Args:
+        bag: The bag.
+        out: MCAP file to write; its folder exists.
+        on_progress: Told of the number of messages read and that of all.
+        slop: Greatest difference between the stamps of colour and depth [s].
+
+    Returns:
+        What could not be used of the images, a sentence each.
+
+    Raises:
+        LutError: The code of the retriever's error ("no_depth", "no_camera_info", ...) or of what was wrong
+            with all images; "not_retrieved" where there is none, or the process died.
+        OSError: `out` cannot be written.
+    """
+    return work_apart(functools.partial(_retrieve, slop=slop), bag, out, on_progress)
+
+
+def _retrieve(bag: Path, out: Path, on_progress: Progress | None, slop: float) -> tuple[str, ...]:
+    # Imported here: MediaPipe and what it needs are to be loaded by the process that runs it.
+    from teo_skeleton_retriever.errors import RetrieverError, TopicError
+    from teo_skeleton_retriever.recording import retrieve_recording
+
+    try:
+        report = retrieve_recording(bag, out=out, slop=slop, on_progress=on_progress)
+    except TopicError as error:
+        option = f"--{error.argument.replace('_', '-')}"
+        hint = f"if it has another name, run `retrieve {option} NAME` first"
+        raise LutError(error.code, f"{bag.name}: {error.sentence}: {hint}") from None
+    except RetrieverError as error:
+        raise LutError(error.code, f"{bag.name}: {error.sentence}") from None
+    if not report.images:
+        for code, sentence in report.reasons.items():
+            raise LutError(code, f"{bag.name}: {sentence}")
+        raise not_retrieved(bag, report.complaints[0])
+    if report.nobody:
+        raise LutError("nobody_in_space", f"{bag.name}: {report.nobody}")
+    return report.complaints
+
 
 BAG_SUFFIXES = (".mcap", ".db3", ".bag")
 POSE_SUFFIX = ".pose"

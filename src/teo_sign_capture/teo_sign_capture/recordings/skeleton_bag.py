@@ -81,6 +81,16 @@ def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = 
     return track_of_people(stamps, people, source=bag.name, signer=signer, recorded=recorded)
 
 
+def write_skeletons(path: Path, messages: Sequence[Any]) -> None:
+    """Write `SkeletonArray` messages as a bag, whole or not at all."""
+    from teo_skeleton_retriever.output.skeleton_bag import skeleton_bag
+
+    with skeleton_bag(path) as bag:
+        for message in messages:
+            stamp = message.header.stamp
+            bag.write(message, stamp.sec * 1_000_000_000 + stamp.nanosec)
+
+
 def track_of_people(
     stamps: Sequence[float],
     people: Sequence[Any],

@@ -1,20 +1,30 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Images of a video file with their times, upright, as a phone or a webcam writes it.
+"""Images of a video file with their times, and the person's points in them, kept as a `.pose` file.
 
-PyAV reads it, as it gives each image the time that the file says: phones change their rate with the light,
-and a sign must not change its pace with it.
+PyAV reads a video, as it gives each image the time that the file says: phones change their rate with the
+light, and a sign must not change its pace with it. The retriever's detector finds the points. The file is one
+as other programs write and read them (BODY_25 and hands of 21 points, in OpenPose's names), so that a video
+goes the way of every clip. Only hands have depths, as the detector imagines them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
+from teo_common.atomic_files import write_atomically
+from teo_sign_capture.recordings.own_process import Progress, work_apart
+from teo_sign_capture.recordings.pose_layouts import OPENPOSE
+from teo_sign_capture.tracks.skeleton_track import BODY, HAND
 from teo_signs.errors import LutError
 
 Image = NDArray[np.uint8]
@@ -112,3 +122,157 @@ def _upright(frame: object) -> Image:
         size = (round(image.shape[1] * share), round(image.shape[0] * share))
         return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     return np.ascontiguousarray(image)
+
+
+if TYPE_CHECKING:
+    from teo_skeleton_retriever.detectors.detector import Detector
+    from teo_skeleton_retriever.layouts.person_2d import Person2D
+
+# Between two images that are farther apart than so many usual periods nothing is known.
+_LONGEST_GAP = 2.5
+# Share of the time between two images within which a moment is that of the nearer one.
+_AT_IT = 0.05
+_POINTS = BODY + 2 * HAND
+
+
+def find_points_apart(video: Path, out: Path, on_progress: Progress | None = None) -> tuple[str, ...]:
+    """Find the person in a video and write a `.pose` file, in a process of its own.
+
+    Args:
+        video: The video.
+        out: File to write; its folder exists.
+        on_progress: Told of the number of images read and about that of all.
+
+    Returns:
+        Nothing: a video is used whole or refused.
+
+    Raises:
+        LutError: What `video_images` raises, "too_short" for fewer than two images, "no_person" if nobody is
+            seen in any, "not_retrieved" where the process died.
+        OSError: `out` cannot be written.
+    """
+    return work_apart(_find, video, out, on_progress)
+
+
+def _find(video: Path, out: Path, on_progress: Progress | None) -> tuple[str, ...]:
+    # Imported here: MediaPipe and what it needs are to be loaded by the process that runs it.
+    from teo_skeleton_retriever.detectors import make_detector
+    from teo_skeleton_retriever.errors import RetrieverError
+
+    times: list[float] = []
+    found: list[Array] = []
+    size = (0, 0)
+    total = count_images(video)
+    try:
+        detector = make_detector("mediapipe")
+        try:
+            for time, image, people in _detected(detector, video_images(video)):
+                times.append(time)
+                found.append(_points(people[0]) if people else np.zeros((_POINTS, 4)))
+                size = (image.shape[1], image.shape[0])
+                if on_progress is not None:
+                    on_progress(len(times), max(total, len(times)))
+        finally:
+            detector.close()
+    except RetrieverError as error:
+        raise LutError(error.code, f"{video.name}: {error.sentence}") from None
+    if len(times) < 2:
+        raise LutError("too_short", f"{video.name}: expected two images or more, got {len(times)}")
+    points = np.array(found)
+    if not points[..., 3].any():
+        raise LutError(
+            "no_person",
+            f"{video.name}: expected a person in one of {len(times)} images, got nobody: were head and "
+            "arms in the picture?",
+        )
+    write_atomically(out, pose_file(*evenly(np.array(times), points), size))
+    return ()
+
+
+def _detected(
+    detector: Detector, images: Iterable[VideoImage]
+) -> Iterator[tuple[float, Image, tuple[Person2D, ...]]]:
+    """Images in order with the people in them, as many looked at at once as the detector can."""
+    # Two of MediaPipe's images at a time take two thirds of the time of one after the other on two cores.
+    waiting: deque[tuple[VideoImage, Future[tuple[Person2D, ...]]]] = deque()
+
+    def first() -> tuple[float, Image, tuple[Person2D, ...]]:
+        shown, people = waiting.popleft()
+        return shown.time, shown.image, people.result()
+
+    with ThreadPoolExecutor(detector.images_at_once) as threads:
+        for shown in images:
+            waiting.append((shown, threads.submit(detector.detect, shown.image, shown.time)))
+            if len(waiting) > detector.images_at_once:
+                yield first()
+        while waiting:
+            yield first()
+
+
+def _points(person: object) -> Array:
+    """A person of the detector: x, y, depth, confidence of body, left and right hand. Shape (67, 4)."""
+    points = np.zeros((_POINTS, 4))
+    parts = (("body", 0, BODY), ("left_hand", BODY, HAND), ("right_hand", BODY + HAND, HAND))
+    for part, start, count in parts:
+        keypoints = getattr(person, part)
+        if len(keypoints):
+            points[start : start + count, [0, 1, 3]] = keypoints
+        shape = getattr(person, f"{part}_world", None)
+        if shape is not None:
+            points[start : start + count, 2] = shape[:, 2]
+    return points
+
+
+def evenly(times: Array, points: Array) -> tuple[float, Array]:
+    """Points at an even rate, as `.pose` files have them: straight between the images before and after.
+
+    Args:
+        times: [s], strictly increasing. Shape (n,), n at least 2.
+        points: x, y, depth, confidence, 0 where not seen. Shape (n, k, 4).
+
+    Returns:
+        The rate [Hz], and points at it; not seen where either image is without them, or both are far apart.
+        Shape (m, k, 4).
+    """
+    period = float(np.median(np.diff(times)))
+    even = times[0] + period * np.arange(int(np.floor((times[-1] - times[0]) / period + 1e-6)) + 1)
+    after = np.clip(np.searchsorted(times, even), 1, len(times) - 1)
+    gap = times[after] - times[after - 1]
+    share = np.clip((even - times[after - 1]) / gap, 0.0, 1.0)[:, None, None]
+    first, second = points[after - 1], points[after]
+    between = first + share * (second - first)
+    near = (gap <= _LONGEST_GAP * period)[:, None]
+    both = (first[..., 3] > 0.0) & (second[..., 3] > 0.0) & near
+    # What is seen in one of the two images alone is where it was if that is all but at this moment.
+    nearest = np.where(share > 0.5, second, first)
+    at_it = np.minimum(share, 1.0 - share)[..., 0] < _AT_IT
+    return 1.0 / period, np.where(both[..., None], between, np.where(at_it[..., None], nearest, 0.0))
+
+
+def pose_file(rate: float, points: Array, size: tuple[int, int]) -> bytes:
+    """A `.pose` file of one person.
+
+    Args:
+        rate: [Hz].
+        points: x, y [px], depth away from the camera [m], confidence, 0 where not seen. Shape (n, 67, 4).
+        size: Width and height of the picture [px].
+    """
+    from pose_format import Pose  # heavy, and needed by nothing but this
+    from pose_format.numpy import NumPyPoseBody
+    from pose_format.pose_header import PoseHeader, PoseHeaderComponent, PoseHeaderDimensions
+
+    body = [OPENPOSE.body_points.get(row, f"unused_{row}") for row in range(BODY)]
+    components = [
+        PoseHeaderComponent(name, list(names), [], [], "XYZC")
+        for name, names in (
+            (OPENPOSE.body, body),
+            (OPENPOSE.left_hand, OPENPOSE.hand_points),
+            (OPENPOSE.right_hand, OPENPOSE.hand_points),
+        )
+    ]
+    header = PoseHeader(0.2, PoseHeaderDimensions(*size, 0), components)
+    seen = points[:, None, :, 3]
+    data = np.ma.masked_array(points[:, None, :, :3], np.repeat(seen[..., None] <= 0.0, 3, axis=3))
+    stream = BytesIO()
+    Pose(header, NumPyPoseBody(rate, data, seen)).write(stream)
+    return stream.getvalue()

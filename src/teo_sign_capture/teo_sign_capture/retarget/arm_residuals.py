@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_sign_capture.retarget.arm_bounds import easy_arm
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, easy_arm
 from teo_sign_capture.retarget.hand_goals import HandGoals, PairGoals
 from teo_sign_capture.signing_space.hand_points import MIRROR
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from teo_common.arrays import Array
 from teo_description.clearance import Clearance, Contact
+from teo_description.humanoid import Side
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Side, mirrored, mirrored_hand
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, mirrored, mirrored_hand
 from teo_sign_capture.retarget.arm_residuals import Quadratic
 from teo_sign_capture.signing_space.hand_points import MIRROR
 

@@ -6,12 +6,16 @@ The point of the hand that counts is where it meets the body: far from it the mi
 is nearest, be it a finger tip at the chin or the palm on the chest; in between and from one to the other it
 goes over smoothly. Likewise two hands that are near each other keep the way from the nearest point of one to
 the nearest of the other. All is said as for a right hand; a left hand is seen in a mirror.
+
+A person's elbow closes until the hand is at the shoulder, TEO's bends by 100 deg: its wrist stays 35 cm away.
+A hand in the air that belongs nearer is asked for straight before that place (`before_folded_arm`), where it
+is at the same height and side for the person who watches.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +23,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from teo_common.arrays import Array
 from teo_description.humanoid import Side
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.body_map import BodyMap, smooth_step
 from teo_sign_capture.retarget.head_motion import HeadMotion
 from teo_sign_capture.signing_space.hand_points import COUNT, HEEL, MIRROR, PALM
@@ -215,3 +220,33 @@ def _forearm_and_hand(arm: SignerArm) -> Array:
     """Points along the forearm, and the keypoints of the hand [m]. Shape (T, k, 3)."""
     elbow, wrist = arm.joints[:, 1:2], arm.joints[:, 2:]
     return np.concatenate([elbow + _FOREARM[:, None] * (wrist - elbow), arm.keypoints], axis=1)
+
+
+def before_folded_arm(chain: ArmKinematics, goals: HandGoals) -> HandGoals:
+    """The goals of a hand, those in the air that the folded arm has no room for moved forwards.
+
+    Args:
+        chain: The arm.
+        goals: What is wanted, as the person has it.
+
+    Returns:
+        The same with other places: a wrist that carries the hand as it is wanted is as far from the shoulder
+        as that of the folded arm, or farther.
+    """
+    folded = np.zeros((1, chain.count))
+    folded[0, chain.elbow] = arm_bounds(chain.humanoid, "both")[0 if chain.opens > 0.0 else 1][chain.elbow]
+    pose = chain.poses(folded)
+    wrist = pose.origins[0, chain.wrist]
+    least = np.linalg.norm(wrist - chain.shoulder)
+    in_palm = pose.rotation[0].T @ (wrist - pose.place[0])
+    turns = np.stack([goals.fingers, np.cross(goals.palm, goals.fingers), goals.palm], axis=2)
+    wrists = goals.place + np.einsum("tij,tj->ti", turns, in_palm - goals.local)
+    forwards = (1.0 - goals.contact) * _way_out(wrists - chain.shoulder, float(least))
+    return replace(goals, place=goals.place + forwards[:, None] * np.array([1.0, 0.0, 0.0]))
+
+
+def _way_out(points: Array, radius: float) -> Array:
+    """How far forwards points within a ball about the origin leave it; 0 of those outside [m]. Shape (T,)."""
+    room = radius**2 - (points**2).sum(axis=1)
+    way: Array = np.sqrt(points[:, 0] ** 2 + np.maximum(room, 0.0)) - points[:, 0]
+    return np.where(room > 0.0, way, 0.0)

@@ -16,15 +16,28 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
 from teo_description.humanoid import Humanoid, Side
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, mirrored, mirrored_hand, search_starts
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, angles_between
+from teo_sign_capture.retarget.arm_kinematics import (
+    ArmKinematics,
+    ArmPoses,
+    Bounds,
+    angles_between,
+    arm_bounds,
+    mirrored,
+    mirrored_hand,
+    search_starts,
+)
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import solve_arms
 from teo_sign_capture.retarget.body_map import BodyMap
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import CollisionModel
-from teo_sign_capture.retarget.folded_arm import before_folded_arm
-from teo_sign_capture.retarget.hand_goals import HandGoals, contact_part, hand_goals, pair_goals
+from teo_sign_capture.retarget.hand_goals import (
+    HandGoals,
+    before_folded_arm,
+    contact_part,
+    hand_goals,
+    pair_goals,
+)
 from teo_sign_capture.retarget.hand_motion import HandMotion, follow_hand
 from teo_sign_capture.retarget.head_motion import HeadMotion, follow_head, follow_trunk
 from teo_sign_capture.retarget.place_figures import place_figures
@@ -115,7 +128,7 @@ class RobotMotion:
         palm_error: Angle between the ways the palms face [rad].
         finger_error: Angle between the ways from wrist to knuckles [rad].
         flexion_error: Mean over the four fingers of the difference of bends, of one joint's share [rad].
-        same_zone: 1 where the hand is in the zone of the person's (`signing_space.major_place`), or 0.
+        same_zone: 1 where the hand is in the zone of the person's (`retarget.place_figures`), or 0.
         same_zone_of_middle: The same by the middles of both hands, as if they had no breadth.
         wrong_place: 1 where who watches reads another place than the person's, or 0.
         head_error: Angle by which the head falls short of the person's. Shape (T,) [rad].

@@ -10,7 +10,7 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_capture.signing_space.hand_points import HEEL, MIRROR, PALM, person_hand_points
-from teo_sign_capture.tracks.finger_bends import straight_bends
+from teo_sign_capture.tracks.hand_shape import straight_bends
 from teo_sign_capture.tracks.head_pose import head_pose, head_shape
 from teo_sign_capture.tracks.skeleton_track import (
     BODY,

@@ -12,8 +12,7 @@ from teo_common.arrays import Array
 from teo_description.humanoid import Side
 from teo_sign_capture.signing_space.hand_points import MIRROR, WRIST, person_hand_points
 from teo_sign_capture.tracks.body_axes import filled
-from teo_sign_capture.tracks.finger_bends import finger_bends
-from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.hand_shape import finger_bends, palm_axes
 from teo_sign_capture.tracks.head_pose import HeadPose, head_pose
 from teo_sign_capture.tracks.person import Person, measure_person
 from teo_sign_capture.tracks.skeleton_track import ELBOW, HAND, SHOULDER, SkeletonTrack

@@ -19,7 +19,7 @@ from made_bags import SIGN, signing, write_bag
 from made_tracks import lose
 
 from teo_description.robot import Robot
-from teo_sign_capture.entries.bag_capture import Job, Settings, capture_bags, check_free, is_captured
+from teo_sign_capture.entries.bag_capture import CaptureJob, Settings, capture_bags, check_free, is_captured
 from teo_sign_capture.entries.take import Cut
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
@@ -37,8 +37,8 @@ def settings(tmp_path: Path) -> Settings:
     return Settings(table=tmp_path / "lut", cache=tmp_path / "cache")
 
 
-def job(*bags: Path, gloss: str = "SIGNO", cut: Cut | None = None) -> Job:
-    return Job(gloss=gloss, bags=bags, cut=cut or Cut())
+def job(*bags: Path, gloss: str = "SIGNO", cut: Cut | None = None) -> CaptureJob:
+    return CaptureJob(gloss=gloss, bags=bags, cut=cut or Cut())
 
 
 def test_a_bag_becomes_an_entry_with_a_picture(robot: Robot, settings: Settings, tmp_path: Path) -> None:
@@ -156,7 +156,7 @@ def test_killing_it_at_any_moment_leaves_whole_entries(settings: Settings, tmp_p
         "robot = Robot.load()\n"
         "while True:\n"
         "    print('begun', flush=True)\n"
-        f"    capture_bags(robot, Job(gloss='SIGNO', bags=(Path({str(bag)!r}),)),\n"
+        f"    capture_bags(robot, CaptureJob(gloss='SIGNO', bags=(Path({str(bag)!r}),)),\n"
         f"        Settings(table=Path({str(settings.table)!r}), replace=True))\n"
     )
     process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE)

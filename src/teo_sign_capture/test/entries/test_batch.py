@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from made_bags import signing, write_bag
 
-from teo_sign_capture.entries.bag_capture import Job, Settings
+from teo_sign_capture.entries.bag_capture import CaptureJob, Settings
 from teo_sign_capture.entries.batch import find_jobs, read_manifest, run_jobs, workers
 from teo_sign_capture.entries.outcome import CAPTURED, UNCHANGED, Outcome, failures
 from teo_sign_capture.entries.take import Cut
@@ -121,7 +121,7 @@ def test_a_manifest_names_bags_parts_and_hands(tmp_path: Path) -> None:
     path = tmp_path / "signs.csv"
     path.write_text("bag,gloss,start,end,hands,person\na.mcap,HOLA,1.5,2.5,right,3\nb/c,DÍA,,,,\nd,DÍA,,,,\n")
     day, hello = read_manifest(path)
-    assert hello == Job(
+    assert hello == CaptureJob(
         gloss="HOLA",
         bags=(tmp_path / "a.mcap",),
         cut=Cut(start=1.5, end=2.5),

@@ -15,7 +15,7 @@ from teo_description.robot import Robot
 from teo_motion.planner import Planner
 from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_sign_capture.entries.sign_entry import Captured, Origin, make_sign
-from teo_sign_capture.entries.take import Take, capture_take
+from teo_sign_capture.entries.take import SignTake, capture_take
 from teo_signs.errors import LutError
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.tokens import parse_printed
@@ -31,12 +31,12 @@ def robot() -> Robot:
 
 
 @pytest.fixture(scope="module")
-def takes(robot: Robot) -> list[Take]:
+def takes(robot: Robot) -> list[SignTake]:
     return [capture_take(robot, replace(signing(seed=seed), source=f"SIGNO_{seed}")) for seed in range(3)]
 
 
 @pytest.fixture(scope="module")
-def captured(robot: Robot, takes: list[Take]) -> Captured:
+def captured(robot: Robot, takes: list[SignTake]) -> Captured:
     return make_sign(robot, "SIGNO", takes[:1], ORIGIN)
 
 
@@ -58,7 +58,7 @@ def test_an_entry_is_read_back_and_planned_without_a_violation(
 
 
 def test_the_entry_lasts_as_long_as_the_stroke_and_keeps_the_motion(
-    takes: list[Take], captured: Captured, robot: Robot
+    takes: list[SignTake], captured: Captured, robot: Robot
 ) -> None:
     sign, motion = captured.sign, takes[0].motion
     assert sign.duration == pytest.approx(takes[0].span.duration, abs=1e-3)
@@ -72,7 +72,7 @@ def test_the_entry_lasts_as_long_as_the_stroke_and_keeps_the_motion(
         assert np.degrees(away) <= error + 0.06  # a decimal is stated
 
 
-def test_the_quality_says_what_the_motion_says(takes: list[Take], captured: Captured) -> None:
+def test_the_quality_says_what_the_motion_says(takes: list[SignTake], captured: Captured) -> None:
     quality, motion = captured.sign.quality, takes[0].motion
     palm = np.degrees(np.percentile(motion.palm_error[:, 0], 95.0))
     assert quality["palm_error_p95_deg"] == pytest.approx(palm, abs=0.06)
@@ -92,14 +92,14 @@ def test_the_provenance_says_where_it_comes_from(captured: Captured) -> None:
     assert "A test." in provenance.notes
 
 
-def test_takes_are_averaged_with_the_reason_in_the_notes(robot: Robot, takes: list[Take]) -> None:
+def test_takes_are_averaged_with_the_reason_in_the_notes(robot: Robot, takes: list[SignTake]) -> None:
     sign = make_sign(robot, "SIGNO", takes, ORIGIN).sign
     assert sign.quality["takes_count"] == 3.0
     assert "3 takes" in sign.provenance.notes
     assert "Mean of 3" in sign.provenance.notes or "is taken" in sign.provenance.notes
 
 
-def test_a_motion_through_the_body_is_refused(robot: Robot, takes: list[Take]) -> None:
+def test_a_motion_through_the_body_is_refused(robot: Robot, takes: list[SignTake]) -> None:
     motion = takes[0].motion
     limits, rng = joint_limits(motion.joints), np.random.default_rng(0)
     for _ in range(1000):

@@ -13,7 +13,7 @@ from made_tracks import lose
 
 from teo_description.robot import Robot
 from teo_names import joint_limits
-from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_sign_capture.entries.take import Cut, SignTake, capture_take
 from teo_signs.errors import LutError
 
 FRAMES = 2.0 / 30.0
@@ -25,11 +25,11 @@ def robot() -> Robot:
 
 
 @pytest.fixture(scope="module")
-def take(robot: Robot) -> Take:
+def take(robot: Robot) -> SignTake:
     return capture_take(robot, signing())
 
 
-def test_the_stroke_is_cut_out_and_on_the_robot(robot: Robot, take: Take) -> None:
+def test_the_stroke_is_cut_out_and_on_the_robot(robot: Robot, take: SignTake) -> None:
     assert take.span.start == pytest.approx(1.1, abs=FRAMES)
     assert take.span.end == pytest.approx(1.8, abs=FRAMES)
     assert take.motion.times[-1] == pytest.approx(take.span.duration, abs=1e-3)

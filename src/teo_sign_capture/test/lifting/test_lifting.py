@@ -17,9 +17,9 @@ from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.lifting.depth_smoothing import smooth_depth
 from teo_sign_capture.recordings.pose_file import Points, PoseClip, read_pose_file
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
-from teo_sign_capture.recordings.video_points import pose_file
+from teo_sign_capture.recordings.video import pose_file
 from teo_sign_capture.tracks.body_axes import in_body_axes
-from teo_sign_capture.tracks.hand_model import palm_axes
+from teo_sign_capture.tracks.hand_shape import palm_axes
 from teo_sign_capture.tracks.skeleton_track import ELBOW, WRIST, SkeletonTrack
 from teo_signs.errors import LutError
 

@@ -14,8 +14,7 @@ import pytest
 
 from teo_common.arrays import Array
 from teo_sign_capture.recordings.pose_file import read_pose_file
-from teo_sign_capture.recordings.video import FASTEST, is_video, video_images
-from teo_sign_capture.recordings.video_points import evenly, pose_file
+from teo_sign_capture.recordings.video import FASTEST, evenly, is_video, pose_file, video_images
 from teo_sign_capture.recordings.webcam import film_webcam
 from teo_signs.errors import LutError
 

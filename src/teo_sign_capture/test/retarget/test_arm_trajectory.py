@@ -8,8 +8,7 @@ from scipy.optimize import minimize
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import arm_bounds, search_starts
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds, search_starts
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.arm_trajectory import refine_arms, solve_arms
 from teo_sign_capture.retarget.collision_terms import WANTED, CollisionTerms

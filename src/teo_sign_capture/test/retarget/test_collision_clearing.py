@@ -7,8 +7,7 @@ import pytest
 
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import arm_bounds
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
 from teo_sign_capture.retarget.arm_residuals import ArmProblem
 from teo_sign_capture.retarget.collision_clearing import clear_arms
 from teo_sign_capture.retarget.collision_terms import LEAST, CollisionModel

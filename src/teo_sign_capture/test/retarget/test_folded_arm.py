@@ -14,10 +14,8 @@ from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_capture.entries.take import capture_take
 from teo_sign_capture.lifting.clip import lift_clip
 from teo_sign_capture.recordings.recording import open_recording, points_of
-from teo_sign_capture.retarget.arm_bounds import arm_bounds
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_capture.retarget.folded_arm import before_folded_arm
-from teo_sign_capture.retarget.hand_goals import HandGoals
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, arm_bounds
+from teo_sign_capture.retarget.hand_goals import HandGoals, before_folded_arm
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 
 COUNT = 200

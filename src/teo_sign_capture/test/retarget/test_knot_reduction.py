@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from teo_common.arrays import Array
-from teo_sign_capture.retarget.knot_reduction import TOLERANCE, deviations, passed, reduce_to_knots
+from teo_sign_capture.retarget.knots import TOLERANCE, deviations, passed, reduce_to_knots
 
 TIMES = np.arange(0.0, 2.0, 1.0 / 30.0)
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from teo_common.arrays import Array
 from teo_description.humanoid import load_humanoid
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_sign_capture.retarget.motion_smoothing import BODY_TUBE, FINGER_TUBE, smoothest_motion, tube_radii
+from teo_sign_capture.retarget.knots import BODY_TUBE, FINGER_TUBE, smoothest_motion, tube_radii
 
 JOINTS = RIGHT_ARM + RIGHT_HAND
 TEO = load_humanoid()

@@ -15,7 +15,7 @@ from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_names import HEAD, LEFT_ARM, LEFT_HAND, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
-from teo_sign_capture.retarget.arm_bounds import mirrored
+from teo_sign_capture.retarget.arm_kinematics import mirrored
 from teo_sign_capture.retarget.robot_motion import retarget_motion
 from teo_sign_capture.tracks.person import measure_person
 from teo_sign_capture.tracks.signer_motion import signer_motion

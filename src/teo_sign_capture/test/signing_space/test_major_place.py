@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_common.arrays import Array
-from teo_sign_capture.signing_space.major_place import (
+from teo_sign_capture.retarget.place_figures import (
     HEIGHTS,
     SIDES,
     Zones,

@@ -17,7 +17,7 @@ from teo_common.arrays import Array
 from teo_description.hand_setpoints import setpoint_axes
 from teo_description.humanoid import Humanoid, load_humanoid
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.knots import clearance_mm, limit_margin_deg
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.errors import LutError
 from teo_signs.sign import Sign

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_capture.tracks.hand_model import WRIST
+from teo_sign_capture.tracks.hand_shape import WRIST
 from teo_sign_languages import Language
 from teo_signs.errors import LutError
 

@@ -15,6 +15,7 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry, HandTable, hand_table
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.face_visibility import shift_off_face
+from teo_sign_authoring.alphabet.hand_fit import HandPose, SignerHand, fit_hand, measure_signer
 from teo_sign_authoring.alphabet.letter_clips import (
     LICENCE,
     PACKAGE,
@@ -22,16 +23,19 @@ from teo_sign_authoring.alphabet.letter_clips import (
     clips_version,
     load_letter_clips,
 )
-from teo_sign_authoring.alphabet.spelling_arm import ArmFit, fit_arm, follow_arm, is_at_its_place
-from teo_sign_authoring.alphabet.spelling_arm_and_hand import fit_arm_and_hand
+from teo_sign_authoring.alphabet.spelling_arm import (
+    ArmFit,
+    fit_arm,
+    fit_arm_and_hand,
+    follow_arm,
+    is_at_its_place,
+)
 from teo_sign_authoring.alphabet.spelling_hand import HandFit, fit_robot_hand
 from teo_sign_authoring.alphabet.stroke import Stroke, find_stroke, palm_centres, reaches, tilts
 from teo_sign_capture.retarget.hand_motion import axis_shares
-from teo_sign_capture.retarget.knot_reduction import reduce_to_knots
-from teo_sign_capture.retarget.quality_figures import clearance_mm, limit_margin_deg
+from teo_sign_capture.retarget.knots import clearance_mm, limit_margin_deg, reduce_to_knots
 from teo_sign_capture.signing_space.hand_points import finger_rows
 from teo_sign_capture.signing_space.places import find_place
-from teo_sign_capture.tracks.hand_model import HandPose, SignerHand, fit_hand, measure_signer
 from teo_sign_languages import Language, LetterClips
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Provenance

@@ -3,6 +3,11 @@
 """Where the hand is and how the palm is turned, on a robot's right arm: letters and numbers.
 
 Where a palm is out of reach its orientation goes before the place, as long as a word is spelled at one place.
+
+TEO's wrist bends the hand sideways only (its axis is the palm's normal), where a person's bends it down as
+well. Letters that hang from the wrist (M, N, Ñ) are therefore out of reach near the face. What can be had is
+fingers that point as the person's do: `fit_arm_and_hand` trades palm, place and fingers against each other in
+one least squares problem.
 """
 
 from __future__ import annotations
@@ -11,16 +16,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import pinocchio as pin
+from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Bounds, arm_bounds, search_starts, spelling_arm
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_authoring.alphabet.hand_fit import HandPose
+from teo_sign_authoring.alphabet.spelling_hand import HandProblem, fit_robot_hand
+from teo_sign_capture.retarget.arm_kinematics import (
+    ArmKinematics,
+    Bounds,
+    arm_bounds,
+    search_starts,
+    spelling_arm,
+)
 from teo_sign_capture.retarget.arm_residuals import ArmProblem, ArmWeights
-from teo_sign_capture.retarget.arm_search import search_arms
+from teo_sign_capture.retarget.arm_trajectory import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
-from teo_sign_capture.retarget.quality_figures import least_clearance
+from teo_sign_capture.retarget.knots import least_clearance
 
 # The elbow is bent by as much at least [rad]: nobody spells with a straight arm.
 _BENT = np.radians(46.0)
@@ -147,3 +161,65 @@ def _problem(chain: ArmKinematics, palms: Array, places: Array, *, firm: bool) -
         fingers=palms[:, :, 0],
     )
     return ArmProblem(chain, (goals,), weights=_FIRM if firm else _WEIGHTS, easy=spelling_arm(chain.humanoid))
+
+
+# [1/cm] Weight of a centimetre at a finger tip: about the angle in radians under which a finger's length sees
+# it.
+_HAND = 0.1
+# [rad/m] Weight of the place, as long as it is near.
+_PLACE = 1.0
+# [m], [rad/m] Beyond this from where a letter belongs the place counts before anything else.
+_FAR, _FAR_WEIGHT = 0.30, 20.0
+_POSTURE = 0.03
+# [rad] The search stays within this of where it begins, joint by joint: letters that hang get one arm.
+_VALLEY = np.radians(10.0)
+
+
+def fit_arm_and_hand(robot: Robot, pose: HandPose, place: Array, near: ArmFit) -> ArmFit:
+    """Find the arm, with the hand in mind, for a person's hand whose palm is out of reach.
+
+    Args:
+        robot: The robot.
+        pose: The person's hand.
+        place: Where the middle of the palm should be, in ``base_link`` [m]. Shape (3,).
+        near: The arm that comes nearest by itself, for a robot of which none is known for hands that hang.
+    """
+    humanoid, chain = robot.humanoid, ArmKinematics(robot)
+    joints, hand_limits, easy = (
+        humanoid.arm("right"),
+        humanoid.limits(humanoid.hand("right")),
+        spelling_arm(humanoid),
+    )
+    known = humanoid.file.signing_arms
+    begin = near.positions if known is None else np.radians(known.hanging_deg)
+    arm_lower, arm_upper = spelling_bounds(chain)
+    arm_lower, arm_upper = np.maximum(arm_lower, begin - _VALLEY), np.minimum(arm_upper, begin + _VALLEY)
+    lower, upper = (
+        np.concatenate([arm_lower, hand_limits.lower]),
+        np.concatenate([arm_upper, hand_limits.upper]),
+    )
+    arm_count = chain.count
+
+    def palm(arm: Array) -> Array:
+        q = robot.configuration(dict(zip(joints, arm.tolist(), strict=True)))
+        return robot.placement(q, humanoid.file.hand.palm)
+
+    def residuals(x: Array) -> Array:
+        arm, hand = x[:arm_count], x[arm_count:]
+        reached = palm(arm)
+        away = reached[:3, 3] - place
+        return np.concatenate(
+            [
+                pin.log3(pose.rotation.T @ reached[:3, :3]),
+                _PLACE * away,
+                [_FAR_WEIGHT * max(0.0, float(np.linalg.norm(away)) - _FAR)],
+                _POSTURE * (arm - easy),
+                _HAND * HandProblem(robot, pose, reached[:3, :3]).residuals(hand),
+            ]
+        )
+
+    guess = fit_robot_hand(robot, pose, palm(begin)[:3, :3]).positions
+    start = np.clip(np.concatenate([begin, guess]), lower + 1e-3, upper - 1e-3)
+    fit = least_squares(residuals, start, bounds=(lower, upper), diff_step=1e-3)
+    arm = np.clip(fit.x[:arm_count], arm_lower, arm_upper)
+    return arm_fits(chain, arm[None], pose.rotation[None], place[None])[0]

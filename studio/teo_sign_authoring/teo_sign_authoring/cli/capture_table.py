@@ -13,7 +13,7 @@ from rich.console import Console
 
 from teo_common.errors import CodedError
 from teo_description.robot import Robot
-from teo_sign_capture.cli.recognise import Code
+from teo_sign_capture.cli.options import LanguageCode
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
@@ -32,7 +32,7 @@ def capture_letters(
     only: Annotated[
         list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
     ] = None,
-    language: Code = DEFAULT_LANGUAGE,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     replace: Replace = False,
 ) -> None:
     """Capture a manual alphabet from the recordings in the package spoken-to-signed."""
@@ -54,13 +54,13 @@ def capture_letters(
 
 def ease_letters(
     lut: Annotated[Path, typer.Option(help="Directory of the table whose letters get easy postures.")],
-    language: Code = DEFAULT_LANGUAGE,
+    language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
-    from teo_sign_authoring.alphabet import easy_postures
     from teo_sign_authoring.alphabet.letter_features import recorded_features
-    from teo_sign_authoring.alphabet.letter_tolerance import LetterTolerance
     from teo_sign_authoring.alphabet.letters import read_alphabet
+    from teo_sign_authoring.easing import easy_letters
+    from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
 
     robot = Robot.load()
     try:
@@ -71,14 +71,14 @@ def ease_letters(
         }
         letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
         tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
-        offsets = easy_postures.ease_letters(robot, table.language.alphabet, tolerances)
+        offsets = easy_letters.ease_letters(robot, table.language.alphabet, tolerances)
     except LutError as error:
         _fail(error)
-    eased = (easy_postures.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
+    eased = (easy_letters.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
     _save(eased, lut, replace=True)
 
 
-def capture_numbers(out: Out, language: Code = DEFAULT_LANGUAGE, replace: Replace = False) -> None:
+def capture_numbers(out: Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: Replace = False) -> None:
     """Bring the scores of numbers onto TEO; `capture_scores` does so with all."""
     from teo_sign_authoring.notation.score_file import read_scores
     from teo_sign_authoring.notation.score_retarget import score_sign
@@ -107,7 +107,7 @@ def capture_scores(
     only: Annotated[
         list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
     ] = None,
-    language: Code = DEFAULT_LANGUAGE,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     replace: Replace = False,
 ) -> None:
     """Bring sign scores, written descriptions of signs, onto TEO."""

@@ -16,7 +16,7 @@ from rich.table import Table
 
 from teo_common.errors import CodedError
 from teo_description.errors import DescriptionError
-from teo_sign_capture.cli.recognise import Code, RobotName
+from teo_sign_capture.cli.options import LanguageCode, RobotName
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
 
@@ -33,7 +33,7 @@ def fit(
     glosses: Annotated[
         list[str] | None, typer.Argument(metavar="[GLOSS]...", help="Which signs; all without it.")
     ] = None,
-    language: Code = DEFAULT_LANGUAGE,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     lut: Annotated[
         Path | None,
         typer.Option(

@@ -55,9 +55,8 @@ def import_signwriting(
         jobs: Processes; one for each core if None.
         report: File for what became of each entry, .tsv or .json.
     """
-    from teo_sign_authoring.signwriting.dictionary_file import read_dictionary
+    from teo_sign_authoring.signwriting.dictionary_file import GlossNames, read_dictionary
     from teo_sign_authoring.signwriting.dictionary_import import ImportSettings, find_jobs
-    from teo_sign_authoring.signwriting.glosses import GlossNames
 
     try:
         if report is not None and report.suffix not in (".tsv", ".json"):

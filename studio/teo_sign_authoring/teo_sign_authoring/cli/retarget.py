@@ -14,7 +14,7 @@ from rich.progress import Progress
 
 from teo_common.errors import CodedError
 from teo_description.errors import DescriptionError
-from teo_sign_capture.cli.recognise import Code, RobotName
+from teo_sign_capture.cli.options import LanguageCode, RobotName
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut, user_lut_directory
@@ -28,7 +28,7 @@ def retarget(
     glosses: Annotated[
         list[str] | None, typer.Argument(metavar="[GLOSS]...", help="Which signs; all without it.")
     ] = None,
-    language: Code = DEFAULT_LANGUAGE,
+    language: LanguageCode = DEFAULT_LANGUAGE,
     out: Annotated[
         Path | None,
         typer.Option(help="Directory of the table; your own of that language and robot without it."),

@@ -3,32 +3,26 @@
 """Postures of a word with which it is signed, begun and left in little time.
 
 Arms and hands at all knots are found by linear programs that make the time of the slowest joint least: within
-the word, and in the mean from and to what may come before and after. Tolerances are curved, so that programs
-follow each other, each within a shorter distance of the last (sequential linear programming, F.
-Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
+the word, and in the mean from and to what may come before and after.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
-from scipy.sparse import coo_matrix
 
 from teo_common.arrays import Array
 from teo_description.humanoid import Humanoid
 from teo_motion.trajectory.limits import MotionLimits
+from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
 from teo_sign_authoring.easing.word_tolerance import WordTolerance
 from teo_signs.sign import Sign
 
 # [rad] Most by which a joint changes in each program.
 _STEPS = np.radians([15.0, 15.0, 10.0, 7.0, 5.0, 3.0, 1.5])
-# [s] What being beyond a tolerance by its whole size costs: nothing gained by it is worth it, but a program
-# that is infeasible would end the search.
-_BEYOND = 10.0
 # Mean speed of a stroke over its joint's greatest [1], as in `teo_motion.sentence.sign_size`.
 _MEAN_SPEED = 0.7
 # Of a change that cannot be used whole, the shares that are tried.
@@ -124,7 +118,7 @@ class EasyWords:
         size = postures.shape[1]
         columns = self._humanoid.columns(word.arms.sign.joints[column] for column in word.arms.columns)
         speeds = self._speeds[columns]
-        table = _Program(postures.size)
+        table = LinearProgram(postures.size)
 
         def of(posture: int) -> NDArray[np.intp]:
             return np.arange(size * posture, size * (posture + 1))
@@ -132,16 +126,12 @@ class EasyWords:
         for rows in word.rows(postures):
             variables = np.concatenate([of(posture) for posture in rows.postures])
             beyond = np.full((len(rows.bound), 1), -rows.scale)
-            table.add([(variables, rows.matrix), ([table.variable(_BEYOND)], beyond)], rows.bound)
+            table.add([(variables, rows.matrix), ([table.variable(BEYOND)], beyond)], rows.bound)
         rate = np.diag(1.0 / (_MEAN_SPEED * speeds))
         for (first, second), (least, count) in self._strokes(word).items():
             time = table.variable(float(count), least=least)
             away = postures[second] - postures[first]
-            for sign in (1.0, -1.0):
-                table.add(
-                    [(of(second), sign * rate), (of(first), -sign * rate), ([time], -np.ones((size, 1)))],
-                    -sign * rate @ away,
-                )
+            table.add_distance([(of(second), rate), (of(first), -rate)], rate @ away, time)
         rate = np.diag(1.0 / speeds)
         for end, neighbours in ((0, self._before), (-1, self._after)):
             posture = int(word.arms.at[end])
@@ -152,9 +142,7 @@ class EasyWords:
                     continue
                 time = table.variable(weight)
                 away = postures[posture] - theirs[number]
-                for sign in (1.0, -1.0):
-                    block = sign * rate[joints]
-                    table.add([(of(posture), block), ([time], -np.ones((len(joints), 1)))], -block @ away)
+                table.add_distance([(of(posture), rate[joints])], rate[joints] @ away, time)
         steps = np.where(word.arms.of_hands & (not hands), 0.0, step)
         lower = np.maximum(word.lower - postures, -steps).ravel()
         upper = np.minimum(word.upper - postures, steps).ravel()
@@ -176,41 +164,3 @@ class EasyWords:
                 least, count = found.get(pair, (0.0, 0))
                 found[pair] = max(asked, needed, least), count + 1
         return found
-
-
-class _Program:
-    """A sparse linear program, grown block by block."""
-
-    def __init__(self, free: int) -> None:
-        self._free, self._height = free, 0
-        self._prices: list[float] = [0.0] * free
-        self._least: list[float] = []
-        self._entries: list[tuple[NDArray[np.intp], NDArray[np.intp], Array]] = []
-        self._bounds: list[Array] = []
-
-    def variable(self, price: float, *, least: float = 0.0) -> int:
-        """Add a variable."""
-        self._prices.append(price)
-        self._least.append(least)
-        return len(self._prices) - 1
-
-    def add(self, blocks: Sequence[tuple[Sequence[int] | NDArray[np.intp], Array]], bound: Array) -> None:
-        """Add rows whose sum of blocks, each for some variables, is at most a bound. Shape (r,)."""
-        for variables, block in blocks:
-            row, column = np.nonzero(block)
-            self._entries.append((row + self._height, np.asarray(variables)[column], block[row, column]))
-        self._bounds.append(np.atleast_1d(bound))
-        self._height += len(self._bounds[-1])
-
-    def solved(self, lower: Array, upper: Array) -> Array:
-        """The free variables within their bounds; zero where the solver finds nothing."""
-        rows, columns, values = (np.concatenate(part) for part in zip(*self._entries, strict=True))
-        matrix = coo_matrix((values, (rows, columns)), shape=(self._height, len(self._prices)))
-        bounds = np.column_stack(
-            [np.concatenate([lower, self._least]), np.concatenate([upper, np.full(len(self._least), np.inf)])]
-        )
-        found = linprog(self._prices, A_ub=matrix.tocsr(), b_ub=np.concatenate(self._bounds), bounds=bounds)
-        if not found.success:
-            raise RuntimeError(f"expected a linear program with a solution, got: {found.message}")
-        solution: Array = found.x[: self._free]
-        return solution

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The arms and hands of a word: their different postures, and how what they carry moves with them.
 
-Arms are seen as right arms throughout (`arm_bounds`): a left one in the mirror.
+Arms are seen as right arms throughout (`mirrored`): a left one in the mirror.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
+from teo_description.humanoid import Side
 from teo_description.robot import Robot
-from teo_sign_capture.retarget.arm_bounds import Side, mirrored, mirrored_hand
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses
+from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, mirrored, mirrored_hand
 from teo_signs.sign import Sign
 
 _SIDES: tuple[Side, Side] = ("right", "left")

@@ -19,8 +19,7 @@ from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.easing.word_arms import ALONG, DIRECTIONS, Rows, WordArms
 from teo_sign_authoring.easing.word_contacts import WordContacts
-from teo_sign_capture.retarget.arm_bounds import arm_bounds
-from teo_sign_capture.retarget.arm_kinematics import ArmPoses
+from teo_sign_capture.retarget.arm_kinematics import ArmPoses, arm_bounds
 from teo_signs.sign import Sign
 
 # [rad] A palm turns by this much about any axis: what is just seen (`teo_signs.likeness`).

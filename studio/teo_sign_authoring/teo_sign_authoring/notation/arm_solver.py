@@ -18,10 +18,15 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.targets import HandTarget
-from teo_sign_capture.retarget.arm_bounds import Bounds, search_starts, with_elbow_out
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, angles_between
+from teo_sign_capture.retarget.arm_kinematics import (
+    ArmKinematics,
+    Bounds,
+    angles_between,
+    search_starts,
+    with_elbow_out,
+)
 from teo_sign_capture.retarget.arm_residuals import ArmProblem, ArmWeights
-from teo_sign_capture.retarget.arm_search import search_arms
+from teo_sign_capture.retarget.arm_trajectory import search_arms
 from teo_sign_capture.retarget.hand_goals import HandGoals
 from teo_sign_capture.viterbi import cheapest_path
 

@@ -4,23 +4,182 @@
 
 The way there and back is the person's: hands start hanging and hang in the end, so that the sign can be found
 between. What the face does is in words that no facial action is known for; it is left out.
+
+Places on the body keep their names, so far as TEO and the person both have names (`signing_space.places`);
+those in the air are given from the part of the body that they are before. Arms, hands and heads of person and
+robot are of one size, so centimetres are centimetres; but TEO's shoulders are nearly twice as far apart, so
+what it does farther aside than its hands are long is nearer to the middle on a person. A person's finger
+joints bend one by one, and fingers spread: angles follow from looking at hands in these shapes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import yaml
 
 from teo_common.arrays import Array
-from teo_sign_authoring.notation.person_inventory import FINGERS, person_place, person_shape
 from teo_sign_authoring.notation.score_schema import Circle, HandScore, Part, Score, Wiggle, flattened
 from teo_sign_authoring.notation.targets import circle_offsets, fingers_across
-from teo_sign_capture.signing_space.directions import direction, displacement
-from teo_sign_capture.signing_space.places import split_place
+from teo_sign_capture.signing_space.places import (
+    OTHER_HAND,
+    direction,
+    displacement,
+    split_place,
+    written_place,
+)
+
+# [m] From the middle: hands that meet or cross are as far apart on both.
+_ALIKE = 0.10
+# What is farther aside on TEO, on a person, whose arms begin 0.14 m nearer to the middle: stretched out to
+# the sides, hands are 0.9 m from the middle on TEO, 0.75 m on a person whose arms are as long.
+_BEYOND = 0.75
+
+
+class PersonPlace(NamedTuple):
+    """Where a person's hand goes.
+
+    Attributes:
+        at: Place of the synthetic signer's body.
+        offset: From there: forwards, outwards, up [m, for an arm of 0.53 m].
+    """
+
+    at: str
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+_PLACES = {
+    "head_top": PersonPlace("crown", (0.0, 0.02, 0.0)),
+    "forehead": PersonPlace("forehead", (0.0, 0.01, 0.0)),
+    "temple": PersonPlace("temple"),
+    "eye": PersonPlace("eye"),
+    "nose": PersonPlace("nose"),
+    "ear": PersonPlace("ear"),
+    "cheek": PersonPlace("cheek"),
+    "mouth": PersonPlace("mouth"),
+    "mouth_corner": PersonPlace("mouth_corner"),
+    "chin": PersonPlace("chin"),
+    "throat": PersonPlace("throat"),
+    "shoulder": PersonPlace("shoulder"),
+    "other_shoulder": PersonPlace("other_shoulder"),
+    "upper_chest": PersonPlace("upper_chest", (0.0, 0.04, 0.0)),
+    "chest": PersonPlace("sternum", (0.0, 0.02, 0.0)),
+    "other_chest": PersonPlace("other_chest"),
+    "belly": PersonPlace("belly"),
+    "space": PersonPlace("sternum", (0.195, 0.10, 0.0)),
+    "low_space": PersonPlace("belly", (0.18, 0.11, 0.06)),
+    "middle_space": PersonPlace("sternum", (0.19, 0.0, 0.0)),
+    "shoulder_space": PersonPlace("shoulder", (0.26, 0.03, 0.03)),
+    "high_space": PersonPlace("shoulder", (0.30, 0.02, 0.19)),
+    "face_space": PersonPlace("mouth", (0.16, 0.02, -0.01)),
+    "beside_head": PersonPlace("ear", (0.10, 0.07, 0.03)),
+}
+
+
+def _aside(outwards: float) -> float:
+    """How far from the middle a person's hand is that is so far on TEO [m]."""
+    size = abs(outwards)
+    return float(np.copysign(min(size, _ALIKE) + _BEYOND * max(0.0, size - _ALIKE), outwards))
+
+
+def person_place(name: str, offset: Array) -> tuple[str, list[float]]:
+    """Where a person's hand goes.
+
+    Args:
+        name: One of `places.NAMES`.
+        offset: From there on TEO, for a right hand, in the axes of ``base_link`` [m]. Shape (3,).
+
+    Returns:
+        The place of the synthetic signer, and the offset from it: forwards, outwards, up [m].
+    """
+    x, y, z = offset.tolist()
+    if name in OTHER_HAND:
+        return name, _rounded(x, -y, z)
+    at, (forwards, outwards, up) = _PLACES[name]
+    middle = -float(written_place(name).point[1])
+    return at, _rounded(forwards + x, outwards + _aside(middle - y) - _aside(middle), up + z)
+
+
+def _rounded(*ways: float) -> list[float]:
+    """To a tenth of a millimetre, as texts have it."""
+    return [round(way, 4) for way in ways]
+
+
+Bends = tuple[float, float, float]
+
+# Knuckle, middle and last joint [deg].
+_STRAIGHT = (2.0, 4.0, 3.0)
+_FOLDED = (82.0, 95.0, 60.0)
+_CROOKED = (8.0, 78.0, 48.0)
+_AT_THUMB = (56.0, 48.0, 24.0)
+
+# Spread of index to little finger towards the thumb [deg].
+_TOGETHER, _FAN = (2.0, 0.0, -2.0, -5.0), (12.0, 2.0, -9.0, -20.0)
+
+_SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, float, float, float]]] = {
+    "flat": ((_STRAIGHT,) * 4, "beside", _TOGETHER),
+    "open": ((_STRAIGHT,) * 4, "out", _FAN),
+    "relaxed": (((14, 20, 10), (16, 22, 11), (18, 23, 12), (20, 24, 12)), "relaxed", (6, 1, -4, -10)),
+    "bent": (((75, 8, 5),) * 4, "beside", _TOGETHER),
+    "cupped": (((26, 32, 18),) * 4, "relaxed", _TOGETHER),
+    "claw": (((25, 50, 35),) * 4, "out", _FAN),
+    "bunched": (((58, 38, 18), (62, 36, 16), (60, 40, 18), (58, 46, 22)), "opposed", (-4, 0, 4, 8)),
+    "fist": ((_FOLDED,) * 4, "over", _TOGETHER),
+    "thumb": ((_FOLDED,) * 4, "up", _TOGETHER),
+    "index": ((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "over", _TOGETHER),
+    "hook": ((_CROOKED, _FOLDED, _FOLDED, _FOLDED), "over", _TOGETHER),
+    "two": ((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across", (13, -10, -4, -6)),
+    "bent_two": ((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "across", (10, -8, -4, -6)),
+    "bent_thumb_two": ((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "up", (8, -4, -4, -6)),
+    "three": ((_STRAIGHT, _STRAIGHT, _STRAIGHT, _FOLDED), "across", (13, 0, -13, -8)),
+    "four": ((_STRAIGHT,) * 4, "across", _FAN),
+    "bent_four": (((75, 8, 5),) * 4, "across", _TOGETHER),
+    "little": ((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "over", _TOGETHER),
+    "horns": ((_STRAIGHT, _FOLDED, _FOLDED, _STRAIGHT), "over", (6, 0, -2, -12)),
+    "thumb_little": ((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "up", (2, 0, -2, -14)),
+    "l": ((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "up", _TOGETHER),
+    "thumb_two": ((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "up", (8, -4, -4, -6)),
+    "pinch": ((_AT_THUMB, _FOLDED, _FOLDED, _FOLDED), "opposed", _TOGETHER),
+    "ring": ((_AT_THUMB, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
+    "middle_flick": ((_STRAIGHT, _AT_THUMB, _STRAIGHT, _STRAIGHT), "opposed", (8, 0, -8, -16)),
+    "ring_flick": ((_STRAIGHT, _STRAIGHT, _AT_THUMB, _STRAIGHT), "opposed", (8, 4, 0, -14)),
+    "two_flick": ((_AT_THUMB, _AT_THUMB, _FOLDED, _FOLDED), "opposed", _TOGETHER),
+    "three_flick": ((_AT_THUMB, _AT_THUMB, _AT_THUMB, _FOLDED), "opposed", _TOGETHER),
+}
+
+FINGERS = ("index", "middle", "ring", "little")
+
+# Shares of the angle by which a finger goes to and fro, by joint: the last joint follows the middle one at
+# half, as they share a tendon.
+_SHARES = (1.0, 1.0, 0.5)
+# [deg] A knuckle that is bent more has more room to open than to bend.
+_FAR_BENT = 50.0
+
+
+def person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:
+    """A handshape as scripts of the synthetic signer write it.
+
+    Args:
+        name: One of `handshapes.NAMES`.
+        bent: By how much fingers, or the thumb, are bent further, or opened if bent far [deg].
+    """
+    fingers, thumb, spread = _SHAPES[name]
+    shape: dict[str, Any] = {}
+    for finger, bends in zip(FINGERS, fingers, strict=True):
+        # A folded finger cannot be folded further: it goes to and fro by opening.
+        further = bent.get(finger, 0.0) * (-1.0 if bends[0] > _FAR_BENT else 1.0)
+        shape[finger] = [
+            round(angle + share * further, 1) for angle, share in zip(bends, _SHARES, strict=True)
+        ]
+    shape["spread"] = list(map(float, spread))
+    shape["thumb"] = thumb
+    if "thumb" in bent:
+        shape["thumb_bent"] = bent["thumb"]
+    return shape
+
 
 # [s] The hands hang before and after a sign: longer than any hold, so that rest is told from sign.
 REST = 0.5

@@ -12,15 +12,20 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.clearance import Clearance
-from teo_description.humanoid import SIDES, Humanoid
+from teo_description.humanoid import SIDES, Humanoid, Side
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.arm_solver import ArmCandidate, ArmSolver, cheapest_sequence
 from teo_sign_authoring.notation.score_knots import ScoreKnots
 from teo_sign_authoring.notation.score_schema import Hands
 from teo_sign_authoring.notation.targets import HandTarget, Posture
-from teo_sign_capture.retarget.arm_bounds import Bounds, Side, arm_bounds, mirrored, mirrored_hand
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_capture.retarget.quality_figures import clearance_mm, least_clearance, limit_margin_deg
+from teo_sign_capture.retarget.arm_kinematics import (
+    ArmKinematics,
+    Bounds,
+    arm_bounds,
+    mirrored,
+    mirrored_hand,
+)
+from teo_sign_capture.retarget.knots import clearance_mm, least_clearance, limit_margin_deg
 from teo_sign_capture.signing_space.hand_points import MIRROR
 from teo_signs.errors import LutError
 

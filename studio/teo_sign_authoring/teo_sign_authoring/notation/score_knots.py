@@ -9,12 +9,18 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_description.hand_contact import TOUCH, thumb_gaps, with_clear_thumb
 from teo_description.hand_geometry import hand_table
+from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.arm_solver import ArmCandidate
 from teo_sign_authoring.notation.score_schema import Hands
 from teo_sign_authoring.notation.targets import HandTarget, Posture
-from teo_sign_capture.retarget.arm_bounds import Bounds, Side, arm_bounds, mirrored, mirrored_hand
-from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
+from teo_sign_capture.retarget.arm_kinematics import (
+    ArmKinematics,
+    Bounds,
+    arm_bounds,
+    mirrored,
+    mirrored_hand,
+)
 from teo_sign_capture.retarget.hand_motion import axis_shares
 from teo_sign_capture.signing_space.hand_points import finger_rows
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Part
-from teo_sign_authoring.signwriting.errors import UnreadableError
 from teo_sign_authoring.signwriting.hands import WrittenHand
 from teo_sign_authoring.signwriting.handshapes import closed, opened
 from teo_sign_authoring.signwriting.movement import (
@@ -23,8 +22,8 @@ from teo_sign_authoring.signwriting.movement import (
     Swinging,
     Turning,
 )
-from teo_sign_authoring.signwriting.orientation import Orientation
-from teo_sign_authoring.signwriting.page import Side, displacement_words, for_hand
+from teo_sign_authoring.signwriting.page import Orientation, Side, displacement_words, for_hand
+from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
 from teo_sign_capture.signing_space.places import split_place, written_place
 

@@ -24,7 +24,6 @@ from teo_sign_authoring.signwriting.beats import (
     sorted_movements,
 )
 from teo_sign_authoring.signwriting.contact import read_contacts
-from teo_sign_authoring.signwriting.errors import UnreadableError
 from teo_sign_authoring.signwriting.hands import WrittenHands, read_hands
 from teo_sign_authoring.signwriting.handshapes import handshape_of
 from teo_sign_authoring.signwriting.head import face_words, head_postures
@@ -32,7 +31,7 @@ from teo_sign_authoring.signwriting.movement import Circling, Hands, Movement, i
 from teo_sign_authoring.signwriting.page import SIDES, Side, direction_words, displacement_words
 from teo_sign_authoring.signwriting.place import read_landmarks
 from teo_sign_authoring.signwriting.stances import are_mirrored, read_stances
-from teo_sign_authoring.signwriting.written_sign import Symbol, read_fsw
+from teo_sign_authoring.signwriting.written_sign import Symbol, UnreadableError, read_fsw
 
 # SignWriting gives no durations. Measured signs move at about half a metre a second, and no movement takes
 # less than 0.2 s; symbols of dynamics are a third faster or two thirds slower than that.

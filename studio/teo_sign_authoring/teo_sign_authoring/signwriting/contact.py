@@ -13,8 +13,7 @@ from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Part
 from teo_sign_authoring.signwriting import symbol_groups as groups
 from teo_sign_authoring.signwriting.hands import WrittenHand, WrittenHands
-from teo_sign_authoring.signwriting.orientation import Orientation, plane_of
-from teo_sign_authoring.signwriting.page import SIDES, Side, for_hand, in_space
+from teo_sign_authoring.signwriting.page import SIDES, Orientation, Side, for_hand, in_space, plane_of
 from teo_sign_authoring.signwriting.place import Landmarks, from_head, tip_is_nearer
 from teo_sign_authoring.signwriting.written_sign import Symbol
 

@@ -1,16 +1,24 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Files of signs: a SignPuddle export (SPML), or a table of term and Formal SignWriting."""
+"""Files of signs: a SignPuddle export (SPML), or a table of term and Formal SignWriting.
+
+People type "carcel 2", "¿quien? 13" or "Mar (azul)" for a term: as a gloss it is the Spanish word with its
+accents, in capitals, without marks; variants are told apart by a number that is added.
+"""
 
 from __future__ import annotations
 
 import csv
 import re
+import unicodedata
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
+from teo_common.text_folding import strip_marks
+from teo_sign_translator.morphology import Morphology
 from teo_signs.errors import LutError
+from teo_signs.sign_schema import MAX_GLOSS_LENGTH
 
 # The whole LSE dictionary of SignPuddle, 8,300 entries with texts and sources, is about 5 MB.
 MOST_BYTES = 64_000_000
@@ -102,3 +110,67 @@ def _tsv(path: Path, data: bytes) -> list[DictionaryEntry]:
             )
         entries.append(DictionaryEntry(term=row[0].strip(), fsw=row[1].strip(), number=number))
     return entries
+
+
+_VARIANT = re.compile(r"\s*\d+$")
+_REMARK = re.compile(r"\([^)]*\)")
+_WORD = re.compile(r"[^\W\d_]+")
+
+
+class GlossNames:
+    """Gives terms their glosses."""
+
+    def __init__(self, *, any_term: bool = False) -> None:
+        """Load the Spanish words.
+
+        Args:
+            any_term: Whether words that are not known as Spanish are taken as they are typed.
+        """
+        self._morphology = Morphology.load()
+        self._any_term = any_term
+
+    def gloss(self, term: str) -> str | None:
+        """The gloss of a term without the number of its variant; None if it is not a Spanish one."""
+        plain = _VARIANT.sub("", _REMARK.sub(" ", unicodedata.normalize("NFC", term))).strip()
+        words = _WORD.findall(plain)
+        if not words or re.search(r"\d", plain):
+            return None
+        written = [self._spanish(word.lower()) for word in words]
+        if None in written and not self._any_term:
+            return None
+        gloss = "_".join((spelled or word).upper() for spelled, word in zip(written, words, strict=True))
+        return gloss if len(gloss) <= MAX_GLOSS_LENGTH else None
+
+    def _spanish(self, word: str) -> str | None:
+        """A word with its accents; None if it is not known."""
+        readings = self._morphology.readings(word)
+        headwords = [each for each in readings if strip_marks(each.lemma) == strip_marks(word)]
+        for reading in headwords:
+            # A guess keeps the word as typed and says that it is none.
+            if reading.exact or reading.lemma != word:
+                return reading.lemma.lower()
+        if any(reading.exact for reading in readings):
+            return word
+        for reading in readings:
+            if reading.lemma == word or reading.tag in ("X", "NAME"):
+                continue
+            try:
+                written = self._morphology.inflect(reading.lemma, reading.tag)
+            except ValueError:
+                continue
+            if strip_marks(written) == strip_marks(word):
+                return written
+        return None
+
+
+def numbered(glosses: list[str | None]) -> list[str | None]:
+    """Glosses told apart: the first of a name keeps it, the others are NAME_2, NAME_3."""
+    seen: dict[str, int] = {}
+    told: list[str | None] = []
+    for gloss in glosses:
+        if gloss is None:
+            told.append(None)
+            continue
+        seen[gloss] = seen.get(gloss, 0) + 1
+        told.append(gloss if seen[gloss] == 1 else f"{gloss}_{seen[gloss]}")
+    return told

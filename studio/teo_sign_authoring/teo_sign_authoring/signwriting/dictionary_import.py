@@ -14,23 +14,51 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
+import yaml
 from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]  # ships no types
 
 from teo_common.atomic_files import write_atomically
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.score_retarget import score_sign
+from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.signwriting.compiler import TOUCHING, Compilation, compile_fsw
-from teo_sign_authoring.signwriting.dictionary_file import DictionaryEntry
-from teo_sign_authoring.signwriting.errors import UnreadableError
-from teo_sign_authoring.signwriting.glosses import GlossNames, numbered
-from teo_sign_authoring.signwriting.score_text import score_text
+from teo_sign_authoring.signwriting.dictionary_file import DictionaryEntry, GlossNames, numbered
+from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry
 from teo_signs.sign import Sign
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import STANDINGS
+
+_WIDE = 10_000  # [characters] nothing is broken into lines
+
+
+def score_text(score: Score) -> str:
+    """The text of a compiled score, a lexical one without forms, which `read_score` reads."""
+    content = score.model_dump(exclude_none=True, exclude_defaults=True)
+    lines = [f"{name}: {_flow(content[name])}" for name in ("gloss", "standing", "source", "hands")]
+    lines += [f"{name}: {_flow(content[name])}" for name in ("face", "notes") if content.get(name)]
+    lines.append("steps:")
+    for step in content["steps"]:
+        fields = {name: step[name] for name in _ORDER if name in step}
+        if not fields:
+            continue
+        for index, (name, value) in enumerate(fields.items()):
+            lines.append(f"  {'- ' if index == 0 else '  '}{name}: {_flow(value)}")
+    return "\n".join(lines) + "\n"
+
+
+_ORDER = ("time", "left", "right", "arc", "circle", "wiggle", "head", "hold")
+
+
+def _flow(value: Any) -> str:
+    text: str = yaml.safe_dump(
+        value, default_flow_style=True, allow_unicode=True, width=_WIDE, sort_keys=False
+    )
+    return text.removesuffix("\n").removesuffix("\n...").strip()
+
 
 # [cm] Hands stay so far off what they touch where TEO would otherwise run into itself: its wrists are wide.
 _GAPS = (TOUCHING, 4.0, 8.0)

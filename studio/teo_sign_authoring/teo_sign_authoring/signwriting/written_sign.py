@@ -20,6 +20,19 @@ from signwriting.visualizer.visualize import get_symbol_size, visualize_sign
 from teo_common.arrays import Array
 from teo_signs.errors import LutError
 
+
+class UnreadableError(Exception):
+    """A sign that cannot be read.
+
+    Attributes:
+        code: Stable name of the reason, such as "movement".
+    """
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+
+
 # One sign: a sequence for sorting, if any, then the box and its symbols.
 _SIGN = re.compile(
     r"(?:A(?:S[123][0-9a-f]{2}[0-5][0-9a-f])+)?[BLMR]\d{3}x\d{3}(?:S[123][0-9a-f]{2}[0-5][0-9a-f]\d{3}x\d{3})+"

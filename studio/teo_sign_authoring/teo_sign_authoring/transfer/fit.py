@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from teo_sign_authoring.transfer.table_transfer import each, language_signs, played_alone
+from teo_sign_authoring.transfer.table_transfer import language_signs, map_signs, played_alone
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
@@ -79,7 +79,7 @@ def fit_table(
         In the order of `glosses`.
     """
     found = {}
-    for fit in each(functools.partial(_fit, language, robot, table), glosses, jobs):
+    for fit in map_signs(functools.partial(_fit, language, robot, table), glosses, jobs):
         found[fit.gloss] = fit
         done(fit)
     return [found[gloss] for gloss in glosses]

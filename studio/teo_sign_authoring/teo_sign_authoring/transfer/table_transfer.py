@@ -82,13 +82,13 @@ def transfer_table(
         done(unchanged)
     wanted = [gloss for gloss in glosses if gloss not in found]
     work = functools.partial(_transfer, language, robot, out, replace)
-    for made in each(work, wanted, jobs):
+    for made in map_signs(work, wanted, jobs):
         found[made.gloss] = made
         done(made)
     return [found[gloss] for gloss in glosses]
 
 
-def each(work: Callable[[str], Result], glosses: Sequence[str], jobs: int) -> Iterator[Result]:
+def map_signs(work: Callable[[str], Result], glosses: Sequence[str], jobs: int) -> Iterator[Result]:
     """Do work for each sign, in this process or in several, and yield what comes of it as it is done."""
     if jobs == 1 or len(glosses) < _WORTH_PROCESSES:
         yield from map(work, glosses)

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from teo_sign_authoring.notation.score_file import read_score
 from teo_sign_authoring.notation.score_schema import Step, flattened
 from teo_sign_authoring.signwriting.compiler import Compilation, compile_fsw
-from teo_sign_authoring.signwriting.errors import UnreadableError
-from teo_sign_authoring.signwriting.score_text import score_text
+from teo_sign_authoring.signwriting.dictionary_import import score_text
+from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_sign_capture.signing_space.places import split_place
 from teo_signs.errors import LutError
 

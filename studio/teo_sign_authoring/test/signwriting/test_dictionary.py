@@ -11,8 +11,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from teo_lut_executor.cli.lut import app
-from teo_sign_authoring.signwriting.dictionary_file import MOST_BYTES, read_dictionary
-from teo_sign_authoring.signwriting.glosses import GlossNames, numbered
+from teo_sign_authoring.signwriting.dictionary_file import MOST_BYTES, GlossNames, numbered, read_dictionary
 from teo_signs.errors import LutError
 from teo_signs.sign_file import read_sign
 

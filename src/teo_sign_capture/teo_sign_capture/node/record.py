@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`lut record`: a sign from the person before the camera, now."""
+"""`lut record`: a sign from the person before the camera, now. It listens as a ROS node."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
-from teo_sign_capture.cli.capture import (
+from teo_sign_capture.cli.options import (
     Accept,
     KindOption,
     Licence,
@@ -55,8 +55,12 @@ def record(
     Hands at rest during the countdown; then sign, and let the hands return to rest.
     """
     from teo_description.robot import Robot
-    from teo_sign_capture.entries.bag_capture import Settings, check_free
-    from teo_sign_capture.entries.live_capture import default_recordings, keep_and_capture
+    from teo_sign_capture.entries.bag_capture import (
+        Settings,
+        check_free,
+        default_recordings,
+        keep_and_capture,
+    )
     from teo_sign_capture.entries.outcome import captured_outcome
 
     try:

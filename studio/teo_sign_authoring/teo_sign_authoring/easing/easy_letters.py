@@ -4,25 +4,21 @@
 
 At 50 deg/s on every joint, spelling takes as long as the slowest joint from letter to letter. Each letter may
 be moved a little, by one offset to the joints of all its knots (`LetterTolerance` says how far); the
-offsets of all letters are found in one linear program that makes the expected travel of the slowest joint
-least. Tolerances are curved, so that programs follow each other, each within a shorter distance of the last
-(sequential linear programming, F. Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
+offsets of all letters are found in linear programs that make the expected travel of the slowest joint least.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import permutations
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import linprog
-from scipy.sparse import coo_matrix
 
 from teo_common.arrays import Array
 from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.face_visibility import shift_off_face
-from teo_sign_authoring.alphabet.letter_tolerance import LetterTolerance
+from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
+from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
 from teo_sign_languages import Alphabet
 from teo_signs.errors import LutError
 from teo_signs.likeness import SEEN_LENGTH, nearest_pairs
@@ -31,10 +27,6 @@ from teo_signs.sign import Sign
 
 # [rad] Most by which a joint's offset changes in each program.
 _STEPS = np.radians([15.0, 15.0, 10.0, 7.0, 5.0, 3.0, 2.0, 1.0])
-
-# [rad] What being beyond a tolerance by its whole size costs, against the expected travel: nothing gained
-# by it is worth it, but a program that is infeasible would end the search.
-_BEYOND = 10.0
 
 # Letters that are nearer than this are look-alikes [just seen differences]: what tells their hands apart
 # stays.
@@ -109,58 +101,20 @@ def _program(
     linear = [tolerances[letter].linear(offsets[letter], step) for letter in letters]
     pairs = list(permutations(range(len(letters)), 2))
     size = len(offsets[letters[0]])
-    free, slack = size * len(letters), len(pairs)
-    table = _Rows(free + slack + len(letters))
-    for index, one in enumerate(linear):
-        own = np.arange(size * index, size * (index + 1))
-        table.add([(own, one.matrix), (np.array([free + slack + index]), -one.scale[:, None])], one.bound)
-    for number, (first, second) in enumerate(pairs):
+    own = np.arange(size * len(letters)).reshape(len(letters), size)
+    counts = np.array([frequencies.get(letter, 1) for letter in letters])
+    share = (counts / counts.sum()).tolist()
+    program = LinearProgram(own.size)
+    travels = [program.variable(share[first] * share[second]) for first, second in pairs]
+    beyond = [program.variable(BEYOND) for _ in letters]
+    for columns, one, excess in zip(own, linear, beyond, strict=True):
+        program.add([(columns, one.matrix), ([excess], -one.scale[:, None])], one.bound)
+    unit = np.eye(size)
+    for (first, second), travel in zip(pairs, travels, strict=True):
         ends = tolerances[letters[first]].sign.knots[-1]
         begins = tolerances[letters[second]].sign.knots[0]
-        for sign in (1.0, -1.0):
-            unit = sign * np.eye(size)
-            columns = [np.arange(size * index, size * (index + 1)) for index in (first, second)]
-            travel = (np.array([free + number]), -np.ones((size, 1)))
-            table.add([(columns[0], unit), (columns[1], -unit), travel], sign * (begins - ends))
-    counts = np.array([frequencies.get(letter, 1) for letter in letters])
-    share = counts / counts.sum()
-    price = np.concatenate(
-        [
-            np.zeros(free),
-            [share[first] * share[second] for first, second in pairs],
-            np.full(len(letters), _BEYOND),
-        ]
+        program.add_distance([(own[first], unit), (own[second], -unit)], ends - begins, travel)
+    lower, upper = (
+        np.concatenate(bounds) for bounds in zip(*((one.lower, one.upper) for one in linear), strict=True)
     )
-    lower = np.concatenate([*(one.lower for one in linear), np.zeros(slack + len(letters))])
-    upper = np.concatenate([*(one.upper for one in linear), np.full(slack + len(letters), np.inf)])
-    found = linprog(price, A_ub=table.matrix(), b_ub=table.bounds(), bounds=np.column_stack([lower, upper]))
-    if not found.success:
-        raise LutError("no_posture", f"expected a linear program with a solution, got: {found.message}")
-    rows = found.x[:free].reshape(len(letters), size)
-    return dict(zip(letters, rows, strict=True))
-
-
-class _Rows:
-    """Inequalities of a sparse linear program, block by block."""
-
-    def __init__(self, columns: int) -> None:
-        self._columns, self._height = columns, 0
-        self._entries: list[tuple[NDArray[np.intp], NDArray[np.intp], Array]] = []
-        self._bounds: list[Array] = []
-
-    def add(self, blocks: Sequence[tuple[NDArray[np.intp], Array]], bound: Array) -> None:
-        """Add rows whose sum of blocks, each for some columns, is at most a bound. Shape (r,)."""
-        for columns, block in blocks:
-            row, column = np.nonzero(block)
-            self._entries.append((row + self._height, columns[column], block[row, column]))
-        self._bounds.append(bound)
-        self._height += len(bound)
-
-    def matrix(self) -> coo_matrix:
-        """All rows."""
-        rows, columns, values = (np.concatenate(part) for part in zip(*self._entries, strict=True))
-        return coo_matrix((values, (rows, columns)), shape=(self._height, self._columns))
-
-    def bounds(self) -> Array:
-        """Their bounds."""
-        return np.concatenate(self._bounds)
+    return dict(zip(letters, program.solved(lower, upper).reshape(own.shape), strict=True))

@@ -16,12 +16,7 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from teo_common.arrays import Array
-
-# MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
-# each.
-WRIST, THUMB, INDEX, MIDDLE, RING, LITTLE = 0, 1, 5, 9, 13, 17
-KNUCKLES = (INDEX, MIDDLE, RING, LITTLE)
-PALM = (WRIST, *KNUCKLES)
+from teo_sign_capture.tracks.hand_shape import INDEX, KNUCKLES, MIDDLE, THUMB, WRIST, palm_axes
 
 # Deviation of a landmark across the view and in depth [pixel]; the residual of the fits is 2.3 and 8.
 _ACROSS, _DEPTH = 2.5, 10.0
@@ -83,24 +78,6 @@ class HandPose:
     thumb: Array
     tips: Array
     residual: float
-
-
-def palm_axes(hand: Array) -> Array:
-    """Axes of the palm straight from the landmarks.
-
-    Args:
-        hand: Landmarks. Shape (n, 21, 3).
-
-    Returns:
-        Columns: along the hand, to the little finger's side, out of the palm. Shape (n, 3, 3).
-    """
-    along = hand[:, (MIDDLE, RING)].mean(axis=1) - hand[:, WRIST]
-    along = along / np.linalg.norm(along, axis=1, keepdims=True)
-    # For a right hand, index side cross little finger's side points out of the palm.
-    out = np.cross(hand[:, INDEX] - hand[:, WRIST], hand[:, LITTLE] - hand[:, WRIST])
-    out -= (out * along).sum(axis=1, keepdims=True) * along
-    out /= np.linalg.norm(out, axis=1, keepdims=True)
-    return np.stack([along, np.cross(out, along), out], axis=-1)
 
 
 def measure_signer(hands: Iterable[Array]) -> SignerHand:

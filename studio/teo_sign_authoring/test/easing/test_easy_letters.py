@@ -15,13 +15,13 @@ from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_motion.trajectory.limits import MotionLimits
 from teo_names import COMMANDED_JOINTS, joint_limits
-from teo_sign_authoring.alphabet.easy_postures import ease_letters, with_easy_posture
 from teo_sign_authoring.alphabet.face_visibility import shift_off_face
 from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
 from teo_sign_authoring.alphabet.letter_features import recorded_features
-from teo_sign_authoring.alphabet.letter_tolerance import LetterTolerance
 from teo_sign_authoring.alphabet.letters import read_alphabet
-from teo_sign_capture.retarget.quality_figures import least_clearance
+from teo_sign_authoring.easing.easy_letters import ease_letters, with_easy_posture
+from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
+from teo_sign_capture.retarget.knots import least_clearance
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 from teo_signs.likeness import nearest_pairs

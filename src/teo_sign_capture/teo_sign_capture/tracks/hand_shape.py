@@ -1,14 +1,18 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""How a person's fingers are bent, joint by joint."""
+"""The axes of a person's palm, and how the fingers are bent, from the 21 keypoints of a hand."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_capture.signing_space.hand_points import KNUCKLES, WRIST
-from teo_sign_capture.tracks.hand_model import palm_axes
+
+# MediaPipe's numbers: the wrist, the thumb's first joint, the fingers' knuckles; three more points follow
+# each.
+WRIST, THUMB, INDEX, MIDDLE, RING, LITTLE = 0, 1, 5, 9, 13, 17
+KNUCKLES = (INDEX, MIDDLE, RING, LITTLE)
+PALM = (WRIST, *KNUCKLES)
 
 # [rad] What knuckle, middle and last joint seem bent by in a straight finger, where the signer shows none:
 # joint centres do not lie on a line. Means over the synthetic signer's flat hands.
@@ -17,6 +21,24 @@ _STRAIGHT = np.radians([5.0, 8.0, 5.0])
 _SEEN_STRAIGHT = np.radians(20.0)
 # [%] Share of the frames in which a finger is taken for straight, if it ever is.
 _STRAIGHTEST = 5.0
+
+
+def palm_axes(hand: Array) -> Array:
+    """Axes of the palm straight from the landmarks.
+
+    Args:
+        hand: Landmarks. Shape (n, 21, 3).
+
+    Returns:
+        Columns: along the hand, to the little finger's side, out of the palm. Shape (n, 3, 3).
+    """
+    along = hand[:, (MIDDLE, RING)].mean(axis=1) - hand[:, WRIST]
+    along = along / np.linalg.norm(along, axis=1, keepdims=True)
+    # For a right hand, index side cross little finger's side points out of the palm.
+    out = np.cross(hand[:, INDEX] - hand[:, WRIST], hand[:, LITTLE] - hand[:, WRIST])
+    out -= (out * along).sum(axis=1, keepdims=True) * along
+    out /= np.linalg.norm(out, axis=1, keepdims=True)
+    return np.stack([along, np.cross(out, along), out], axis=-1)
 
 
 def in_palm(hand: Array) -> Array:

@@ -24,7 +24,7 @@ from teo_description.robot import Robot
 from teo_sign_authoring.alphabet.letter_features import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
-from teo_sign_capture.retarget.quality_figures import least_clearance
+from teo_sign_capture.retarget.knots import least_clearance
 from teo_sign_capture.time_warp import warp
 from teo_signs.sign import Sign
 
