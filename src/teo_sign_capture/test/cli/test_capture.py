@@ -89,6 +89,7 @@ def test_without_a_table_a_sign_goes_to_the_users_own_and_is_found_there_first(
     assert Lut.open().path("CASA") == own / "CASA.json"
 
 
+@pytest.mark.slow
 def test_a_folder_ends_with_a_table_of_failures_and_resumes(tmp_path: Path) -> None:
     folder, table = tmp_path / "recordings", tmp_path / "lut"
     write_bag(folder / "HOLA.mcap", signing(rate=15.0))
@@ -122,6 +123,7 @@ def test_a_program_reads_what_became_of_a_sign_and_how_it_stands_at_each_gate(
     assert "drawing" in [line["what"] for line in said]
 
 
+@pytest.mark.slow
 def test_a_trial_leaves_the_table_alone_and_knows_what_it_holds(
     bag: Path, tmp_path: Path, data_home: Path
 ) -> None:
@@ -154,6 +156,7 @@ def test_a_program_reads_why_a_sign_is_refused(tmp_path: Path) -> None:
     assert (wrong["code"], wrong["gloss"], wrong["gates"]) == ("bad_arguments", "", [])
 
 
+@pytest.mark.slow
 def test_a_program_reads_a_line_for_each_sign_of_a_folder(tmp_path: Path) -> None:
     folder = tmp_path / "recordings"
     write_bag(folder / "HOLA.mcap", signing(rate=15.0))

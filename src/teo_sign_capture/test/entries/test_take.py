@@ -115,6 +115,7 @@ def test_a_hand_too_near_to_its_shoulder_is_at_its_own_place_for_who_watches(rob
     assert np.nanmean(motion.same_zone[:, 0]) > 0.9
 
 
+@pytest.mark.slow
 def test_hands_can_be_named(robot: Robot) -> None:
     both = capture_take(robot, signing(moves=[(0.5, 1.1, OUT), (1.8, 2.4, REST)]), handedness="both")
     assert any(joint.startswith("FrontalLeft") for joint in both.motion.joints)

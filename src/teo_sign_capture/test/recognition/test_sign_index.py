@@ -92,6 +92,7 @@ def test_a_warped_distance_is_that_of_the_textbook() -> None:
     assert match.distance == pytest.approx(np.sqrt(total[-1, -1] / MOMENTS))
 
 
+@pytest.mark.slow
 def test_what_was_captured_of_one_take_is_the_first_for_another(robot: Robot, tmp_path: Path) -> None:
     bags = [write_bag(tmp_path / f"{seed}.mcap", signing(seed=seed, rate=15.0)) for seed in range(2)]
     captured = run("capture", bags[0], "--gloss", "INVENTADA", "--no-draw")

@@ -15,7 +15,7 @@ from mcap.writer import Writer
 from rosbags.rosbag2 import Reader
 
 from teo_sign_capture.recordings import own_process
-from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, track_of
+from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, retrieve_apart, track_of
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_signs.errors import LutError
 from teo_synthetic_signer.take.take_bag import START
@@ -135,7 +135,7 @@ def test_a_worker_that_may_start_no_process_retrieves_by_itself(
     monkeypatch.setattr(own_process, "current_process", lambda: SimpleNamespace(daemon=True))
     monkeypatch.setattr(own_process, "get_context", lambda method: pytest.fail(f"a process by {method}"))
     with pytest.raises(LutError, match="depth") as error:
-        recordings.retrieve_apart(colour_only, tmp_path / "out.mcap")
+        retrieve_apart(colour_only, tmp_path / "out.mcap")
     assert error.value.code == "no_depth"
 
 

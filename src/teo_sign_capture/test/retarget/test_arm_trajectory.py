@@ -57,6 +57,7 @@ def test_a_motion_that_an_arm_has_made_is_found_again(chain):
     assert np.degrees(np.abs(found - ARMS)).max() < 6.0
 
 
+@pytest.mark.slow
 def test_no_frame_by_frame_search_finds_anything_clearly_better(chain):
     problem = ArmProblem(chain, (goals_of(chain, ARMS, shift=(-0.15, 0.1, -0.2), contact=0.0),), None)
     found = solve_arms(problem, TIMES, BOUNDS[:1], STARTS)

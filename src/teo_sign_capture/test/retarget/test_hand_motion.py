@@ -7,7 +7,7 @@ import pytest
 from robot_person import keypoints
 from scipy.spatial.transform import Rotation
 
-from teo_description.hand_geometry import HandPoints, HandTable, hand_table
+from teo_description.hand_geometry import HandPoints, HandTable
 from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_capture.retarget.hand_motion import follow_hand
@@ -133,9 +133,3 @@ def test_a_thumb_on_the_index_touches_it_and_nothing_goes_through_anything(table
     limits = joint_limits(RIGHT_HAND)
     assert (found.axes >= limits.lower - 1e-9).all()
     assert (found.axes <= limits.upper + 1e-9).all()
-
-
-def test_the_table_of_a_robot_is_worked_out_once(robot, table):
-    assert hand_table(robot) is hand_table(robot)
-    assert hand_table(robot).thumb == pytest.approx(table.thumb)
-    assert hand_table(Robot.load()) is not hand_table(robot)

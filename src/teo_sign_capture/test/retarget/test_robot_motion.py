@@ -183,6 +183,7 @@ def test_a_hand_that_would_go_into_the_body_is_moved_off_and_says_by_how_much(ro
     assert np.median(found.place_error[:, 0]) > 0.05
 
 
+@pytest.mark.slow
 def test_hands_that_pass_through_each_other_on_teo_are_led_past(robot, points):
     body, left, right, face = (one.copy() for one in points)
     # Both hands to the middle of the chest, changing sides.
@@ -196,6 +197,7 @@ def test_hands_that_pass_through_each_other_on_teo_are_led_past(robot, points):
     assert nearest_on_ways(robot, found) > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("start", "end"), [(1.3, 2.5), (3.5, 4.9)])
 def test_hands_that_meet_go_through_nothing_between_frames(robot, start, end):
     """Fingers that interlock, and a fist onto a palm: the shipped recording."""

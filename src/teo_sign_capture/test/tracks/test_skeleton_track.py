@@ -54,17 +54,3 @@ def test_times_that_do_not_go_on_are_refused(times):
     with pytest.raises(LutError) as error:
         track(times)
     assert error.value.code == "bad_stamps"
-
-
-def test_parts_of_the_wrong_size_are_refused():
-    with pytest.raises(ValueError, match="right_hand"):
-        track([0.0, 0.1], right_hand=Keypoints.lost(2, 20))
-    with pytest.raises(ValueError, match="trunk"):
-        track([0.0, 0.1], trunk=np.zeros((3, 3)))
-    with pytest.raises(ValueError, match="positions"):
-        Keypoints(
-            positions=np.zeros((2, 21, 2)),
-            sigma=np.zeros((2, 21)),
-            confidence=np.zeros((2, 21)),
-            status=np.zeros((2, 21), np.uint8),
-        )

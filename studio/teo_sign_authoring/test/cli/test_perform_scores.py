@@ -46,6 +46,7 @@ def test_scripts_are_written_without_performing_them(tmp_path: Path, scores: Pat
     assert sorted(path.name for path in out.iterdir()) == ["DOS.yaml", "UNO.yaml"]
 
 
+@pytest.mark.slow
 def test_a_sign_is_performed_once_and_kept(tmp_path: Path, scores: Path) -> None:
     out = tmp_path / "out"
     words = ("--out", out, "--scores", scores, "--only", "UNO", "--truth-only", "--rate", 5)

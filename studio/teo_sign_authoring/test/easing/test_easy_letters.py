@@ -16,11 +16,7 @@ from teo_description.robot import Robot
 from teo_motion.trajectory.limits import MotionLimits
 from teo_names import COMMANDED_JOINTS, joint_limits
 from teo_sign_authoring.alphabet.face_visibility import shift_off_face
-from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
-from teo_sign_authoring.alphabet.letter_features import recorded_features
-from teo_sign_authoring.alphabet.letters import read_alphabet
 from teo_sign_authoring.easing.easy_letters import ease_letters, with_easy_posture
-from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
 from teo_sign_capture.retarget.knots import least_clearance
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
@@ -124,25 +120,6 @@ def test_ways_between_letters_take_less_time() -> None:
         return time / sum(ALPHABET.frequencies.values()) ** 2
 
     assert expected({letter: eased(sign) for letter, sign in letters().items()}) < 0.77 * expected(letters())
-
-
-@pytest.mark.parametrize("letter", ["A", "F", "T"])
-def test_a_letter_is_within_its_own_tolerance_and_a_turned_hand_is_not(robot: Robot, letter: str) -> None:
-    clips = load_letter_clips(load_language(DEFAULT_LANGUAGE))
-    scale = read_alphabet(robot, load_language(DEFAULT_LANGUAGE)).scale
-    recordings = {name: recorded_features(clip, scale) for name, clip in clips.items()}
-    tolerance = LetterTolerance(robot, letters()[letter], recordings)
-    here = tolerance.linear(np.zeros(12), 0.1)
-    assert ((here.lower <= 0.0) & (here.upper >= 0.0)).all()
-    beyond = (-here.bound / here.scale).max()
-    # F and T are captured more like S: that row alone is beyond.
-    assert beyond < (1e-6 if letter == "A" else 3.0)
-    turned = np.zeros(12)
-    turned[4] = 0.6
-    assert (tolerance.linear(turned, 0.1).matrix @ turned > tolerance.linear(turned, 0.1).bound).any()
-    assert not tolerance.settled(np.zeros(12)).any()
-    tolerance.keep_turned_from(tolerance)  # one that begins with the same palm
-    assert np.isfinite(tolerance.linear(turned, 0.1).matrix).all()
 
 
 def test_a_table_without_all_letters_is_refused_by_name(robot: Robot) -> None:

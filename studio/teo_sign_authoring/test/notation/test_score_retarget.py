@@ -242,6 +242,7 @@ def test_directions_add_up() -> None:
     np.testing.assert_allclose(direction("out"), [0.0, -1.0, 0.0])
 
 
+@pytest.mark.slow
 def test_every_entry_that_a_score_made_keeps_limits_and_clearance_between_its_knots(robot: Robot) -> None:
     """A second look at the table, denser than the one that made it."""
     lut = Lut.open(default_lut_directory())
