@@ -163,6 +163,7 @@ def cluster() -> Iterator[str]:
         yield running.scheduler_address
 
 
+@pytest.mark.slow
 def test_a_dask_cluster_does_the_same_work(cluster: str, folder: Path, settings: Settings) -> None:
     jobs = [job for job in find_jobs(folder) if job.gloss in ("HOLA", "NADA")]
     with workers(1, cluster) as executor:

@@ -242,6 +242,7 @@ def test_the_little_finger_of_y_bends_twice_or_more() -> None:
     assert sum(1 for first, second in pairwise(np.sign(turns)) if first != second) >= 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("letter", ["A", "M", "V", "X"])
 def test_capturing_again_gives_the_same_letter(robot: Robot, letter: str) -> None:
     alphabet = read_alphabet(robot, load_language(DEFAULT_LANGUAGE))
