@@ -38,7 +38,7 @@ from teo_signs.sign_schema import Gloss, Handedness, Kind, Standing
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP
 
 # Hexadecimal digits of SHA-256 that tell one recording from another.
-DIGEST = 16
+_DIGEST = 16
 _SOURCE = re.compile(r"sha256 ([0-9a-f]{16})(, cut \S+ to \S+ s)?")
 
 # Said in the notes of every entry that one camera without depth took.
@@ -179,7 +179,7 @@ def _captured(robot: Robot, job: CaptureJob, settings: Settings, on_progress: St
     alike = filter(None, (one.warning(captured.sign.gloss) for one in similar))
     saved = Saved(
         captured=captured,
-        path=save_captured(captured, settings),
+        path=_save_captured(captured, settings),
         pictures=(),
         similar=similar,
         warnings=(*warnings, *left_out, *alike),
@@ -269,7 +269,7 @@ def _origin(
 
 
 def _named(recording: Recording, cut: Cut) -> str:
-    name = f"{recording.name}, sha256 {recording.digest[:DIGEST]}"
+    name = f"{recording.name}, sha256 {recording.digest[:_DIGEST]}"
     if cut == Cut():
         return name
     ends = (
@@ -279,7 +279,7 @@ def _named(recording: Recording, cut: Cut) -> str:
     return f"{name}, cut {ends[0]} to {ends[1]} s"
 
 
-def save_captured(captured: Captured, settings: Settings) -> Path:
+def _save_captured(captured: Captured, settings: Settings) -> Path:
     """Write the entry, and return where it is."""
     directory = settings.trial or settings.table
     replace_there = settings.replace or settings.trial is not None

@@ -129,7 +129,7 @@ def run_jobs(
     futures = {}
     for job in jobs:
         located = replace(job, bags=tuple(bag.absolute() for bag in job.bags))
-        futures[executor.submit(capture_job, located, here)] = job
+        futures[executor.submit(_capture_job, located, here)] = job
     outcomes = []
     try:
         for future in as_completed(futures):
@@ -147,7 +147,7 @@ def run_jobs(
     return sorted(outcomes, key=lambda outcome: outcome.gloss)
 
 
-def capture_job(job: CaptureJob, settings: Settings) -> Outcome:
+def _capture_job(job: CaptureJob, settings: Settings) -> Outcome:
     """Capture one sign, in whatever process this is."""
     try:
         if not settings.replace and is_captured(job, settings.table):

@@ -33,7 +33,7 @@ _FINGERS = tuple(
 )
 
 # Draws the demonstration at a time from the beginning of the stroke [s].
-Drawer = Callable[[float], Image]
+_Drawer = Callable[[float], Image]
 
 
 def save_capture_picture(path: Path, captured: Captured, recording: Recording | None, cache: Path) -> None:
@@ -73,23 +73,23 @@ def save_capture_film(path: Path, captured: Captured, recording: Recording | Non
     return write_video(path, frames, [sign.gloss] * len(shares), frames_per_second=FRAME_RATE)
 
 
-def _drawer(take: SignTake, recording: Recording | None, cache: Path) -> Drawer:
+def _drawer(take: SignTake, recording: Recording | None, cache: Path) -> _Drawer:
     start = take.span.start
     end = start + float(take.track.times[-1])
     if recording is None or (recording.is_flat and recording.has_skeletons):
-        return lambda time: draw_person(take, time)
+        return lambda time: _draw_person(take, time)
     if recording.is_flat:
         images = video_pictures(recording.path, start=start, end=end, size=_SIZE)
     else:
         skeletons = skeletons_of(recording, cache)
         images = colour_images(recording.path, skeletons, start=start, end=end, size=_SIZE)
     if not images:
-        return lambda time: draw_person(take, time)
+        return lambda time: _draw_person(take, time)
     times = np.array([when for when, _ in images])
     return lambda time: images[int(np.argmin(np.abs(times - time)))][1]
 
 
-def draw_person(take: SignTake, time: float) -> Image:
+def _draw_person(take: SignTake, time: float) -> Image:
     """The keypoints of a take at a time, as from the front: the person's left is on the right."""
     frame = int(np.argmin(np.abs(take.track.times - time)))
     picture = np.full((_SIZE[1], _SIZE[0], 3), _PAPER, np.uint8)

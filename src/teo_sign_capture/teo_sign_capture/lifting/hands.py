@@ -33,7 +33,7 @@ BONES = tuple(
 # Segments", Int. J. Morphol. 28(3), 2010; the way from the wrist to a knuckle is that of the metacarpal and
 # of 27 mm of carpal bones; to the first joint of the thumb it is 0.39 of the way to the middle knuckle, as in
 # the clips of `letter_clips`.
-BONE_LENGTHS = 1e-3 * np.array(
+_BONE_LENGTHS = 1e-3 * np.array(
     [
         *(36.0, 46.2, 31.6, 21.7),
         *(95.0, 39.8, 22.4, 15.8),
@@ -133,8 +133,8 @@ def _bone_lengths(places: Array, scale: float) -> Array:
     across = np.stack([places[:, second, 1:] - places[:, first, 1:] for first, second in BONES], axis=1)
     longest = scale * np.percentile(np.linalg.norm(across, axis=2), _PERCENTILE, axis=0)
     # Half of the bones at least lay across the view; those say how large the hand is.
-    size = float(np.clip(np.percentile(longest / BONE_LENGTHS, 60.0), *_SIZE))
-    usual = size * BONE_LENGTHS
+    size = float(np.clip(np.percentile(longest / _BONE_LENGTHS, 60.0), *_SIZE))
+    usual = size * _BONE_LENGTHS
     lengths: Array = np.clip(longest, _LEAST_SHARE * usual, _GREATEST_SHARE * usual)
     return lengths
 

@@ -32,7 +32,7 @@ HEAD = np.array(
     ]
 )
 # [m] How far ears are in front of the shoulders of an upright person.
-IN_FRONT = 0.02
+_IN_FRONT = 0.02
 
 # [m] Deviation of a point from a person's own head.
 _POINT = 0.01
@@ -60,7 +60,7 @@ def lift_head(places: Array) -> tuple[Array, Array]:
         if seen.sum() < _LEAST_POINTS:
             continue
         turn, head = _fit(points, seen, turn)
-        depths[frame] = head[:, 0] + IN_FRONT
+        depths[frame] = head[:, 0] + _IN_FRONT
     sigma = np.where(np.isfinite(depths), 2.0 * _POINT, np.nan)
     return depths, sigma
 

@@ -102,10 +102,10 @@ def recording_appearance(
     span = the_sign(smooth, offset=first, cut_start=start is not None, cut_end=end is not None)
     stroke = smooth.between(span.start, span.end)
     signer = signer_motion(stroke, handedness=handedness or span.handedness, person=measure_person(track))
-    return demonstration_appearance(robot, signer)
+    return _demonstration_appearance(robot, signer)
 
 
-def demonstration_appearance(robot: Robot, signer: SignerMotion) -> Array:
+def _demonstration_appearance(robot: Robot, signer: SignerMotion) -> Array:
     """What a person shows. Shape (MOMENTS, 2 hands of 16 numbers).
 
     A left hand alone is taken for the right one in a mirror, as left-handed signers sign.

@@ -15,7 +15,7 @@ from teo_signs.errors import LutError
 # [s] From the end of the countdown to the end of the sign: a breath, the longest sign and the ways up and
 # down.
 LONGEST_WAIT = 8.0
-MOST_COUNTDOWN = 30.0  # [s]
+_MOST_COUNTDOWN = 30.0  # [s]
 # [s] Hands that are back at rest for so long have ended the sign; beats of one sign return for less.
 _STAYS = 0.5
 # [s] Length of the end of the countdown that is kept: where the hands rest is learned from it.
@@ -62,9 +62,9 @@ class LiveTake:
         Raises:
             LutError: "bad_countdown".
         """
-        if not 0.0 <= countdown <= MOST_COUNTDOWN:
+        if not 0.0 <= countdown <= _MOST_COUNTDOWN:
             raise LutError(
-                "bad_countdown", f"expected a countdown of 0 to {MOST_COUNTDOWN:g} s, got {countdown:g} s"
+                "bad_countdown", f"expected a countdown of 0 to {_MOST_COUNTDOWN:g} s, got {countdown:g} s"
             )
         self._begins = started + countdown
         self._ends = self._begins + longest

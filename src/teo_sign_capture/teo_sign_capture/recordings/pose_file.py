@@ -29,7 +29,7 @@ MAX_FILE_BYTES = 256 * 1024**2
 MAX_FRAMES = 6000
 
 # [Hz] No camera that films signers is faster.
-MAX_RATE = 1000.0
+_MAX_RATE = 1000.0
 
 # A person of whom fewer points are ever seen is an empty place in the file.
 _PERSON_POINTS = 3
@@ -183,8 +183,8 @@ class _Reader:
         return fitting[0]
 
     def _rate(self, rate: float) -> float:
-        if not (math.isfinite(rate) and 0.0 < rate <= MAX_RATE):
-            self._refuse("bad_rate", f"more than 0 and at most {MAX_RATE:g} frames a second", f"{rate:g}")
+        if not (math.isfinite(rate) and 0.0 < rate <= _MAX_RATE):
+            self._refuse("bad_rate", f"more than 0 and at most {_MAX_RATE:g} frames a second", f"{rate:g}")
         return rate
 
     def _person(self, confidence: Array, person: int | None) -> int:

@@ -87,7 +87,7 @@ class Layout:
     hand_points: Sequence[str]
 
 
-MEDIAPIPE = Layout(
+_MEDIAPIPE = Layout(
     name="MediaPipe Holistic",
     body="POSE_LANDMARKS",
     left_hand="LEFT_HAND_LANDMARKS",
@@ -104,4 +104,4 @@ OPENPOSE = Layout(
     hand_points=_OPENPOSE_HAND,
 )
 # The layouts that are read.
-LAYOUTS = (MEDIAPIPE, OPENPOSE)
+LAYOUTS = (_MEDIAPIPE, OPENPOSE)

@@ -70,8 +70,8 @@ def _retrieve(bag: Path, out: Path, on_progress: Progress | None, slop: float) -
     return report.complaints
 
 
-BAG_SUFFIXES = (".mcap", ".db3", ".bag")
-POSE_SUFFIX = ".pose"
+_BAG_SUFFIXES = (".mcap", ".db3", ".bag")
+_POSE_SUFFIX = ".pose"
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _CHUNK = 1 << 20
 
@@ -120,11 +120,11 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
         LutError: "no_bag" if there is none, "unreadable_bag", or "no_skeletons" if it holds neither
             skeletons nor images.
     """
-    if is_video(path) or is_pose_file(path):
+    if is_video(path) or _is_pose_file(path):
         return Recording(
             path=path,
             digest=digest_of(path),
-            has_skeletons=is_pose_file(path),
+            has_skeletons=_is_pose_file(path),
             is_flat=True,
             rendered=False,
         )
@@ -132,7 +132,7 @@ def open_recording(path: Path, *, slop: float = DEFAULT_SLOP) -> Recording:
         raise LutError(
             "no_bag",
             "expected the folder of a bag or a file "
-            f"{', '.join((*BAG_SUFFIXES, *VIDEO_SUFFIXES, POSE_SUFFIX))}, got {path}",
+            f"{', '.join((*_BAG_SUFFIXES, *VIDEO_SUFFIXES, _POSE_SUFFIX))}, got {path}",
         )
     kinds, begins = _topics(path)
     skeletons = any(kind == TYPE and not topic.startswith(TRUTH) for topic, kind in kinds.items())
@@ -156,23 +156,23 @@ def is_bag(path: Path) -> bool:
     """Whether a path is a file or a folder as bags are; a folder without metadata.yaml holds bags at most."""
     if path.is_dir():
         return (path / "metadata.yaml").is_file()
-    return path.is_file() and path.suffix in BAG_SUFFIXES
+    return path.is_file() and path.suffix in _BAG_SUFFIXES
 
 
 def is_recording(path: Path) -> bool:
     """Whether a path is anything that a sign can be captured from."""
-    return is_bag(path) or is_video(path) or is_pose_file(path)
+    return is_bag(path) or is_video(path) or _is_pose_file(path)
 
 
-def is_pose_file(path: Path) -> bool:
+def _is_pose_file(path: Path) -> bool:
     """Whether a path is a file of a person's points."""
-    return path.is_file() and path.suffix == POSE_SUFFIX
+    return path.is_file() and path.suffix == _POSE_SUFFIX
 
 
 def digest_of(path: Path) -> str:
     """SHA-256 of a bag's messages: of its storage files, in order of their names."""
     files = (
-        sorted(file for file in path.iterdir() if file.suffix in BAG_SUFFIXES) if path.is_dir() else [path]
+        sorted(file for file in path.iterdir() if file.suffix in _BAG_SUFFIXES) if path.is_dir() else [path]
     )
     digest = hashlib.sha256()
     try:
@@ -254,7 +254,7 @@ def skeletons_of(recording: Recording, cache: Path) -> Path:
 def _cached(recording: Recording, cache: Path) -> Path:
     # Other pairs of colour and depth make other skeletons.
     paired = "" if recording.slop == DEFAULT_SLOP else f"-slop{recording.slop:g}"
-    suffix = POSE_SUFFIX if recording.is_flat else ".mcap"
+    suffix = _POSE_SUFFIX if recording.is_flat else ".mcap"
     return cache / f"{recording.path.stem}-{recording.digest[:12]}{paired}{suffix}"
 
 

@@ -28,7 +28,7 @@ _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
 # [s] The synthetic signer's takes all begin at this moment of 2023 (`teo_synthetic_signer.take.take_bag`,
 # which loads for seconds what draws them), and last no longer: skeletons that were found in its images carry
 # no other sign.
-RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0
+_RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0
 
 
 def is_rendered(topics: Iterable[str], begins: float) -> bool:
@@ -39,7 +39,7 @@ def is_rendered(topics: Iterable[str], begins: float) -> bool:
         begins: Stamp of its first message [s].
     """
     told = any(topic.startswith(TRUTH) for topic in topics)
-    return told or RENDERED_FROM <= begins < RENDERED_FROM + _LONGEST
+    return told or _RENDERED_FROM <= begins < _RENDERED_FROM + _LONGEST
 
 
 def read_skeletons(bag: Path, *, topic: str | None = None, signer: int | None = None) -> SkeletonTrack:

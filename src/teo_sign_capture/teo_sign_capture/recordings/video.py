@@ -57,7 +57,7 @@ def is_video(path: Path) -> bool:
     return path.is_file() and path.suffix.lower() in VIDEO_SUFFIXES
 
 
-def count_images(path: Path) -> int:
+def _count_images(path: Path) -> int:
     """About how many images `video_images` gives; 0 where the file does not say."""
     import av
 
@@ -162,7 +162,7 @@ def _find(video: Path, out: Path, on_progress: Progress | None) -> tuple[str, ..
     times: list[float] = []
     found: list[Array] = []
     size = (0, 0)
-    total = count_images(video)
+    total = _count_images(video)
     try:
         detector = make_detector("mediapipe")
         try:

@@ -27,7 +27,7 @@ from teo_description.robot import Robot
 Bounds = tuple[Array, Array]
 
 # Distance kept from every limit, so that a planner may overshoot by its rounding [rad].
-MARGIN = np.radians(1.0)
+_MARGIN = np.radians(1.0)
 # Starts of a search on an arm for which none are given: more find no better arm for one in a hundred of the
 # scores' postures.
 _SAMPLED = 32
@@ -56,8 +56,8 @@ def arm_bounds(humanoid: Humanoid, side: Side | Literal["both"]) -> Bounds:
         lower, upper = ends.min(axis=0), ends.max(axis=0)
     natural = humanoid.file.natural_arm
     return (
-        np.maximum(lower, np.radians(natural.lower_deg)) + MARGIN,
-        np.minimum(upper, np.radians(natural.upper_deg)) - MARGIN,
+        np.maximum(lower, np.radians(natural.lower_deg)) + _MARGIN,
+        np.minimum(upper, np.radians(natural.upper_deg)) - _MARGIN,
     )
 
 

@@ -26,7 +26,7 @@ from teo_sign_capture.retarget.collision_terms import CollisionTerms
 from teo_sign_capture.viterbi import cheapest_path
 
 # A joint so near to its bound is at it [rad].
-ON_BOUND = 1e-9
+_ON_BOUND = 1e-9
 # Steps after which the search for a posture that nothing refines ends, and the step that ends it [rad].
 _POSTURE_STEPS, _POSTURE_ENOUGH = 40, 1e-6
 # Added to the curvature at first, and its factors after a step that helps and one that does not; a posture
@@ -66,7 +66,7 @@ def search_arms(
     damping, active = np.full(count, _POSTURE_DAMPING), np.arange(count)
     for _ in range(steps):
         at, slope = positions[active], gradient[active]
-        free = ~(((at <= lower + ON_BOUND) & (slope > 0.0)) | ((at >= upper - ON_BOUND) & (slope < 0.0)))
+        free = ~(((at <= lower + _ON_BOUND) & (slope > 0.0)) | ((at >= upper - _ON_BOUND) & (slope < 0.0)))
         bent = curvature[active] * (free[:, :, None] & free[:, None])
         bent[:, every, every] += np.where(free, damping[active, None], 1.0)
         step = np.linalg.solve(bent, np.where(free, -slope, 0.0)[..., None])[..., 0]
@@ -99,10 +99,10 @@ _SPREAD = 0.15
 _SPEED = 0.04
 # [rad/s] A person's wrist at its fastest, 2 m/s, 0.25 m from the elbow: no joint need turn faster, which is
 # 15 deg from one of 30 images a second to the next.
-SWIFT = np.radians(450.0)
+_SWIFT = np.radians(450.0)
 # [1/rad^2] What is beyond this from frame to frame costs, to the square: 15 deg too much as a palm turned by
 # 70 deg, so that an arm that changes the valley takes some frames for it.
-HASTE = 20.0
+_HASTE = 20.0
 # The search ends after so many steps, or when no joint moves by this any more [rad].
 _STEPS, _ENOUGH = 40, 1e-4
 # Most steps and least step [rad] with collision terms, which are measured anew after it: their slopes are
@@ -132,9 +132,9 @@ def solve_arms(problem: ArmProblem, times: Array, bounds: list[Bounds], starts: 
     arms = []
     for hand, arm_bounds in enumerate(bounds):
         found, cost = search_arms(problem, hand, frames, arm_bounds, starts=starts, steps=_SEARCH_STEPS)
-        farthest = SWIFT * (np.diff(times[frames]) + _SPREAD)
+        farthest = _SWIFT * (np.diff(times[frames]) + _SPREAD)
         lasting = np.gradient(times[frames]) / _EVERY if len(frames) > 1 else np.ones(1)
-        chosen = cheapest_path(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=HASTE)
+        chosen = cheapest_path(cost * lasting[:, None], found, _JUMP, farthest=farthest, haste=_HASTE)
         path = found[np.arange(len(found)), chosen]
         arms.append(np.stack([np.interp(times, times[frames], joint) for joint in path.T], axis=1))
     return refine_arms(problem, times, bounds, np.concatenate(arms, axis=1))
@@ -188,7 +188,7 @@ def refine_arms(
             here = terms.added(here, positions)
         steps = np.diff(positions, axis=0)
         hasty = np.maximum(np.abs(steps) - farthest, 0.0)
-        speed = 0.5 * float((prices * steps**2 + HASTE * hasty**2).sum())
+        speed = 0.5 * float((prices * steps**2 + _HASTE * hasty**2).sum())
         return here, float(here.cost.sum()) + speed
 
     positions = np.clip(start, lower, upper)
@@ -223,7 +223,7 @@ def _speed_prices(times: Array) -> Array:
 
 def _longest_steps(times: Array) -> Array:
     """How far a joint turns from frame to frame without haste [rad]. Shape (T - 1, 1)."""
-    steps: Array = SWIFT * np.diff(times)[:, None]
+    steps: Array = _SWIFT * np.diff(times)[:, None]
     return steps
 
 
@@ -240,12 +240,12 @@ def _newton_step(
     gradient = here.gradient.copy()
     steps = np.diff(positions, axis=0)
     hasty = np.abs(steps) > farthest
-    pull = prices * steps + HASTE * hasty * (steps - np.sign(steps) * farthest)
-    prices = prices + HASTE * hasty
+    pull = prices * steps + _HASTE * hasty * (steps - np.sign(steps) * farthest)
+    prices = prices + _HASTE * hasty
     gradient[:-1] -= pull
     gradient[1:] += pull
-    held = ((positions <= lower + ON_BOUND) & (gradient > 0.0)) | (
-        (positions >= upper - ON_BOUND) & (gradient < 0.0)
+    held = ((positions <= lower + _ON_BOUND) & (gradient > 0.0)) | (
+        (positions >= upper - _ON_BOUND) & (gradient < 0.0)
     )
     free = ~held
     curvature = here.curvature * (free[:, :, None] & free[:, None])

@@ -34,7 +34,7 @@ _ON_WAY = 0.004
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ClearanceSamples:
+class _ClearanceSamples:
     """Distances along a motion, in its frames and on the straight ways between them.
 
     Attributes:
@@ -71,9 +71,9 @@ class ClearanceSamples:
         return tight
 
 
-def sample_clearance(
-    model: CollisionModel, arms: Array, known: ClearanceSamples | None = None
-) -> ClearanceSamples:
+def _sample_clearance(
+    model: CollisionModel, arms: Array, known: _ClearanceSamples | None = None
+) -> _ClearanceSamples:
     """Measure a motion; what has not moved since it was known is not measured again."""
     every = np.arange(len(arms))
     in_frames = _distances(model, arms, every, np.zeros(len(arms)), known)
@@ -88,7 +88,7 @@ def sample_clearance(
     distances = in_frames[frames]
     inner = shares > 0.0
     distances[inner] = _distances(model, arms, frames[inner], shares[inner], known)
-    return ClearanceSamples(frames=frames, shares=shares, distances=distances, arms=arms)
+    return _ClearanceSamples(frames=frames, shares=shares, distances=distances, arms=arms)
 
 
 def _distances(
@@ -96,7 +96,7 @@ def _distances(
     arms: Array,
     frames: NDArray[np.intp],
     shares: Array,
-    known: ClearanceSamples | None,
+    known: _ClearanceSamples | None,
 ) -> Array:
     """Smallest distances on the ways from frames to the next [m]. Shape (k,) each."""
     postures = between(arms, frames, shares)
@@ -173,7 +173,7 @@ def clear_arms(
     """
     work = _Clearing(problem, model, times, bounds)
     wished, count = arms, len(arms)
-    samples = best = sample_clearance(model, arms)
+    samples = best = _sample_clearance(model, arms)
     shares, careful, moved = np.ones(count), np.zeros(count, bool), np.zeros(count)
     touched = np.zeros(count, bool)
     for turn in range(_PASSES):
@@ -187,7 +187,7 @@ def clear_arms(
             samples = work.spread_apart(samples, wished, around, at_work)
         if turn >= _RESTART_AFTER:
             shares = shares * np.where(maximum_filter1d(samples.tight, 2 * _AROUND + 1), _LESS, 1.0)
-            samples = sample_clearance(model, _begun_anew(samples.arms, samples.tight), samples)
+            samples = _sample_clearance(model, _begun_anew(samples.arms, samples.tight), samples)
         before, touched = samples.arms, touched | at_work
         samples = work.passed(samples, at_work, careful, shares)
         moved = np.abs(samples.arms - before).max(axis=1)
@@ -222,16 +222,20 @@ class _Clearing:
         self._bounds = bounds
 
     def spread_apart(
-        self, samples: ClearanceSamples, wished: Array, around: Array, at_work: NDArray[np.bool_]
-    ) -> ClearanceSamples:
+        self, samples: _ClearanceSamples, wished: Array, around: Array, at_work: NDArray[np.bool_]
+    ) -> _ClearanceSamples:
         """Hands away from everything in the frames at work, by a share in each, from how they were wished."""
         start = np.where(at_work[:, None], wished, samples.arms)
         arms = self._solved(self._problem.spread_apart(_OPEN * around), start, at_work)
-        return sample_clearance(self._model, arms, samples)
+        return _sample_clearance(self._model, arms, samples)
 
     def passed(
-        self, samples: ClearanceSamples, at_work: NDArray[np.bool_], careful: NDArray[np.bool_], shares: Array
-    ) -> ClearanceSamples:
+        self,
+        samples: _ClearanceSamples,
+        at_work: NDArray[np.bool_],
+        careful: NDArray[np.bool_],
+        shares: Array,
+    ) -> _ClearanceSamples:
         """The frames at work off what they touch, as far as one pass goes."""
         last = np.minimum(samples.frames + (samples.shares > 0.0), len(at_work) - 1)
         near = samples.distances < np.where(careful[samples.frames], _SEEN_FROM, 2.0 * WANTED)
@@ -240,7 +244,7 @@ class _Clearing:
         terms = self._model.terms(samples.frames[near], samples.arms, samples.shares[near], within=within)
         trusted: Array = np.asarray(np.where(careful, _CAREFUL, TRUSTED), dtype=np.float64)
         arms = self._solved(self._problem, samples.arms, at_work, terms=terms, shares=shares, trusted=trusted)
-        return sample_clearance(self._model, arms, samples)
+        return _sample_clearance(self._model, arms, samples)
 
     def _solved(
         self,
@@ -279,7 +283,7 @@ def _widened(times: Array, frames: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return widened
 
 
-def _shortfall(samples: ClearanceSamples) -> tuple[float, float]:
+def _shortfall(samples: _ClearanceSamples) -> tuple[float, float]:
     """Frames first, then what is between."""
     return max(LEAST - float(samples.in_frames.min()), 0.0), max(float(samples.short.max()), 0.0)
 

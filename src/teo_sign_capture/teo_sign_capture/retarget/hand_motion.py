@@ -59,7 +59,7 @@ def follow_hand(table: HandTable, times: Array, arm: SignerArm) -> HandMotion:
     first = KNUCKLES[finger_rows(table.hand)[0]]
     thumb = follow_thumb(table, times, fingers, scaled - scaled[:, first, None])
     rows = finger_rows(table.hand)
-    error = np.abs(bends[:, rows].sum(axis=2) - whole_bends(table, fingers)).mean(axis=1) / 3.0
+    error = np.abs(bends[:, rows].sum(axis=2) - _whole_bends(table, fingers)).mean(axis=1) / 3.0
     return HandMotion(np.concatenate([thumb, fingers], axis=1), error)
 
 
@@ -86,7 +86,7 @@ def finger_flexions(table: HandTable, bends: Array) -> Array:
     return found
 
 
-def whole_bends(table: HandTable, fingers: Array) -> Array:
+def _whole_bends(table: HandTable, fingers: Array) -> Array:
     """By how much fingers are bent from the knuckle to the tip, all joints added [rad].
 
     Args:
@@ -102,7 +102,7 @@ def whole_bends(table: HandTable, fingers: Array) -> Array:
 def axis_shares(table: HandTable) -> Array:
     """What a finger's axis turns by for each of a person's three joints that bends by 1. Shape (fingers,)."""
     ends = np.repeat(table.flexions[[0, -1], None], len(table.hand.fingers), axis=1)
-    whole = np.diff(whole_bends(table, ends), axis=0)[0]
+    whole = np.diff(_whole_bends(table, ends), axis=0)[0]
     shares: Array = np.round(_FINGER_JOINTS * (table.flexions[-1] - table.flexions[0]) / whole, 6)
     return shares
 
@@ -138,7 +138,7 @@ _EVERY = 2
 _TREMBLE = 0.04
 
 
-def touching_axes(hand: HandGeometry) -> float:
+def _touching_axes(hand: HandGeometry) -> float:
     """Distance of the axes of thumb and finger when they touch [m]."""
     return float(hand.finger_radii[0] + hand.thumb_radii[-1])
 
@@ -158,7 +158,7 @@ def thumb_contacts(hand: HandGeometry, gaps: Array) -> tuple[Array, Array]:
     # Several fingers at the thumb share the weight of one: else D's three would be bent into a fist to
     # reach it.
     nearness /= np.maximum(nearness.sum(axis=-1, keepdims=True), 1.0)
-    touch = touching_axes(hand)
+    touch = _touching_axes(hand)
     return nearness, np.where(gaps < touch + _SURELY_APART, touch, gaps)
 
 
@@ -211,7 +211,7 @@ def _meeting(hand: HandGeometry, thumbs: Array, fingers: Array, person: Array) -
     tips = [_FINGER_TIPS[row] for row in finger_rows(hand)]
     gaps = np.linalg.norm(person[:, tips] - person[:, _TIP, None], axis=2)
     nearness, wanted = thumb_contacts(hand, gaps)
-    touch, box = touching_axes(hand), hand.palm_box
+    touch, box = _touching_axes(hand), hand.palm_box
     reached = np.linalg.norm(thumbs[:, :, None, 2] - fingers[:, None, :, 3], axis=3)
     touching = (nearness[:, None] * (reached - wanted[:, None]) ** 2).sum(axis=2)
     shares = np.array([0.3, 0.7, 1.0])[:, None]

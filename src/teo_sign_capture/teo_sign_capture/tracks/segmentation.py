@@ -79,7 +79,7 @@ _SWUNG = 0.85
 # [s] A sign that is but a touch lasts so long: what is shorter nobody reads.
 _LEAST_STROKE = 0.3
 # [s] The longest signs of the dictionary (compounds) take 3 s; what is longer is several.
-LONGEST_SIGN = 4.0
+_LONGEST_SIGN = 4.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,11 +172,11 @@ def the_sign(
             "several_signs", f"{track.source}: expected one sign, got {len(spans)}. Take one: {where}"
         )
     span = spans[0]
-    if span.duration > LONGEST_SIGN:
+    if span.duration > _LONGEST_SIGN:
         pauses = ", ".join(f"{pause + offset:.2f}" for pause in span.pauses) or "no time"
         raise LutError(
             "too_long",
-            f"{track.source}: expected a sign of at most {LONGEST_SIGN:g} s, got hands that are away from "
+            f"{track.source}: expected a sign of at most {_LONGEST_SIGN:g} s, got hands that are away from "
             f"rest for {span.returns - span.leaves:.1f} s: probably several signs. They slow down "
             f"at {pauses} s: cut there with --start and --end",
         )

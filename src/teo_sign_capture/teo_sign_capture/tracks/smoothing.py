@@ -3,7 +3,7 @@
 """Quieter keypoints, with fast strokes left as they are, and short gaps filled.
 
 Each coordinate of each keypoint goes through a Kalman filter and, backwards, the smoother of Rauch, Tung and
-Striebel (1965). The motion is taken for one whose jerk is white noise of power `JERK_POWER`; a measurement
+Striebel (1965). The motion is taken for one whose jerk is white noise of power `_JERK_POWER`; a measurement
 counts by its own sigma. At an even rate the smoother is the low pass 1 / (1 + (w / c)^6) with
 c^6 = JERK_POWER / (sigma^2 dt): the cut-off falls with the third root of sigma only, so that no good keypoint
 loses its strokes and no bad one keeps its noise.
@@ -26,17 +26,17 @@ PARTS: tuple[Part, ...] = ("body", "left_hand", "right_hand", "face")
 
 # [m^2/s^5] With keypoints of 10 mm at 30 Hz the cut-off is 8 Hz: a stroke of 3 Hz, the fastest that hands
 # shake at, keeps 99.7 % of its way; with 30 mm it is 5.5 Hz, and it keeps 97 %.
-JERK_POWER = 5.0e4
+_JERK_POWER = 5.0e4
 
 # [s] A keypoint that is lost for longer is not guessed: within that time a hand begins and ends a move.
 LONGEST_FILLED = 0.4
 # [s] A hand that is lost for no longer keeps its shape and direction, if its wrist is seen meanwhile and both
 # are the same before and after: hands that hide each other hold still.
-LONGEST_KEPT = 1.2
+_LONGEST_KEPT = 1.2
 # [s] For so long before it is first seen, and after it is last seen, a hand is given the shape that it has
 # then, at its wrist: hands that come up from rest, blurred or from below the image, are found some frames
 # after they are there, and take no new shape meanwhile.
-LONGEST_EDGE = LONGEST_FILLED
+_LONGEST_EDGE = LONGEST_FILLED
 # [m] Keypoints that are this near, from the wrist, before and after: as well as hidden hands are found.
 _SAME_SHAPE = 0.03
 
@@ -102,14 +102,14 @@ def smooth_track(track: SkeletonTrack) -> Smoothed:
         keypoints: Keypoints = filled.get(part, getattr(track, part))
         positions = smooth_positions(track.times, keypoints.positions, keypoints.sigma)
         smooth[part] = replace(keypoints, positions=positions)
-        gaps += find_gaps(track.times, getattr(track, part), positions, part)
+        gaps += _find_gaps(track.times, getattr(track, part), positions, part)
     return Smoothed(
         track=replace(track, **smooth),  # type: ignore[arg-type]  # parts by name
         gaps=tuple(sorted(gaps, key=lambda gap: gap.start)),
     )
 
 
-def find_gaps(times: Array, raw: Keypoints, smooth: Array, part: Part) -> list[Gap]:
+def _find_gaps(times: Array, raw: Keypoints, smooth: Array, part: Part) -> list[Gap]:
     """Times in which half or more of the keypoints that a part ever has are lost.
 
     Args:
@@ -184,7 +184,7 @@ def _fillable(times: Array, known: Flags, shape: Array | None = None) -> Flags:
             longest = LONGEST_FILLED
             if shape is not None:
                 change = np.linalg.norm(shape[last + 1, column] - shape[first - 1, column])
-                longest = LONGEST_KEPT if change < _SAME_SHAPE else LONGEST_FILLED
+                longest = _LONGEST_KEPT if change < _SAME_SHAPE else LONGEST_FILLED
             if times[last + 1] - times[first - 1] <= longest:
                 filled[first : last + 1, column] = True
     return filled
@@ -214,7 +214,7 @@ def _near_known(times: Array, known: Flags) -> Flags:
         after = there[np.minimum(np.searchsorted(there, times), len(there) - 1)]
         before = there[np.maximum(np.searchsorted(there, times, side="right") - 1, 0)]
         away = np.minimum(np.abs(after - times), np.abs(times - before))
-        near[:, column] = (away <= LONGEST_EDGE) & ~known[:, column]
+        near[:, column] = (away <= _LONGEST_EDGE) & ~known[:, column]
     return near
 
 
@@ -226,7 +226,7 @@ def _at(times: Array, known_times: Array, values: Array) -> Array:
         return between
     before, after = known_times[following - 1], known_times[following]
     nearest = np.where(times - before < after - times, values[following - 1], values[following])
-    return np.where(after - before > LONGEST_KEPT, nearest, between)
+    return np.where(after - before > _LONGEST_KEPT, nearest, between)
 
 
 def _smoothed(times: Array, measured: Array, variance: Array) -> tuple[Array, Array]:
@@ -277,7 +277,7 @@ def _smoothed(times: Array, measured: Array, variance: Array) -> tuple[Array, Ar
 def _model(dt: float) -> tuple[Array, Array]:
     """Transition over a time, and the covariance that white jerk adds (Bar-Shalom et al. 2001, 6.2.3)."""
     move = np.array([[1.0, dt, dt**2 / 2.0], [0.0, 1.0, dt], [0.0, 0.0, 1.0]])
-    noise = JERK_POWER * np.array(
+    noise = _JERK_POWER * np.array(
         [
             [dt**5 / 20.0, dt**4 / 8.0, dt**3 / 6.0],
             [dt**4 / 8.0, dt**3 / 3.0, dt**2 / 2.0],

@@ -114,7 +114,7 @@ def fit_arm(
     joints = chain.humanoid.arm("right")
     best_first = found[0, costs[0].argsort(kind="stable")]
     clear = (arm for arm in best_first if least_clearance(robot, joints, arm[None]) >= _APART)
-    return arm_fits(chain, next(clear, best_first[0])[None], palm[None], place[None])[0]
+    return _arm_fits(chain, next(clear, best_first[0])[None], palm[None], place[None])[0]
 
 
 def follow_arm(
@@ -132,7 +132,7 @@ def follow_arm(
     chain = ArmKinematics(robot)
     problem, frames = _problem(chain, palms, places, firm=firm), np.arange(len(places))
     found, _ = search_arms(problem, 0, frames, spelling_bounds(chain), starts=near.positions[None])
-    return arm_fits(chain, found[:, 0], palms, places)
+    return _arm_fits(chain, found[:, 0], palms, places)
 
 
 def is_at_its_place(fits: Sequence[ArmFit]) -> bool:
@@ -140,7 +140,7 @@ def is_at_its_place(fits: Sequence[ArmFit]) -> bool:
     return max(fit.place_error for fit in fits) <= _ONE_PLACE
 
 
-def arm_fits(chain: ArmKinematics, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
+def _arm_fits(chain: ArmKinematics, positions: Array, palms: Array, places: Array) -> list[ArmFit]:
     """How well arms do; arguments of n poses as for `follow_arm`."""
     poses = chain.poses(positions)
     angles = Rotation.from_matrix(palms.transpose(0, 2, 1) @ poses.rotation).magnitude()
@@ -222,4 +222,4 @@ def fit_arm_and_hand(robot: Robot, pose: HandPose, place: Array, near: ArmFit) -
     start = np.clip(np.concatenate([begin, guess]), lower + 1e-3, upper - 1e-3)
     fit = least_squares(residuals, start, bounds=(lower, upper), diff_step=1e-3)
     arm = np.clip(fit.x[:arm_count], arm_lower, arm_upper)
-    return arm_fits(chain, arm[None], pose.rotation[None], place[None])[0]
+    return _arm_fits(chain, arm[None], pose.rotation[None], place[None])[0]

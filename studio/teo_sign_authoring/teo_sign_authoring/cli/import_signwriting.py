@@ -22,7 +22,7 @@ from teo_signs.look_up_table import user_lut_directory
 if TYPE_CHECKING:
     from teo_sign_authoring.signwriting.dictionary_import import ImportJob, ImportOutcome, ImportSettings
 
-NO_LICENCE = "not stated"
+_NO_LICENCE = "not stated"
 
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
@@ -67,7 +67,7 @@ def import_signwriting(
             scores=scores,
             replace=replace,
             source=source,
-            licence=licence or NO_LICENCE,
+            licence=licence or _NO_LICENCE,
         )
         outcomes = _run(found, settings, jobs or os.cpu_count() or 1)
         if report is not None:

@@ -54,7 +54,7 @@ def ease_letters(
         raise LutError(
             "unknown_sign", f"expected all letters of the alphabet, got none for {', '.join(missing)}"
         )
-    part_look_alikes(robot, tolerances)
+    _part_look_alikes(robot, tolerances)
     offsets = {letter: np.zeros(len(one.sign.joints)) for letter, one in tolerances.items()}
     for step in _STEPS:
         offsets = _program(tolerances, alphabet.frequencies, offsets, float(step))
@@ -65,7 +65,7 @@ def ease_letters(
     return {letter: one.settled(offsets[letter]) for letter, one in tolerances.items()}
 
 
-def part_look_alikes(robot: Robot, tolerances: Mapping[str, LetterTolerance]) -> None:
+def _part_look_alikes(robot: Robot, tolerances: Mapping[str, LetterTolerance]) -> None:
     """Have letters that look alike keep what tells them apart: finger tips, movement, or palms."""
     for pair in nearest_pairs(robot, [one.sign for one in tolerances.values()]):
         if pair.seen >= _LOOK_ALIKE:

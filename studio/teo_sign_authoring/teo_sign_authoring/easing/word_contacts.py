@@ -22,7 +22,7 @@ _ROUNDING = 5e-4
 _CONTACT, _SLIP = 0.025, 0.01
 # [m] Parts keep as far apart as most entries do, or as they were where they were nearer; parts within the
 # second distance are looked at.
-CLEARANCE, _NEAR = 0.006, 0.06
+_CLEARANCE, _NEAR = 0.006, 0.06
 
 # [m] Ends of fingers within the first distance of the middle of the face show a place of the head, of which
 # they are a hand's breadth away at most: they move by less than the second, what is just seen of a place.
@@ -56,13 +56,13 @@ class WordContacts:
         return [*self._contact_rows(posture, postures, palms), *self._head_rows(posture, postures, palms)]
 
     def kept(self, postures: Array) -> bool:
-        """Whether what touches still does, and nothing else comes nearer than `CLEARANCE`. Shape (p, m)."""
+        """Whether what touches still does, and nothing else comes nearer than `_CLEARANCE`. Shape (p, m)."""
         for posture, before in enumerate(self._touching):
             thumbs, captured = self._thumbs(postures[posture]), self._thumbs(self._arms.postures[posture])
             if (thumbs < np.minimum(captured, 0.0) - _ROUNDING).any():
                 return False
             now = _of_pairs(self._near(posture, postures))
-            least = min([CLEARANCE, *(item.distance for item in before)])
+            least = min([_CLEARANCE, *(item.distance for item in before)])
             if min((item.distance for item in now.values()), default=np.inf) < least - _ROUNDING:
                 return False
             for item in self._nearest(before):
@@ -92,7 +92,7 @@ class WordContacts:
             if not moves.any():
                 continue
             captured = before.get((item.first, item.second))
-            least = min(CLEARANCE, np.inf if captured is None else captured.distance)
+            least = min(_CLEARANCE, np.inf if captured is None else captured.distance)
             found.append(
                 Rows((posture,), -(item.normal @ moves)[None], np.array([item.distance - least]), _SLIP)
             )

@@ -25,7 +25,7 @@ from teo_signs.sign import Sign
 # [rad] A palm turns by this much about any axis: what is just seen (`teo_signs.likeness`).
 TURN = np.radians(15.0)
 # [m] A palm shifts by this much along any axis: less than what is just seen of a place (28 mm).
-SHIFT = 0.02
+_SHIFT = 0.02
 # Share of a palm's way, and of its turn, from knot to knot by which these may change [1], and the least
 # change allowed [m], [rad]: a movement made three quarters as large is the same one, and half of a
 # tolerance is not seen where nothing moves.
@@ -81,7 +81,7 @@ class WordTolerance:
         for now, captured in zip(self.arms.palms(postures), self._captured, strict=True):
             turned = Rotation.from_matrix(now.rotation @ captured.rotation.transpose(0, 2, 1)).magnitude()
             shifted = np.linalg.norm(now.place - captured.place, axis=1)
-            worst = max(worst, float(turned.max()) / TURN, float(shifted.max()) / SHIFT)
+            worst = max(worst, float(turned.max()) / TURN, float(shifted.max()) / _SHIFT)
         return worst
 
     def _room(self) -> tuple[Array, Array]:
@@ -135,7 +135,7 @@ class WordTolerance:
             ways = now.point_jacobian(now.place)[posture]
             for matrix, already, most in (
                 (now.axes[posture].T, turned, TURN),
-                (ways, shifted, SHIFT),
+                (ways, shifted, _SHIFT),
             ):
                 rows = self.arms.of_side(number, DIRECTIONS @ matrix)
                 found.append(Rows((posture,), rows, ALONG * most - DIRECTIONS @ already, most))

@@ -39,7 +39,7 @@ _ALIKE = 0.10
 _BEYOND = 0.75
 
 
-class PersonPlace(NamedTuple):
+class _PersonPlace(NamedTuple):
     """Where a person's hand goes.
 
     Attributes:
@@ -52,30 +52,30 @@ class PersonPlace(NamedTuple):
 
 
 _PLACES = {
-    "head_top": PersonPlace("crown", (0.0, 0.02, 0.0)),
-    "forehead": PersonPlace("forehead", (0.0, 0.01, 0.0)),
-    "temple": PersonPlace("temple"),
-    "eye": PersonPlace("eye"),
-    "nose": PersonPlace("nose"),
-    "ear": PersonPlace("ear"),
-    "cheek": PersonPlace("cheek"),
-    "mouth": PersonPlace("mouth"),
-    "mouth_corner": PersonPlace("mouth_corner"),
-    "chin": PersonPlace("chin"),
-    "throat": PersonPlace("throat"),
-    "shoulder": PersonPlace("shoulder"),
-    "other_shoulder": PersonPlace("other_shoulder"),
-    "upper_chest": PersonPlace("upper_chest", (0.0, 0.04, 0.0)),
-    "chest": PersonPlace("sternum", (0.0, 0.02, 0.0)),
-    "other_chest": PersonPlace("other_chest"),
-    "belly": PersonPlace("belly"),
-    "space": PersonPlace("sternum", (0.195, 0.10, 0.0)),
-    "low_space": PersonPlace("belly", (0.18, 0.11, 0.06)),
-    "middle_space": PersonPlace("sternum", (0.19, 0.0, 0.0)),
-    "shoulder_space": PersonPlace("shoulder", (0.26, 0.03, 0.03)),
-    "high_space": PersonPlace("shoulder", (0.30, 0.02, 0.19)),
-    "face_space": PersonPlace("mouth", (0.16, 0.02, -0.01)),
-    "beside_head": PersonPlace("ear", (0.10, 0.07, 0.03)),
+    "head_top": _PersonPlace("crown", (0.0, 0.02, 0.0)),
+    "forehead": _PersonPlace("forehead", (0.0, 0.01, 0.0)),
+    "temple": _PersonPlace("temple"),
+    "eye": _PersonPlace("eye"),
+    "nose": _PersonPlace("nose"),
+    "ear": _PersonPlace("ear"),
+    "cheek": _PersonPlace("cheek"),
+    "mouth": _PersonPlace("mouth"),
+    "mouth_corner": _PersonPlace("mouth_corner"),
+    "chin": _PersonPlace("chin"),
+    "throat": _PersonPlace("throat"),
+    "shoulder": _PersonPlace("shoulder"),
+    "other_shoulder": _PersonPlace("other_shoulder"),
+    "upper_chest": _PersonPlace("upper_chest", (0.0, 0.04, 0.0)),
+    "chest": _PersonPlace("sternum", (0.0, 0.02, 0.0)),
+    "other_chest": _PersonPlace("other_chest"),
+    "belly": _PersonPlace("belly"),
+    "space": _PersonPlace("sternum", (0.195, 0.10, 0.0)),
+    "low_space": _PersonPlace("belly", (0.18, 0.11, 0.06)),
+    "middle_space": _PersonPlace("sternum", (0.19, 0.0, 0.0)),
+    "shoulder_space": _PersonPlace("shoulder", (0.26, 0.03, 0.03)),
+    "high_space": _PersonPlace("shoulder", (0.30, 0.02, 0.19)),
+    "face_space": _PersonPlace("mouth", (0.16, 0.02, -0.01)),
+    "beside_head": _PersonPlace("ear", (0.10, 0.07, 0.03)),
 }
 
 
@@ -85,7 +85,7 @@ def _aside(outwards: float) -> float:
     return float(np.copysign(min(size, _ALIKE) + _BEYOND * max(0.0, size - _ALIKE), outwards))
 
 
-def person_place(name: str, offset: Array) -> tuple[str, list[float]]:
+def _person_place(name: str, offset: Array) -> tuple[str, list[float]]:
     """Where a person's hand goes.
 
     Args:
@@ -159,7 +159,7 @@ _SHARES = (1.0, 1.0, 0.5)
 _FAR_BENT = 50.0
 
 
-def person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:
+def _person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:
     """A handshape as scripts of the synthetic signer write it.
 
     Args:
@@ -232,7 +232,7 @@ class _Hand:
     ) -> dict[str, Any]:
         """The arm as scripts write it: a way from its place, fingers bent and joints swung [deg]."""
         name, offset = split_place(self.place)
-        at, away = person_place(name, offset)
+        at, away = _person_place(name, offset)
         if way is not None:
             x, y, z = way.tolist()
             away = [round(a + b, 4) for a, b in zip(away, (x, -y, z), strict=True)]
@@ -244,7 +244,7 @@ class _Hand:
             "point": _POINTS.get(self.part, self.part),
             "fingers": _forwards_outwards_up(fingers),
             "palm": _forwards_outwards_up(palm),
-            "shape": person_shape(self.shape, bent or {}),
+            "shape": _person_shape(self.shape, bent or {}),
         }
         return written | ({"swing": swing} if swing else {})
 

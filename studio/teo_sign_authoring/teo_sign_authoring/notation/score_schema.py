@@ -29,7 +29,7 @@ def _checked(check: object) -> AfterValidator:
 Shape = Annotated[str, _checked(written_shape)]
 Direction = Annotated[str, _checked(direction)]
 Displacement = Annotated[str, _checked(displacement)]
-PlaceText = Annotated[str, _checked(split_place)]
+_PlaceText = Annotated[str, _checked(split_place)]
 Seconds = Annotated[float, Field(ge=0.0, le=10.0, description="[s]")]
 
 # Cosine of 50 deg: words are rough, and the fingers are turned to a right angle with the palm.
@@ -44,7 +44,7 @@ class HandScore(BaseModel):
     model_config = _STRICT
 
     shape: Shape | None = Field(None, description="Handshape by name.")
-    place: PlaceText | None = Field(
+    place: _PlaceText | None = Field(
         None, description="Where: a place, then centimetres from it: 'mouth 3 front'."
     )
     part: Part | None = Field(None, description="Part of the hand that is there; 'palm' if never said.")

@@ -28,7 +28,7 @@ from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
 from teo_sign_capture.signing_space.places import split_place, written_place
 
 # [cm] A hand that only touches comes from so far and goes back as far between two touches.
-APPROACH = 6.0
+_APPROACH = 6.0
 # [cm] What a bent wrist moves the middle of the hand: TEO's bends sideways only, its arm makes it.
 _WRIST_WAY = 5.0
 # [px] Arrows of one hand that are about as far from it have no order.
@@ -70,11 +70,11 @@ class Spot:
         return f"{self.name} {displacement_words(self.offset)}".strip()
 
     def distance(self, other: Spot) -> float:
-        """From one spot to another [cm]; `APPROACH` where one is on the other hand and one is not."""
+        """From one spot to another [cm]; `_APPROACH` where one is on the other hand and one is not."""
         if self.name == other.name:
             return float(np.linalg.norm(self.offset - other.offset))
         if OTHER_HAND & {self.name, other.name}:
-            return APPROACH
+            return _APPROACH
         between = 100.0 * (written_place(self.name).point - written_place(other.name).point)
         return float(np.linalg.norm(between + self.offset - other.offset))
 
@@ -255,7 +255,7 @@ def _without_way(stances: tuple[Stance, ...]) -> Iterator[Beat]:
     if first.towards is None:
         yield first.beat()
         return
-    away = first.spot.moved(-APPROACH * first.towards)
+    away = first.spot.moved(-_APPROACH * first.towards)
     for _ in range(first.times):
         yield first.beat(away)
         yield first.beat()

@@ -163,14 +163,14 @@ def run_import(
     outcomes: list[ImportOutcome] = []
     if workers == 1:
         for job in jobs:
-            outcomes.append(import_entry(job, settings))
+            outcomes.append(_import_entry(job, settings))
             on_done(outcomes[-1])
         return outcomes
     context = multiprocessing.get_context("spawn")  # a fork would take over locks of whatever runs here
     with ProcessPoolExecutor(
         workers, mp_context=context, initializer=threadpool_limits, initargs=(1,)
     ) as pool:
-        futures = {pool.submit(import_entry, job, settings): job for job in jobs}
+        futures = {pool.submit(_import_entry, job, settings): job for job in jobs}
         try:
             for future in as_completed(futures):
                 try:
@@ -186,7 +186,7 @@ def run_import(
     return sorted(outcomes, key=lambda outcome: outcome.number)
 
 
-def import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
+def _import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
     """Import one sign, in whatever process this is."""
     if job.gloss is None:
         return _refused(job, "unknown_term", f"expected a known word, got {job.entry.term!r}")

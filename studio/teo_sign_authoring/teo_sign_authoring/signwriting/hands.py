@@ -237,7 +237,7 @@ def _arrow_along(first: Symbol, second: Symbol, movements: tuple[Movement, ...])
     between = second.middle - first.middle
     for movement in movements:
         if isinstance(movement.kind, Path):
-            way = page_way(movement.kind)
+            way = _page_way(movement.kind)
             size = float(np.linalg.norm(between) * np.linalg.norm(way))
             cosine = float(between @ way) / size if size > 1e-9 else 0.0
             if abs(cosine) >= _ALONG:
@@ -245,7 +245,7 @@ def _arrow_along(first: Symbol, second: Symbol, movements: tuple[Movement, ...])
     return 0.0
 
 
-def page_way(path: Path) -> Array:
+def _page_way(path: Path) -> Array:
     """A way as the page shows it, right and down; to the front is up. Shape (2,)."""
     front, left, up = path.way.tolist()
     return np.array([-left, -up if abs(up) > 1e-6 else -front])

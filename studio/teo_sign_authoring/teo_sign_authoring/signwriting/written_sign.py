@@ -69,7 +69,7 @@ class Symbol:
     @property
     def name(self) -> str:
         """The name of the base: "hand-fist index"."""
-        return symbol_name(self.base)
+        return _symbol_name(self.base)
 
     @property
     def middle(self) -> Array:
@@ -85,7 +85,7 @@ class Symbol:
         return np.clip(point, self.corner, self.corner + self.size)
 
 
-def symbol_name(base: int) -> str:
+def _symbol_name(base: int) -> str:
     """Name of a base as Unicode has it, in lower case."""
     name = unicodedata.name(chr(_FIRST_CHARACTER + base - _FIRST_BASE), "unknown")
     return name.removeprefix("SIGNWRITING ").lower()
