@@ -18,7 +18,7 @@ from teo_description.robot import Robot
 from teo_lut_executor.cli.lut import app
 from teo_sign_capture.entries.gates import RefusedError, accepted_standing, judge, objections
 from teo_sign_capture.entries.sign_entry import Origin, make_sign
-from teo_sign_capture.entries.take import Cut, Take, capture_take
+from teo_sign_capture.entries.take import Cut, SignTake, capture_take
 from teo_sign_capture.recordings.skeleton_bag import read_skeletons
 from teo_sign_capture.tracks.skeleton_track import SkeletonTrack
 from teo_signs.errors import LutError
@@ -45,7 +45,7 @@ def robot() -> Robot:
 
 
 @pytest.fixture(scope="module")
-def take(robot: Robot) -> Take:
+def take(robot: Robot) -> SignTake:
     return capture_take(robot, signing(rate=15.0))
 
 
@@ -100,14 +100,16 @@ def test_accepting_costs_one_level_of_evidence(standing: str, after: str) -> Non
     assert accepted_standing("X", standing, against, accept=True) == after  # type: ignore[arg-type]
 
 
-def test_a_good_sign_keeps_its_evidence_even_where_any_would_be_accepted(robot: Robot, take: Take) -> None:
+def test_a_good_sign_keeps_its_evidence_even_where_any_would_be_accepted(
+    robot: Robot, take: SignTake
+) -> None:
     sign = make_sign(robot, "SIGNO", [take], ORIGIN, accept=True).sign
     assert sign.provenance.standing == "recorded"
     assert "Accepted" not in sign.provenance.notes
 
 
 def test_a_hand_that_was_mostly_filled_in_is_refused_or_taken_with_the_reason(
-    robot: Robot, take: Take
+    robot: Robot, take: SignTake
 ) -> None:
     lost = replace(take, lost=0.44)
     with pytest.raises(LutError) as caught:
@@ -118,7 +120,7 @@ def test_a_hand_that_was_mostly_filled_in_is_refused_or_taken_with_the_reason(
     assert "got 44 %" in sign.provenance.notes
 
 
-def test_a_contact_is_judged_where_the_hand_is_on_the_body_alone(robot: Robot, take: Take) -> None:
+def test_a_contact_is_judged_where_the_hand_is_on_the_body_alone(robot: Robot, take: SignTake) -> None:
     frames = len(take.motion.times)
     touching = np.zeros((frames, 2))
     touching[: frames // 2] = 1.0
