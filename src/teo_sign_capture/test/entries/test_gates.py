@@ -100,9 +100,7 @@ def test_accepting_costs_one_level_of_evidence(standing: str, after: str) -> Non
     assert accepted_standing("X", standing, against, accept=True) == after  # type: ignore[arg-type]
 
 
-def test_a_good_sign_keeps_its_evidence_even_where_any_would_be_accepted(
-    robot: Robot, take: SignTake
-) -> None:
+def test_a_good_sign_keeps_its_evidence_where_any_would_be_accepted(robot: Robot, take: SignTake) -> None:
     sign = make_sign(robot, "SIGNO", [take], ORIGIN, accept=True).sign
     assert sign.provenance.standing == "recorded"
     assert "Accepted" not in sign.provenance.notes
