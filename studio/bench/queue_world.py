@@ -13,7 +13,7 @@ from teo_lut_executor.execution.events import (
     Activity,
     DriverMode,
     DriverReport,
-    Event,
+    Effect,
     Finished,
     Outcome,
     PlanWanted,
@@ -59,7 +59,7 @@ class World:
         self.sent: list[TrajectoryReady] = []
         self.taken: list[tuple[float, TrajectoryReady | StopReady]] = []  # by the driver, by when it begins
         self.stops: list[StopReady] = []
-        self.events: list[Event] = []
+        self.events: list[Effect] = []
         self.positions = load_humanoid().ready.copy()
         self.velocities = np.zeros(load_humanoid().ready.size)
         self.path: list[tuple[np.ndarray, np.ndarray]] = []  # positions and velocities of every tick
@@ -75,7 +75,7 @@ class World:
         self._motions: list[tuple[float, Plan]] = []  # by the path time at which each begins
         self._stop: tuple[float, float, np.ndarray, np.ndarray] | None = None
         self._path_time = 0.0
-        self._answers: list[tuple[float, Callable[[], list[Event]]]] = []
+        self._answers: list[tuple[float, Callable[[], list[Effect]]]] = []
 
     def sign(self, text: str, **fields: object) -> int:
         """Submit a sentence, printed; returns its ticket."""
@@ -96,8 +96,8 @@ class World:
             self._motions, self.velocities = [], np.zeros_like(self.velocities)
         self._report()
 
-    def take(self, events: Iterable[Event]) -> None:
-        """Do what events ask of the driver and the planner."""
+    def take(self, events: Iterable[Effect]) -> None:
+        """Do what effects ask of the driver and the planner."""
         for event in events:
             self.events.append(event)
             if isinstance(event, PlanWanted | ReturnWanted):

@@ -4,7 +4,7 @@
 
 from teo_lut_executor.execution.events import (
     Activity,
-    Event,
+    Effect,
     Finished,
     Outcome,
     PlanWanted,
@@ -19,7 +19,7 @@ from teo_lut_executor.execution.queue import ExecutionQueue
 
 __all__ = [
     "Activity",
-    "Event",
+    "Effect",
     "ExecutionQueue",
     "Finished",
     "Outcome",

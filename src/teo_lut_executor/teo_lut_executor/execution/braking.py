@@ -8,9 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from teo_lut_executor.execution.joining import LEAST_AHEAD
-from teo_lut_executor.execution.motions import Motions
-from teo_lut_executor.execution.seam import continued, last_seam
+from teo_lut_executor.execution.path_monitor import PathMonitor
+from teo_lut_executor.execution.seam import LEAST_AHEAD, continued, last_seam
 from teo_motion.sentence.plan import Plan, Samples
 from teo_motion.trajectory.driver_points import driver_points, point_times
 from teo_motion.trajectory.joint_motion import JointMotion, JointMotionBuilder, Pieces, take
@@ -32,22 +31,20 @@ class Brake(NamedTuple):
     """Path time from now until the robot is to be at the first sample [s]."""
 
 
-def brake(motions: Motions, limits: MotionLimits) -> Brake | None:
+def brake(motion: PathMonitor, following: PathMonitor | None, limits: MotionLimits) -> Brake | None:
     """The way to a standstill of a robot that follows what it was sent.
 
     Each joint comes to a stand as soon as it can. It leaves its path, but goes no farther than the path,
     which keeps the same limits of acceleration and jerk, and so stays within those of position too.
 
     Args:
-        motions: What was sent, in path time of now.
+        motion: In force, in path time of now.
+        following: What was sent to take over from it, if anything was.
         limits: Of the joints.
 
     Returns:
-        None if nothing is in force, or what is comes to its end before it could be changed.
+        None if the motion comes to its end before it could be changed.
     """
-    motion, following = motions.present, motions.continuation
-    if motion is None:
-        return None
     period = float(motion.motion.times[1])
     ready = LEAST_AHEAD + period
     earliest = motion.elapsed + ready

@@ -241,7 +241,8 @@ class Finished:
     timings: tuple[TokenTiming, ...] = field(default=())
 
 
-Event = PlanWanted | ReturnWanted | TrajectoryReady | StopReady | Begun | Status | Finished
+#: What is to be done.
+Effect = PlanWanted | ReturnWanted | TrajectoryReady | StopReady | Begun | Status | Finished
 
 
 @dataclass(frozen=True, kw_only=True)

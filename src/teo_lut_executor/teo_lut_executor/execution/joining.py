@@ -8,20 +8,13 @@ state on the way down), and is sent to start there.
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterator
-from dataclasses import dataclass
-
-from teo_lut_executor.execution.events import Event, PlanWanted
-from teo_lut_executor.execution.job import Job
+from teo_lut_executor.execution.announcements import completed, refused
+from teo_lut_executor.execution.events import Begun, Effect, Outcome, PlanWanted
 from teo_lut_executor.execution.path_monitor import PathMonitor
-from teo_lut_executor.execution.seam import last_seam
-from teo_lut_executor.execution.situation import Situation
+from teo_lut_executor.execution.seam import LEAST_AHEAD, continued, last_seam
+from teo_lut_executor.execution.work import Job, Join, Work
 from teo_motion.sentence.plan import Plan
-
-# With less time than this the driver might get a continuation too late [s]: a period of points, and the
-# message's way.
-LEAST_AHEAD = 0.07
+from teo_signs.errors import PlanError
 
 # A motion that continues another is sent this long before it is to take over [s]: late enough that plans can
 # still change, early enough for a loaded machine.
@@ -31,86 +24,101 @@ _SEND_AHEAD = 0.5
 _NEARLY_AT_REST = 0.3
 
 
-@dataclass(kw_only=True, eq=False)
-class _Join:
-    """The next sentence, in preparation to continue the present one."""
-
-    number: int
-    job: Job
-    splice: float  # path time of the present motion at which it takes over [s]
-    plan: Plan | None = None
+def send_continuation(work: Work, motion: PathMonitor, seam: float, plan: Plan) -> list[Effect]:
+    """Send a plan that takes over from the motion in force at that motion's path time [s]."""
+    situation, ahead = work.situation, seam - motion.elapsed
+    samples = continued(motion.motion, seam, plan)
+    start = situation.now + situation.clock_time(ahead - float(samples.times[1]))
+    return [work.send(plan, samples, start, elapsed=-ahead)]
 
 
-class Joining:
-    """Has the next sentence planned so that it continues the present one."""
+def prepare_next(work: Work, _: object = None) -> list[Effect]:
+    """Have the next sentence planned so that it continues the current one, and send it in time."""
+    current, motion = work.current, work.motion
+    assert current is not None and motion is not None
+    if work.continuation is not None or motion.awaited:
+        return []
+    if not work.situation.may_join:
+        work.join = None
+        return []
+    wanted: list[Effect] = []
+    if work.join is None:
+        wanted = _ask(work, current, motion)
+    elif work.join.plan is not None and work.join.splice - motion.elapsed < LEAST_AHEAD:  # it came too late
+        work.join.job.planning_time *= 2.0
+        wanted = _ask(work, current, motion)
+    join = work.join
+    if join is None or join.plan is None or join.splice - motion.elapsed > _SEND_AHEAD:
+        return wanted
+    work.join, join.job.plan = None, join.plan
+    return send_continuation(work, motion, join.splice, join.plan)
 
-    def __init__(self, situation: Situation, waiting: deque[Job], numbers: Iterator[int]) -> None:
-        """Begin with nothing in preparation.
 
-        Args:
-            situation: What is known at the moment.
-            waiting: Sentences that wait; the first is the one that joins.
-            numbers: For plans that are wanted.
-        """
-        self._situation = situation
-        self._waiting = waiting
-        self._numbers = numbers
-        self._join: _Join | None = None
+def keep_next_plan(work: Work, plan: Plan) -> list[Effect]:
+    """Take the plan of the next sentence, and send it if it is time."""
+    assert work.join is not None
+    work.join.plan = plan
+    return prepare_next(work)
 
-    def drop(self, job: Job | None = None) -> None:
-        """Forget what is in preparation, if it is this sentence, or whatever it is."""
-        if job is None or (self._join is not None and self._join.job is job):
-            self._join = None
 
-    def planned(self, number: int, plan: Plan) -> bool:
-        """Take a plan; tell whether it was wanted here."""
-        if self._join is None or number != self._join.number:
-            return False
-        self._join.plan = plan
-        return True
+def leave_next(work: Work, _: PlanError) -> list[Effect]:
+    """The next sentence begins from a standstill."""
+    assert work.join is not None
+    work.join.job.joins, work.join = False, None
+    return []
 
-    def not_planned(self, number: int) -> Job | None:
-        """Give up joining; the sentence that does not join, None if the plan was not wanted here."""
-        join = self._join
-        if join is None or number != join.number:
-            return None
-        self._join = None
-        join.job.joins = False
-        return join.job
 
-    def want(self, current: Job, motion: PathMonitor) -> list[Event]:
-        """Ask for a plan of the next sentence, unless it is there or under way in time."""
-        join = self._join
-        if join is None:
-            return self._ask(current, motion)
-        if join.plan is None or join.splice - motion.elapsed >= LEAST_AHEAD:
-            return []
-        self._join = None
-        join.job.planning_time *= 2.0
-        return self._ask(current, motion)
+def refuse_next(work: Work, error: PlanError) -> list[Effect]:
+    """The next sentence ends before it has begun; the one after it may continue the current one."""
+    assert work.join is not None
+    job, work.join = work.join.job, None
+    work.waiting.remove(job)
+    return refused(work, job, Outcome.REFUSED, error)
 
-    def due(self, motion: PathMonitor) -> tuple[Plan, float] | None:
-        """A plan that is to be sent now, and the path time at which it takes over [s]; None if none is."""
-        join = self._join
-        if join is None or join.plan is None:
-            return None
-        if join.splice - motion.elapsed > _SEND_AHEAD:
-            return None
-        self._join = None
-        join.job.plan = join.plan
-        return join.plan, join.splice
 
-    def _ask(self, current: Job, motion: PathMonitor) -> list[Event]:
-        if not self._waiting or not self._waiting[0].joins:
-            return []
-        job, last = self._waiting[0], motion.motion.timings[-1]
-        end = last.start + last.duration
-        earliest = motion.elapsed + job.planning_time
-        waits = not current.canceled and earliest <= end
-        splice = last_seam(motion.motion, end if waits else earliest)
-        if splice > motion.motion.duration - _NEARLY_AT_REST:
-            return []
-        hold = self._situation.settings.sentence_pause + end - splice if waits else 0.0
-        self._join = _Join(number=next(self._numbers), job=job, splice=splice)
-        start = motion.state_at(splice)
-        return [PlanWanted(number=self._join.number, sentence=job.sentence, start=start, hold=hold)]
+def withdraw_next(work: Work, _: object = None) -> list[Effect]:
+    """The driver did not take the next sentence: it begins from a standstill."""
+    work.continuation = None
+    if work.waiting:
+        work.waiting[0].joins = False
+    return unsend_next(work)
+
+
+def unsend_next(work: Work) -> list[Effect]:
+    """Forget a plan of the next sentence that is not executed; the sentence ends if it was canceled."""
+    if not work.waiting or work.waiting[0].plan is None:
+        return []
+    work.waiting[0].plan = None
+    return completed(work.waiting.popleft()) if work.waiting[0].canceled else []
+
+
+def begin_next(work: Work, _: object = None) -> list[Effect]:
+    """The next sentence is in force, and becomes the current one."""
+    before = work.current
+    assert before is not None
+    work.motion, work.continuation = work.continuation, None
+    work.current = work.waiting.popleft()
+    return [*completed(before), begun(work.current)]
+
+
+def begun(job: Job) -> Begun:
+    """Say and count that the robot begins to sign a sentence."""
+    job.attempts += 1
+    return Begun(ticket=job.ticket)
+
+
+def _ask(work: Work, current: Job, motion: PathMonitor) -> list[Effect]:
+    work.join = None
+    if not work.waiting or not work.waiting[0].joins:
+        return []
+    job, last = work.waiting[0], motion.motion.timings[-1]
+    end = last.start + last.duration
+    earliest = motion.elapsed + job.planning_time
+    waits = not current.canceled and earliest <= end
+    splice = last_seam(motion.motion, end if waits else earliest)
+    if splice > motion.motion.duration - _NEARLY_AT_REST:
+        return []
+    hold = work.situation.settings.sentence_pause + end - splice if waits else 0.0
+    work.join = Join(number=next(work.numbers), job=job, splice=splice)
+    start = motion.state_at(splice)
+    return [PlanWanted(number=work.join.number, sentence=job.sentence, start=start, hold=hold)]

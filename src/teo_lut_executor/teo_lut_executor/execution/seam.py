@@ -17,6 +17,10 @@ import numpy as np
 from teo_motion.sentence.plan import Plan, Samples, sample_at
 from teo_motion.trajectory.driver_points import spline_points
 
+# With less time than this the driver might get a continuation too late [s]: a period of points, and the
+# message's way.
+LEAST_AHEAD = 0.07
+
 # Times of points are products, those of signs are sums: so much apart they are the same [s].
 _ROUNDING = 1e-9
 

@@ -129,7 +129,7 @@ class Situation:
     def may_continue(self) -> bool:
         """Whether it is known when the robot will be where, and the driver would take a motion from there."""
         steady = self.pace > 0.0 and self.now - self._pace_changed >= _STEADY
-        return steady and self.block is None and not self.is_stale
+        return steady and self.may_be_told
 
     @property
     def may_join(self) -> bool:

@@ -22,7 +22,7 @@ from teo_lut_executor.execution.events import (
     Activity,
     Begun,
     DriverReport,
-    Event,
+    Effect,
     Finished,
     PlanWanted,
     ReturnWanted,
@@ -192,7 +192,7 @@ class ExecutorNode(SelfStartingNode):
         self._signs.refresh()
         self._checker.check(sentence.tokens, form=sentence.form)
 
-    def _take(self, events: Sequence[Event]) -> None:
+    def _take(self, events: Sequence[Effect]) -> None:
         """A sentence was taken or refused: begin with it now if nothing is before it."""
         self._carry_out(events)
         self._step()
@@ -219,7 +219,7 @@ class ExecutorNode(SelfStartingNode):
             return "waiting for the planner to load"
         return "" if self._driver.listening else "waiting for a driver to take joint_trajectory"
 
-    def _carry_out(self, events: Sequence[Event]) -> None:
+    def _carry_out(self, events: Sequence[Effect]) -> None:
         for event in events:
             match event:
                 case PlanWanted() | ReturnWanted():

@@ -10,7 +10,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 from teo_sign_msgs.srv import ListQueue
 
-from teo_lut_executor.execution.events import Event
+from teo_lut_executor.execution.events import Effect
 from teo_lut_executor.execution.queue import ExecutionQueue
 
 
@@ -23,7 +23,7 @@ class QueueServices:
         queue: ExecutionQueue,
         *,
         now: Callable[[], float],
-        carry_out: Callable[[Sequence[Event]], None],
+        carry_out: Callable[[Sequence[Effect]], None],
     ) -> None:
         """Serve.
 

@@ -15,7 +15,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from teo_sign_msgs.msg import SignSentence
 
-from teo_lut_executor.execution.events import Event, Finished, Progress, Sentence
+from teo_lut_executor.execution.events import Effect, Finished, Progress, Sentence
 from teo_lut_executor.execution.journal import MessageKey
 from teo_lut_executor.execution.queue import ExecutionQueue
 from teo_lut_executor.node.messages import to_sentence
@@ -52,7 +52,7 @@ class SentenceIntake:
         journal_age: float,
         check: Callable[[Sentence], None],
         now: Callable[[], float],
-        carry_out: Callable[[Sequence[Event]], None],
+        carry_out: Callable[[Sequence[Effect]], None],
         own_language: Callable[[], str],
     ) -> None:
         """Listen, and serve the action.
