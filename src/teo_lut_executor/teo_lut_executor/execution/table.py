@@ -109,3 +109,27 @@ def happen(work: Work, event: Event, given: object = None) -> list[Effect]:
     effects = action(work, given)
     work.state = after
     return effects
+
+
+def printed() -> str:
+    """The table as Markdown, after lists of what its states and events mean."""
+    states = [f"| {_name(state)} | {state.value} |" for state in State]
+    lines = ["| state | meaning |", "|---|---|", *states, ""]
+    names = " | ".join(_name(state) for state in State)
+    lines += [f"| event | {names} |", "|" + "---|" * (len(State) + 1)]
+    for event, row in TABLE.items():
+        cells = (_printed_cell(state, cell) for state, cell in row.items())
+        lines.append(f"| {event.value} | {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _printed_cell(state: State, cell: Cell) -> str:
+    if cell == Cell(nothing, state):
+        return "–"
+    action = "" if cell.action is nothing else cell.action.__name__.replace("_", " ")
+    after = "" if cell.after is state else f"→ **{_name(cell.after)}**"
+    return f"{action} {after}".strip()
+
+
+def _name(state: State) -> str:
+    return state.name.lower().replace("_", " ")
