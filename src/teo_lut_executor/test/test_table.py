@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The table of states and events is complete, printed as it is, and kept to in whatever order things happen."""
+"""The table of states and events is complete, printed as it is, and kept to whatever happens."""
 
 from __future__ import annotations
 
