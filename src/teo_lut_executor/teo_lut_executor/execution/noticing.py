@@ -36,14 +36,14 @@ def pause(work: Work) -> Notice:
     return (Event.PAUSED, None) if work.situation.mode is DriverMode.PAUSED else None
 
 
-def silence(work: Work) -> Notice:
+def _silence(work: Work) -> Notice:
     """Whether nothing is heard of the robot."""
     if not work.situation.is_stale:
         return None
     return Event.LOST, PlanError("stale_joint_states", work.situation.hindrance)
 
 
-def take_over(work: Work) -> Notice:
+def _take_over(work: Work) -> Notice:
     """Whether the time of the continuation has come."""
     if work.continuation is None or work.continuation.elapsed < 0.0:
         return None
@@ -51,7 +51,7 @@ def take_over(work: Work) -> Notice:
     return (Event.TAKEN_OVER_CANCELED if canceled else Event.TAKEN_OVER), None
 
 
-def course(work: Work) -> Notice:
+def _course(work: Work) -> Notice:
     """Whether the robot follows its motion, is at its end, or has come to a standstill."""
     if work.state is State.STOPPING:
         if work.halt.stands:
@@ -84,17 +84,17 @@ def failure(work: Work, event: Event, error: PlanError) -> tuple[Event, PlanErro
     return (Event.NO_WAY if last else event), error
 
 
-def early_plan(work: Work) -> Notice:
+def _early_plan(work: Work) -> Notice:
     """Whether a plan has been kept."""
     return None if work.early is None else (Event.PLANNED, work.early)
 
 
-def tick(_: Work) -> Notice:
+def _tick(_: Work) -> Notice:
     """That time passes."""
     return Event.TICK, None
 
 
-def standstill(work: Work) -> Notice:
+def _standstill(work: Work) -> Notice:
     """Whether a motion may begin, and which."""
     if work.state is not State.STANDING or work.situation.hindrance:
         return None
@@ -116,4 +116,4 @@ def _end_of(work: Work) -> Notice:
 
 
 #: What a step of the clock looks for, in order.
-STEP = (block, pause, silence, take_over, course, early_plan, tick, standstill)
+STEP = (block, pause, _silence, _take_over, _course, _early_plan, _tick, _standstill)

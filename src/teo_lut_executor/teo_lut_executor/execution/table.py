@@ -16,7 +16,7 @@ from teo_lut_executor.execution.states import Event, State
 from teo_lut_executor.execution.work import Work
 
 
-class Cell(NamedTuple):
+class _Cell(NamedTuple):
     """What an event brings about in a state.
 
     Attributes:
@@ -28,12 +28,12 @@ class Cell(NamedTuple):
     after: State
 
 
-def nothing(_work: Work, _given: object) -> list[Effect]:
+def _nothing(_work: Work, _given: object) -> list[Effect]:
     """The event changes nothing in this state."""
     return []
 
 
-def _rows() -> Mapping[Event, Mapping[State, Cell]]:
+def _rows() -> Mapping[Event, Mapping[State, _Cell]]:
     """What is done; in the states that a row leaves out, nothing."""
     standing, planning, planning_rest = State.STANDING, State.PLANNING, State.PLANNING_REST
     opening, signs, stops, returning = State.OPENING, State.SIGNING, State.STOPPING, State.RETURNING
@@ -42,7 +42,7 @@ def _rows() -> Mapping[Event, Mapping[State, Cell]]:
     anywhere = tuple(State)
 
     def when(states: tuple[State, ...], action: Callable[[Work, Any], list[Effect]], after: State) -> Any:
-        return dict.fromkeys(states, Cell(action, after))
+        return dict.fromkeys(states, _Cell(action, after))
 
     return {
         Event.CANCELED: when((planning,), stopping.cancel_before_it_began, standing)
@@ -79,7 +79,7 @@ def _rows() -> Mapping[Event, Mapping[State, Cell]]:
         Event.NOT_FOLLOWED: when(to_sign, stopping.give_up, stops)
         | when((returning,), stopping.try_rest_again, stops),
         Event.NO_WAY: when((planning_rest, returning), stopping.stay, standing),
-        Event.STANDS: when((stops,), nothing, standing),
+        Event.STANDS: when((stops,), _nothing, standing),
         Event.STILL_MOVING: when((stops,), stopping.stop_again, stops),
         Event.TICK: when((signs,), joining.prepare_next, signs),
         Event.SENTENCE_DUE: when((standing,), signing.plan_sentence, planning),
@@ -89,8 +89,9 @@ def _rows() -> Mapping[Event, Mapping[State, Cell]]:
 
 
 #: Every state answers every event.
-TABLE: Mapping[Event, Mapping[State, Cell]] = {
-    event: {state: row.get(state, Cell(nothing, state)) for state in State} for event, row in _rows().items()
+TABLE: Mapping[Event, Mapping[State, _Cell]] = {
+    event: {state: row.get(state, _Cell(_nothing, state)) for state in State}
+    for event, row in _rows().items()
 }
 
 
@@ -123,10 +124,10 @@ def printed() -> str:
     return "\n".join(lines) + "\n"
 
 
-def _printed_cell(state: State, cell: Cell) -> str:
-    if cell == Cell(nothing, state):
+def _printed_cell(state: State, cell: _Cell) -> str:
+    if cell == _Cell(_nothing, state):
         return "–"
-    action = "" if cell.action is nothing else cell.action.__name__.replace("_", " ")
+    action = "" if cell.action is _nothing else cell.action.__name__.replace("_", " ")
     after = "" if cell.after is state else f"→ **{_name(cell.after)}**"
     return f"{action} {after}".strip()
 
