@@ -16,7 +16,7 @@ from teo_skeleton_retriever.detectors import Detector
 from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
 from teo_skeleton_retriever.detectors.detector import people_left_out
 from teo_skeleton_retriever.empty_space import depth_summary
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
 from teo_skeleton_retriever.retriever import Retriever
@@ -91,16 +91,16 @@ def make_retriever(
         compat_options: Of the original; see `original_parameters_from`.
 
     Raises:
-        ParameterError: No such mode or option.
+        RetrieverError: No such mode or option.
     """
     match compat:
         case "":
             if any(compat_options):
-                raise ParameterError("bad_option", "expected compat with compat_options, got none")
+                raise RetrieverError("bad_option", "expected compat with compat_options, got none")
             return Retriever(parameters)
         case "skeleton_retriever":
             return CompatRetriever(parameters, original_parameters_from(compat_options))
-    raise ParameterError("unknown_choice", f"compat: expected one of {COMPAT_MODES}, got {compat!r}")
+    raise RetrieverError("unknown_choice", f"compat: expected one of {COMPAT_MODES}, got {compat!r}")
 
 
 class ImageRetriever:

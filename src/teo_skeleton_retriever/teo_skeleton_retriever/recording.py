@@ -116,9 +116,8 @@ def retrieve_recording(
 
     Raises:
         TopicError: A topic is not found or ambiguous: "no_depth", "ambiguous_color", ...
-        BagError: There is no bag, nothing in it can be read, or there is no such topic.
-        DetectorError: MediaPipe cannot be used.
-        OutputError: `out` has another suffix or no folder.
+        RetrieverError: There is no bag, nothing in it can be read, or there is no such topic; MediaPipe
+            cannot be used; `out` has another suffix or no folder.
         OSError: `out` cannot be written.
     """
     with ExitStack() as stack:

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 class ParameterInfo(NamedTuple):
@@ -48,7 +48,7 @@ class RetrieverParameters:
     """Settings of a `Retriever`; `parameter_info()` describes each.
 
     Raises:
-        ParameterError: A value is not of its kind or outside its range.
+        RetrieverError: A value is not of its kind or outside its range.
     """
 
     min_confidence: float = _number(
@@ -115,7 +115,7 @@ class RetrieverParameters:
         for name, info in parameter_info().items():
             _check(name, getattr(self, name), info)
         if self.min_depth >= self.max_depth:
-            raise ParameterError(
+            raise RetrieverError(
                 "bad_range", f"expected min_depth < max_depth, got {self.min_depth} and {self.max_depth}"
             )
 
@@ -128,13 +128,13 @@ def parameter_info() -> dict[str, ParameterInfo]:
 def _check(name: str, value: object, info: ParameterInfo) -> None:
     if info.choices:
         if value not in info.choices:
-            raise ParameterError("unknown_choice", f"{name}: expected one of {info.choices}, got {value!r}")
+            raise RetrieverError("unknown_choice", f"{name}: expected one of {info.choices}, got {value!r}")
     elif info.lowest is None or info.highest is None:
         if not isinstance(value, bool):
-            raise ParameterError("wrong_type", f"{name}: expected true or false, got {value!r}")
+            raise RetrieverError("wrong_type", f"{name}: expected true or false, got {value!r}")
     elif isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ParameterError("wrong_type", f"{name}: expected a number, got {value!r}")
+        raise RetrieverError("wrong_type", f"{name}: expected a number, got {value!r}")
     elif not (math.isfinite(value) and info.lowest <= value <= info.highest):
-        raise ParameterError(
+        raise RetrieverError(
             "out_of_range", f"{name}: expected {info.lowest} to {info.highest} {info.unit}, got {value}"
         )

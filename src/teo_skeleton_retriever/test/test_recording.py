@@ -12,7 +12,7 @@ import pytest
 from mcap_ros2.reader import read_ros2_messages
 
 from teo_skeleton_retriever.detectors import make_detector
-from teo_skeleton_retriever.errors import BagError, OutputError, RetrieverError, TopicError
+from teo_skeleton_retriever.errors import RetrieverError, TopicError
 from teo_skeleton_retriever.image_retriever import ImageRetriever
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus
 from teo_skeleton_retriever.recording import RetrievalReport, retrieve_recording
@@ -134,11 +134,11 @@ def test_several_topics_that_may_be_meant_are_refused_until_one_is_named(tmp_pat
 
 
 def test_what_cannot_be_read_or_written_is_refused(bag, keypoints, tmp_path):
-    with pytest.raises(BagError, match="missing_bag"):
+    with pytest.raises(RetrieverError, match="missing_bag"):
         retrieve(tmp_path / "none.mcap", keypoints)
-    with pytest.raises(OutputError, match="bad_name"):
+    with pytest.raises(RetrieverError, match="bad_name"):
         retrieve(bag, keypoints, out=tmp_path / "x.bag")
-    with pytest.raises(OutputError, match="missing_folder"):
+    with pytest.raises(RetrieverError, match="missing_folder"):
         retrieve(bag, keypoints, out=tmp_path / "none" / "x.mcap")
 
 
@@ -147,11 +147,11 @@ def test_the_input_is_looked_at_before_the_detector_is_loaded(bag, tmp_path, mon
         raise AssertionError("the detector was loaded")
 
     monkeypatch.setattr("teo_skeleton_retriever.recording.make_detector", load)
-    with pytest.raises(BagError, match="missing_bag"):
+    with pytest.raises(RetrieverError, match="missing_bag"):
         retrieve_recording(tmp_path / "none.mcap")
-    with pytest.raises(BagError, match="unknown_topic"):
+    with pytest.raises(RetrieverError, match="unknown_topic"):
         retrieve_recording(bag, color_topic="/none")
-    with pytest.raises(OutputError, match="bad_name"):
+    with pytest.raises(RetrieverError, match="bad_name"):
         retrieve_recording(bag, out=tmp_path / "x.bag")
 
 
@@ -159,4 +159,4 @@ def test_errors_pass_from_one_process_to_another():
     error = pickle.loads(pickle.dumps(TopicError("no_depth", "expected a topic", "depth_topic")))
     assert (type(error), error.code, error.sentence) == (TopicError, "no_depth", "expected a topic")
     assert error.argument == "depth_topic"
-    assert str(pickle.loads(pickle.dumps(OutputError("bad_name", "other")))) == "bad_name: other"
+    assert str(pickle.loads(pickle.dumps(RetrieverError("bad_name", "other")))) == "bad_name: other"

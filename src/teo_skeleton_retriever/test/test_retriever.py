@@ -13,7 +13,7 @@ import pytest
 from capsule_person import CAMERA, ROW, Pose, face, frame, person_2d, pose
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.errors import FrameError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.retriever import (
     DetectionFrame,
@@ -313,14 +313,14 @@ def test_a_person_of_whom_nothing_is_seen_is_nobody() -> None:
 
 
 def test_depth_of_another_size_than_the_cameras_is_refused() -> None:
-    with pytest.raises(FrameError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         DetectionFrame(0.0, (), np.zeros((10, 10), np.float32), CAMERA)
     assert caught.value.code == "wrong_size"
 
 
 @pytest.mark.parametrize("stamp", [math.nan, math.inf])
 def test_a_stamp_that_is_no_time_is_refused(stamp: float) -> None:
-    with pytest.raises(FrameError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         DetectionFrame(stamp, (), np.zeros((240, 320), np.float32), CAMERA)
     assert caught.value.code == "bad_stamp"
 

@@ -14,7 +14,7 @@ from teo_skeleton_retriever.bags.topic_choice import Topics
 from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, stamp_of
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.camera.synchroniser import GREATEST_SLOP, NO_COLOR, NO_DEPTH, Pair, Synchroniser
-from teo_skeleton_retriever.errors import BagError, RetrieverError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # In a recording nothing is late: this bounds the memory where a topic has long gaps.
 _CAPACITY = 30
@@ -65,13 +65,15 @@ class BagImages:
             on_message: Called after each message that is read, to show progress.
 
         Raises:
-            BagError: There is no camera_info.
+            RetrieverError: There is no camera_info.
         """
         synchroniser = Synchroniser(slop=self._slop, capacity=_CAPACITY)
         # Where camera_info was recorded once, or begins late, it holds for the images before it as well.
         info = self._bag.first(self._topics.camera_info)
         if info is None:
-            raise BagError("no_camera_info", f"expected a message on {self._topics.camera_info}, got none")
+            raise RetrieverError(
+                "no_camera_info", f"expected a message on {self._topics.camera_info}, got none"
+            )
         time = 0
         for topic, time, message in self._bag.messages(self._topics):
             on_message()

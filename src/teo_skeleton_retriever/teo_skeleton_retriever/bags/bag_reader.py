@@ -15,7 +15,7 @@ from rosbags.rosbag2 import Reader as Ros2Reader
 from rosbags.typesys import Stores, get_typestore
 
 from teo_skeleton_retriever.bags.bag_salvage import CutOff, RawMessage, salvage
-from teo_skeleton_retriever.errors import BagError
+from teo_skeleton_retriever.errors import RetrieverError
 
 _SUFFIXES = (".mcap", ".db3", ".bag")
 
@@ -50,7 +50,7 @@ class Bag:
         What was cut off is opened as well, up to the cut; `problem` says so.
 
         Raises:
-            BagError: It does not exist, is no bag, or nothing in it can be read.
+            RetrieverError: It does not exist, is no bag, or nothing in it can be read.
         """
         self._path = path
         self._ros1 = path.suffix == ".bag"
@@ -95,9 +95,9 @@ class Bag:
 
 def _open(path: Path) -> _Source:
     if not path.exists():
-        raise BagError("missing_bag", f"expected a bag, got {path}, which does not exist")
+        raise RetrieverError("missing_bag", f"expected a bag, got {path}, which does not exist")
     if path.is_file() and path.suffix not in _SUFFIXES:
-        raise BagError(
+        raise RetrieverError(
             "no_bag", f"expected the folder of a bag or a file {', '.join(_SUFFIXES)}, got {path.name}"
         )
     try:
@@ -108,7 +108,7 @@ def _open(path: Path) -> _Source:
         reason = f"{type(error).__name__} {error}".strip()
     source = _Salvaged(_files(path), reason)
     if not source.counts:
-        raise BagError("unreadable_bag", f"{path.name}: no message can be read: {source.problem}")
+        raise RetrieverError("unreadable_bag", f"{path.name}: no message can be read: {source.problem}")
     return source
 
 

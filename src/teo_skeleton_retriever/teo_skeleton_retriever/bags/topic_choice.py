@@ -15,7 +15,7 @@ from teo_skeleton_retriever.camera.image_messages import (
     DEPTH_TOPIC,
     shows_depth,
 )
-from teo_skeleton_retriever.errors import BagError, TopicError
+from teo_skeleton_retriever.errors import RetrieverError, TopicError
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
 _TRANSPORTS = ("compressed", "compressedDepth")
@@ -42,7 +42,7 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
 
     Raises:
         TopicError: None or several may be meant.
-        BagError: One that is named is not there, or the only colour images are raw mosaics.
+        RetrieverError: One that is named is not there, or the only colour images are raw mosaics.
     """
     names = [topic for topic, kind in bag.kinds.items() if kind in _IMAGES and bag.counts.get(topic)]
     first = {topic: bag.first(topic) for topic in names}
@@ -52,7 +52,7 @@ def choose_topics(bag: Bag, *, color: str = "", depth: str = "", camera_info: st
     unread = [f"{topic} ({of})" for topic, of in encodings.items() if of.startswith(BAYER)]
     if unread and not colors and not color:
         sentence = f"expected a topic of color, got the raw mosaic of {', '.join(unread)}: {DEBAYER}"
-        raise BagError("no_color", sentence)
+        raise RetrieverError("no_color", sentence)
     coloured = [topic for topic in colors if encodings[topic] not in _GREY]
     infos = [topic for topic, kind in bag.kinds.items() if kind == "sensor_msgs/msg/CameraInfo"]
     chosen_color = _choose(bag, "color", color, COLOR_TOPIC, coloured or colors)
@@ -71,7 +71,9 @@ def _choose(bag: Bag, what: str, told: str, usual: str, found: Sequence[str]) ->
         for name in (told, f"/{told}"):
             if name in known:
                 return name
-        raise BagError("unknown_topic", f"expected one of {', '.join(sorted(known)) or 'none'}, got {told!r}")
+        raise RetrieverError(
+            "unknown_topic", f"expected one of {', '.join(sorted(known)) or 'none'}, got {told!r}"
+        )
     for topic in _forms(f"/{usual}", found):
         return topic
     bases = {_base(topic) for topic in found}

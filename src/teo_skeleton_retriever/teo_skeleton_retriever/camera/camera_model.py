@@ -11,7 +11,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray, frozen
 from teo_skeleton_retriever.camera.distortion import distort, padded, undistort
-from teo_skeleton_retriever.errors import CameraError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -29,7 +29,7 @@ class CameraModel:
         distortion: Its coefficients, in OpenCV's order; kept as the eight of the widest model.
 
     Raises:
-        CameraError: A number that makes no camera.
+        RetrieverError: A number that makes no camera.
     """
 
     width: int
@@ -43,13 +43,13 @@ class CameraModel:
 
     def __post_init__(self) -> None:
         if self.width <= 0 or self.height <= 0:
-            raise CameraError(
+            raise RetrieverError(
                 "bad_size", f"expected a width and height above 0 px, got {self.width} x {self.height}"
             )
         if not all(math.isfinite(value) for value in (self.fx, self.fy, self.cx, self.cy)):
-            raise CameraError("not_finite", "expected finite fx, fy, cx, cy, got NaN or infinity")
+            raise RetrieverError("not_finite", "expected finite fx, fy, cx, cy, got NaN or infinity")
         if self.fx <= 0.0 or self.fy <= 0.0:
-            raise CameraError(
+            raise RetrieverError(
                 "no_focal_length",
                 f"expected focal lengths > 0 px, got {self.fx}, {self.fy}; uncalibrated drivers send 0",
             )
@@ -65,10 +65,10 @@ class CameraModel:
             horizontal: Field of view [rad].
 
         Raises:
-            CameraError: The angle is not between 0 and pi.
+            RetrieverError: The angle is not between 0 and pi.
         """
         if not 0.0 < horizontal < math.pi:
-            raise CameraError(
+            raise RetrieverError(
                 "bad_field_of_view", f"expected an angle between 0 and pi rad, got {horizontal}"
             )
         focal = width / (2.0 * math.tan(horizontal / 2.0))
@@ -88,13 +88,13 @@ class CameraModel:
             distortion_model: Their model.
 
         Raises:
-            CameraError: The matrix has another shape, a skew or other numbers that make no camera.
+            RetrieverError: The matrix has another shape, a skew or other numbers that make no camera.
         """
         flat = np.asarray(k, dtype=np.float64).ravel()
         if len(flat) != 9:
-            raise CameraError("wrong_shape", f"k: expected 9 numbers, got {len(flat)}")
+            raise RetrieverError("wrong_shape", f"k: expected 9 numbers, got {len(flat)}")
         if flat[1] != 0.0:
-            raise CameraError("skewed", f"k: expected no skew, got {flat[1]}")
+            raise RetrieverError("skewed", f"k: expected no skew, got {flat[1]}")
         return cls(
             width=width,
             height=height,

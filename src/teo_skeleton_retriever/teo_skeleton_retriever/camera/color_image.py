@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.camera.depth_image import MAX_PIXELS
-from teo_skeleton_retriever.errors import ImageError
+from teo_skeleton_retriever.errors import RetrieverError
 
 ColorArray = NDArray[np.uint8]
 Bytes = bytes | bytearray | memoryview | np.ndarray
@@ -59,27 +59,27 @@ def decode_color(data: Bytes, *, width: int, height: int, encoding: str, step: i
         RGB; may share its memory with `data`. Shape (height, width, 3).
 
     Raises:
-        ImageError: The encoding is not known, or the sizes do not fit together.
+        RetrieverError: The encoding is not known, or the sizes do not fit together.
     """
     if encoding.startswith(BAYER):
-        raise ImageError(
+        raise RetrieverError(
             "wrong_encoding",
             f"expected a colour image, got the raw mosaic {encoding!r:.40}: {DEBAYER}",
         )
     if encoding not in _ENCODINGS:
-        raise ImageError(
+        raise RetrieverError(
             "wrong_encoding",
             f"expected a colour encoding among {', '.join(COLOR_ENCODINGS)}, got {encoding!r:.40}",
         )
     channels, conversion = _ENCODINGS[encoding]
     if width <= 0 or height <= 0 or width * height > MAX_PIXELS:
-        raise ImageError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
+        raise RetrieverError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
     if channels == 2 and width % 2:
-        raise ImageError("bad_size", f"expected an even width in {encoding}, got {width} px")
+        raise RetrieverError("bad_size", f"expected an even width in {encoding}, got {width} px")
     row = width * channels
     step = step or row
     if step < row or len(data) < step * (height - 1) + row:
-        raise ImageError(
+        raise RetrieverError(
             "wrong_length",
             f"expected {height} rows of {row} bytes or more, got {len(data)} bytes with a step of {step}",
         )

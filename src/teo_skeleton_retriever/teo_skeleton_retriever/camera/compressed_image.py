@@ -16,7 +16,7 @@ from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.color_image import Bytes, ColorArray
 from teo_skeleton_retriever.camera.depth_image import MAX_PIXELS, metres
 from teo_skeleton_retriever.camera.rvl import decode_rvl
-from teo_skeleton_retriever.errors import DepthError, ImageError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # Before the depth image: a number for the format that nothing reads, and both terms of the quantisation.
 _HEADER = struct.Struct("<iff")
@@ -31,11 +31,11 @@ def decode_compressed_color(data: Bytes) -> ColorArray:
         RGB. Shape (height, width, 3).
 
     Raises:
-        ImageError: The data are no image.
+        RetrieverError: The data are no image.
     """
     image = _decoded(data, cv2.IMREAD_COLOR_RGB)
     if image is None:
-        raise ImageError("not_an_image", f"expected JPEG or PNG, got {len(data)} bytes that are neither")
+        raise RetrieverError("not_an_image", f"expected JPEG or PNG, got {len(data)} bytes that are neither")
     return np.asarray(image, dtype=np.uint8)
 
 
@@ -52,18 +52,18 @@ def decode_compressed_depth(data: Bytes, message_format: str) -> DepthArray:
         Depth along the optical axis [m], NaN where unknown. Shape (height, width).
 
     Raises:
-        DepthError: The format is none of these, or the data are not of the format.
+        RetrieverError: The format is none of these, or the data are not of the format.
     """
     encoding = message_format.partition(";")[0].strip()
     if encoding not in ("16UC1", "mono16", "32FC1"):
-        raise DepthError(
+        raise RetrieverError(
             "wrong_encoding", f"expected '16UC1; ...' or '32FC1; ...', got the format {message_format!r:.60}"
         )
     quantised = encoding == "32FC1"
     if "compressedDepth" not in message_format and bytes(data[:4]) == _PNG and not quantised:
         return metres(_plane_of_png(data))
     if len(data) <= _HEADER.size:
-        raise DepthError(
+        raise RetrieverError(
             "wrong_length", f"expected a header of {_HEADER.size} bytes and more, got {len(data)}"
         )
     _, a, b = _HEADER.unpack(bytes(data[: _HEADER.size]))
@@ -83,16 +83,16 @@ def _plane_of_png(data: Bytes) -> np.ndarray:
     image = _decoded(data, cv2.IMREAD_UNCHANGED)
     if image is None or image.dtype != np.uint16 or image.ndim != 2:
         got = "no image" if image is None else f"{image.dtype} of shape {image.shape}"
-        raise DepthError("wrong_data", f"expected a PNG with one plane of 16 bits, got {got}")
+        raise RetrieverError("wrong_data", f"expected a PNG with one plane of 16 bits, got {got}")
     return image
 
 
 def _plane_of_rvl(data: Bytes) -> np.ndarray:
     if len(data) < _RVL_SIZE.size:
-        raise DepthError("wrong_length", f"expected the width and height in 8 bytes, got {len(data)}")
+        raise RetrieverError("wrong_length", f"expected the width and height in 8 bytes, got {len(data)}")
     width, height = _RVL_SIZE.unpack(bytes(data[: _RVL_SIZE.size]))
     if not 0 < width * height <= MAX_PIXELS:
-        raise DepthError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
+        raise RetrieverError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
     return decode_rvl(bytes(data[_RVL_SIZE.size :]), width * height).reshape(height, width)
 
 

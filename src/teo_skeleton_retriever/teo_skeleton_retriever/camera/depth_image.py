@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import DepthArray
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 MILLIMETRE = np.float32(0.001)
 _TYPES = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
@@ -41,19 +41,19 @@ def decode_depth(
         Depth along the optical axis [m], NaN where unknown. Shape (height, width).
 
     Raises:
-        DepthError: The encoding is none of depth, or the sizes do not fit together.
+        RetrieverError: The encoding is none of depth, or the sizes do not fit together.
     """
     if encoding not in _TYPES:
-        raise DepthError(
+        raise RetrieverError(
             "wrong_encoding", f"expected a depth encoding among {tuple(_TYPES)}, got {encoding!r:.40}"
         )
     kind = np.dtype(_TYPES[encoding]).newbyteorder(">" if big_endian else "<")
     if width <= 0 or height <= 0 or width * height > MAX_PIXELS:
-        raise DepthError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
+        raise RetrieverError("bad_size", f"expected 1 to {MAX_PIXELS} pixels, got {width} x {height}")
     row = width * kind.itemsize
     step = step or row
     if step < row or len(data) < step * (height - 1) + row:
-        raise DepthError(
+        raise RetrieverError(
             "wrong_length",
             f"expected {height} rows of {row} bytes or more, got {len(data)} bytes with a step of {step}",
         )
@@ -71,10 +71,10 @@ def metres(image: np.ndarray) -> DepthArray:
         [m], NaN where unknown: zero, negative, NaN or infinite. Shape (height, width).
 
     Raises:
-        DepthError: Another type or shape.
+        RetrieverError: Another type or shape.
     """
     if image.ndim != 2 or image.dtype not in (np.uint16, np.float32, np.float64):
-        raise DepthError(
+        raise RetrieverError(
             "wrong_type", f"expected a plane of uint16 or floats, got {image.dtype} of shape {image.shape}"
         )
     depth: DepthArray = image.astype(np.float32)

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import CameraError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # How many each model has; a camera without a model has none.
 COEFFICIENTS = {"": 0, "plumb_bob": 5, "rational_polynomial": 8}
@@ -27,20 +27,20 @@ def padded(model: str, coefficients: FloatArray) -> FloatArray:
     """Check coefficients and bring them to the eight of the widest model. Shape (8,).
 
     Raises:
-        CameraError: An unknown model, another number of coefficients or one that is not finite.
+        RetrieverError: An unknown model, another number of coefficients or one that is not finite.
     """
     if model not in COEFFICIENTS:
         known = ", ".join(name for name in COEFFICIENTS if name)
-        raise CameraError("unknown_distortion", f"expected one of {known} or none, got {model!r}")
+        raise RetrieverError("unknown_distortion", f"expected one of {known} or none, got {model!r}")
     flat = np.asarray(coefficients, dtype=np.float64).ravel()
     # Four are OpenCV's short form of plumb_bob; drivers with no distortion send none.
     expected = {0, COEFFICIENTS[model]} | ({4} if model == "plumb_bob" else set())
     if len(flat) not in expected:
-        raise CameraError(
+        raise RetrieverError(
             "wrong_distortion", f"{model or 'no model'}: expected {expected} values, got {len(flat)}"
         )
     if not np.isfinite(flat).all():
-        raise CameraError("not_finite", "distortion: expected finite coefficients, got NaN or infinity")
+        raise RetrieverError("not_finite", "distortion: expected finite coefficients, got NaN or infinity")
     return np.concatenate([flat, np.zeros(8 - len(flat))])
 
 

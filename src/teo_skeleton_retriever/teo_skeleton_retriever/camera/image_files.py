@@ -15,7 +15,7 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.camera.compressed_image import decode_compressed_color
 from teo_skeleton_retriever.camera.depth_image import metres
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
-from teo_skeleton_retriever.errors import CameraError, DepthError, ImageError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 def read_rgbd_image(color: Path, depth: Path, camera_info: Path) -> RgbdImage:
@@ -32,7 +32,9 @@ def read_rgbd_image(color: Path, depth: Path, camera_info: Path) -> RgbdImage:
     try:
         pixels = decode_compressed_color(color.read_bytes())
     except OSError as error:
-        raise ImageError("unreadable_file", f"expected a colour image in {color}: {error.strerror}") from None
+        raise RetrieverError(
+            "unreadable_file", f"expected a colour image in {color}: {error.strerror}"
+        ) from None
     return RgbdImage(stamp=0.0, color=pixels, depth=_depth(depth), camera=_camera(camera_info))
 
 
@@ -40,10 +42,12 @@ def _depth(path: Path) -> DepthArray:
     try:
         data = np.frombuffer(path.read_bytes(), np.uint8)
     except OSError as error:
-        raise DepthError("unreadable_file", f"expected a depth image in {path}: {error.strerror}") from None
+        raise RetrieverError(
+            "unreadable_file", f"expected a depth image in {path}: {error.strerror}"
+        ) from None
     image = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
     if image is None:
-        raise DepthError("not_an_image", f"expected a depth image in {path}, got {len(data)} other bytes")
+        raise RetrieverError("not_an_image", f"expected a depth image in {path}, got {len(data)} other bytes")
     return metres(image)
 
 
@@ -58,9 +62,9 @@ def _camera(path: Path) -> CameraModel:
             distortion_model=str(info.get("distortion_model", "")),
         )
     except OSError as error:
-        raise CameraError("unreadable_file", f"expected camera_info in {path}: {error.strerror}") from None
+        raise RetrieverError("unreadable_file", f"expected camera_info in {path}: {error.strerror}") from None
     except (ValueError, KeyError, TypeError) as error:
-        raise CameraError(
+        raise RetrieverError(
             "bad_camera_info",
             f"expected JSON with width, height, k, d, distortion_model in {path}: "
             f"{type(error).__name__} {error}",

@@ -38,7 +38,7 @@ def color_of(message: Any) -> ColorArray:
         RGB; may share its memory with the message. Shape (height, width, 3).
 
     Raises:
-        ImageError: It cannot be decoded.
+        RetrieverError: It cannot be decoded.
     """
     if _is_compressed(message):
         return decode_compressed_color(message.data)
@@ -55,7 +55,7 @@ def depth_of(message: Any) -> DepthArray:
     """Decode a sensor_msgs/Image or CompressedImage of depth [m], NaN where unknown. Shape (height, width).
 
     Raises:
-        DepthError: It cannot be decoded.
+        RetrieverError: It cannot be decoded.
     """
     if _is_compressed(message):
         return decode_compressed_depth(message.data, message.format)
@@ -86,7 +86,7 @@ def camera_of(message: Any, *, rectified: bool = False) -> CameraModel:
         rectified: Whether the images were rectified, and so have the projection of P and no distortion.
 
     Raises:
-        CameraError: It describes no usable camera; a driver that is not calibrated sends zeros.
+        RetrieverError: It describes no usable camera; a driver that is not calibrated sends zeros.
     """
     matrix = np.array(_field(message, "k"), dtype=np.float64).reshape(3, 3)
     if rectified:

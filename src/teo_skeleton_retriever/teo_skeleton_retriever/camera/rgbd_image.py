@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.camera.color_image import ColorArray
-from teo_skeleton_retriever.errors import FrameError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +24,7 @@ class RgbdImage:
         camera: Of both.
 
     Raises:
-        FrameError: The three are not of the same size.
+        RetrieverError: The three are not of the same size.
     """
 
     stamp: float
@@ -35,13 +35,13 @@ class RgbdImage:
     def __post_init__(self) -> None:
         height, width = self.color.shape[:2]
         if self.depth.shape != (height, width):
-            raise FrameError(
+            raise RetrieverError(
                 "depth_size",
                 f"expected depth of the colour image's {width} x {height} px, got "
                 f"{self.depth.shape[1]} x {self.depth.shape[0]}; align depth to colour",
             )
         if (self.camera.width, self.camera.height) != (width, height):
-            raise FrameError(
+            raise RetrieverError(
                 "camera_info_size",
                 f"expected camera_info of the colour image's {width} x {height} px, got "
                 f"{self.camera.width} x {self.camera.height}",

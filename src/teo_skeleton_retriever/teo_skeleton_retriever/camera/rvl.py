@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 _SHIFTS = np.arange(28, -1, -4, dtype=np.uint32)
 _MAX_NIBBLES = 11  # 33 bits: more than any number of pixels
@@ -31,7 +31,7 @@ def decode_rvl(data: bytes, pixels: int) -> NDArray[np.uint16]:
         [mm], 0 where unknown. Shape (pixels,).
 
     Raises:
-        DepthError: The data end before the image does, or are not RVL.
+        RetrieverError: The data end before the image does, or are not RVL.
     """
     numbers = _numbers(data)
     image = np.zeros(pixels, dtype=np.uint16)
@@ -39,14 +39,14 @@ def decode_rvl(data: bytes, pixels: int) -> NDArray[np.uint16]:
     pixel = place = 0
     while pixel < pixels:
         if place + 2 > len(numbers):
-            raise DepthError("wrong_length", f"expected {pixels} pixels of RVL, got {pixel}")
+            raise RetrieverError("wrong_length", f"expected {pixels} pixels of RVL, got {pixel}")
         unknown, known = int(numbers[place]), int(numbers[place + 1])
         place += 2
         pixel += unknown
         if pixel + known > pixels or place + known > len(numbers):
-            raise DepthError("wrong_data", f"expected {pixels} pixels of RVL, got a run beyond them")
+            raise RetrieverError("wrong_data", f"expected {pixels} pixels of RVL, got a run beyond them")
         if unknown == known == 0:
-            raise DepthError("wrong_data", "expected RVL, got a run of no pixels")
+            raise RetrieverError("wrong_data", "expected RVL, got a run of no pixels")
         image[pixel : pixel + known] = 1  # marked; the values follow for all at once
         known_runs.append(slice(place, place + known))
         pixel += known
@@ -67,7 +67,7 @@ def _numbers(data: bytes) -> NDArray[np.int64]:
         return np.zeros(0, dtype=np.int64)
     starts = np.concatenate([[0], ends[:-1] + 1])
     if np.any(ends - starts >= _MAX_NIBBLES):
-        raise DepthError("wrong_data", "expected RVL, got a number of more than 33 bits")
+        raise RetrieverError("wrong_data", "expected RVL, got a number of more than 33 bits")
     nibbles = nibbles[: ends[-1] + 1]
     position = np.arange(len(nibbles)) - np.repeat(starts, ends - starts + 1)
     return np.add.reduceat((nibbles & 7) << (3 * position), starts)

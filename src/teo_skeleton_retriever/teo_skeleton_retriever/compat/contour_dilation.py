@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from teo_skeleton_retriever.arrays import DepthArray
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,7 +29,7 @@ class ContourDilation:
         max_distance: Farther is taken as background and becomes unknown [m].
 
     Raises:
-        DepthError: A value makes no filter.
+        RetrieverError: A value makes no filter.
     """
 
     kernel_size: int = 4
@@ -39,12 +39,12 @@ class ContourDilation:
 
     def __post_init__(self) -> None:
         if self.kernel_size < 1 or self.iterations < 0:
-            raise DepthError(
+            raise RetrieverError(
                 "bad_kernel",
                 f"expected a kernel >= 1 px, iterations >= 0, got {self.kernel_size}, {self.iterations}",
             )
         if not (math.isfinite(self.min_distance) and 0.0 <= self.min_distance < self.max_distance):
-            raise DepthError(
+            raise RetrieverError(
                 "bad_range",
                 f"expected 0 <= min_distance < max_distance, got {self.min_distance}, {self.max_distance}",
             )

@@ -11,7 +11,7 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
 from teo_skeleton_retriever.compat.skeleton_std import FALLBACKS, FROM_BODY_25, MIDPOINTS, SKELETON_STD
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import body_25_from_coco_18
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
 from teo_skeleton_retriever.layouts.person_2d import Person2D
@@ -29,7 +29,7 @@ def detect(
         parameters: Of the original.
 
     Raises:
-        KeypointError: The body is in a layout that the original does not know.
+        RetrieverError: The body is in a layout that the original does not know.
     """
     skeleton = OriginalSkeleton()
     if not len(person.body):
@@ -69,7 +69,7 @@ def _body_25(body: FloatArray) -> FloatArray:
         # The original knows no mid-hip in COCO: the centre comes from the hips in space, without a pixel.
         converted[BODY_25.index["MidHip"]] = 0.0
         return converted
-    raise KeypointError("wrong_layout", f"expected a body in BODY_25 or COCO, got {len(body)} keypoints")
+    raise RetrieverError("wrong_layout", f"expected a body in BODY_25 or COCO, got {len(body)} keypoints")
 
 
 def _in_space(

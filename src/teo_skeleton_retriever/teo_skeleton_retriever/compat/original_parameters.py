@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from teo_skeleton_retriever.compat.contour_dilation import ContourDilation
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,7 +87,7 @@ def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
             original's code.
 
     Raises:
-        ParameterError: A name is not known, or a value is none.
+        RetrieverError: A name is not known, or a value is none.
     """
     chosen: dict[str, dict[str, object]] = {"general": {}, "depth": {}}
     enabled = True
@@ -102,7 +102,7 @@ def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
             option = _OPTIONS[name]
             chosen["general"][option.argument] = _value(name, text, option)
         else:
-            raise ParameterError(
+            raise RetrieverError(
                 "unknown_compat_option",
                 f"expected NAME=VALUE with a name of {', '.join(COMPAT_OPTIONS)}; got {word!r:.80}",
             )
@@ -114,7 +114,7 @@ def _value(name: str, text: str, option: _Option) -> float:
     try:
         value = option.read(text)
     except ValueError as error:
-        raise ParameterError("wrong_type", f"{name}: got {text!r:.40}: {error}") from None
+        raise RetrieverError("wrong_type", f"{name}: got {text!r:.40}: {error}") from None
     if not (math.isfinite(value) and value >= option.least):
-        raise ParameterError("out_of_range", f"{name}: expected {option.least} or more, got {text}")
+        raise RetrieverError("out_of_range", f"{name}: expected {option.least} or more, got {text}")
     return value

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 _MAD_TO_SIGMA = 1.4826  # of a normal distribution
 _RINGS = (
@@ -113,7 +113,7 @@ class DepthLookup:
         farthest: Farther is background [m].
 
     Raises:
-        DepthError: A value makes no lookup.
+        RetrieverError: A value makes no lookup.
     """
 
     radius: float = 0.03
@@ -128,13 +128,13 @@ class DepthLookup:
     def __post_init__(self) -> None:
         values = (self.radius, self.min_radius_px, self.max_radius_px, self.gap, self.noise)
         if not all(math.isfinite(value) and value > 0.0 for value in values):
-            raise DepthError("bad_lookup", f"expected positive lengths, got {values}")
+            raise RetrieverError("bad_lookup", f"expected positive lengths, got {values}")
         if self.min_radius_px > self.max_radius_px or not 0.0 <= self.min_support < 1.0:
-            raise DepthError(
+            raise RetrieverError(
                 "bad_lookup", "expected min_radius_px <= max_radius_px and a min_support from 0 to below 1"
             )
         if not 0.0 < self.nearest < self.farthest < math.inf:
-            raise DepthError(
+            raise RetrieverError(
                 "bad_range", f"expected 0 < nearest < farthest, got {self.nearest}, {self.farthest}"
             )
 

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
-from teo_skeleton_retriever.errors import LimbError
+from teo_skeleton_retriever.errors import RetrieverError
 
 NEAREST = 0.01  # [m] no depth is bounded below this
 END_FREEDOM = 0.01  # [m] how far the first and last keypoint may move away from the camera
@@ -36,8 +36,8 @@ class LimbChain:
         upper: Greatest depths [m]. Shape (n,).
 
     Raises:
-        LimbError: Shapes that do not fit, a number that is not finite, a length not above zero or bounds that
-            leave no room.
+        RetrieverError: Shapes that do not fit, a number that is not finite, a length not above zero or bounds
+            that leave no room.
     """
 
     rays: FloatArray
@@ -52,16 +52,18 @@ class LimbChain:
         for name, shape in shapes.items():
             array = frozen(getattr(self, name))
             if n < 2 or array.shape != shape:
-                raise LimbError(
+                raise RetrieverError(
                     "wrong_shape", f"{name}: expected shape {shape} with n of 2 or more, got {array.shape}"
                 )
             if not np.isfinite(array).all():
-                raise LimbError("not_finite", f"{name}: expected finite numbers, got {array}")
+                raise RetrieverError("not_finite", f"{name}: expected finite numbers, got {array}")
             object.__setattr__(self, name, array)
         if not (self.lengths > 0.0).all():
-            raise LimbError("bad_length", f"expected lengths above 0 m, got {self.lengths}")
+            raise RetrieverError("bad_length", f"expected lengths above 0 m, got {self.lengths}")
         if not ((self.lower > 0.0) & (self.lower < self.upper)).all():
-            raise LimbError("bad_bounds", f"expected 0 < lower < upper, got {self.lower} and {self.upper}")
+            raise RetrieverError(
+                "bad_bounds", f"expected 0 < lower < upper, got {self.lower} and {self.upper}"
+            )
 
     @classmethod
     def original(cls, points: FloatArray, lengths: FloatArray, *, anchor_depth: float) -> LimbChain:

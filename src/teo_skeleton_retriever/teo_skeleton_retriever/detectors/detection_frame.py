@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.errors import FrameError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 
@@ -25,7 +25,7 @@ class DetectionFrame:
         camera: Of both.
 
     Raises:
-        FrameError: The stamp is not finite or the depth image has not the camera's size.
+        RetrieverError: The stamp is not finite or the depth image has not the camera's size.
     """
 
     stamp: float
@@ -35,10 +35,10 @@ class DetectionFrame:
 
     def __post_init__(self) -> None:
         if not math.isfinite(self.stamp):
-            raise FrameError("bad_stamp", f"expected a finite time [s], got {self.stamp}")
+            raise RetrieverError("bad_stamp", f"expected a finite time [s], got {self.stamp}")
         size = (self.camera.height, self.camera.width)
         if self.depth.shape != size:
-            raise FrameError(
+            raise RetrieverError(
                 "wrong_size",
                 f"expected depth of the camera's {size[1]} x {size[0]} px, got shape {self.depth.shape}; "
                 "align depth to colour and take the camera_info of that resolution",

@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 ImageArray = NDArray[np.uint8]
@@ -38,8 +38,8 @@ class Detector(Protocol):
             BODY_25 bodies, hands and faces [px], in no particular order; empty if nobody is there.
 
         Raises:
-            DetectorError: The image is none, the detector is closed, or it cannot tell; the next image may be
-                tried all the same.
+            RetrieverError: The image is none, the detector is closed, or it cannot tell; the next image may
+                be tried all the same.
         """
 
     def close(self) -> None:
@@ -75,12 +75,12 @@ def check_image(image: ImageArray, stamp: float) -> None:
     """Check an image and its time before it is looked at.
 
     Raises:
-        DetectorError: Not an RGB image of bytes, an empty one, or a time that is none.
+        RetrieverError: Not an RGB image of bytes, an empty one, or a time that is none.
     """
     if not isinstance(image, np.ndarray) or image.dtype != np.uint8:
         got = getattr(image, "dtype", type(image).__name__)
-        raise DetectorError("bad_image", f"expected an image of uint8, got {got}")
+        raise RetrieverError("bad_image", f"expected an image of uint8, got {got}")
     if image.ndim != 3 or image.shape[2] != 3 or 0 in image.shape:
-        raise DetectorError("bad_image", f"expected RGB of shape (height, width, 3), got {image.shape}")
+        raise RetrieverError("bad_image", f"expected RGB of shape (height, width, 3), got {image.shape}")
     if not math.isfinite(stamp):
-        raise DetectorError("bad_stamp", f"expected a finite time [s], got {stamp}")
+        raise RetrieverError("bad_stamp", f"expected a finite time [s], got {stamp}")

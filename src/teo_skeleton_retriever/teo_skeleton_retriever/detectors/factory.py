@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import cast
 
 from teo_skeleton_retriever.detectors.detector import Detector
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 _CLASSES = {
     "mediapipe": "mediapipe.mediapipe_detector.MediaPipeDetector",
@@ -29,10 +29,10 @@ def make_detector(name: str, **options: object) -> Detector:
         options: Of that detector's constructor.
 
     Raises:
-        DetectorError: The name or an option is unknown, or the detector cannot be made.
+        RetrieverError: The name or an option is unknown, or the detector cannot be made.
     """
     if name not in _CLASSES:
-        raise DetectorError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")
+        raise RetrieverError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")
     module, _, class_name = _CLASSES[name].rpartition(".")
     # Imported only when asked for: MediaPipe takes a second to load.
     detector = getattr(import_module(f"teo_skeleton_retriever.detectors.{module}"), class_name)
@@ -40,10 +40,10 @@ def make_detector(name: str, **options: object) -> Detector:
         inspect.signature(detector).bind(**options)
     except TypeError as error:
         known = ", ".join(inspect.signature(detector).parameters)
-        raise DetectorError("bad_option", f"{name}: expected options among {known}; {error}") from error
+        raise RetrieverError("bad_option", f"{name}: expected options among {known}; {error}") from error
     try:
         return cast(Detector, detector(**options))
     except (
         TypeError
     ) as error:  # options come from users, as JSON: a text where a number should be, and the like
-        raise DetectorError("bad_option", f"{name}: an option is of the wrong kind: {error}") from error
+        raise RetrieverError("bad_option", f"{name}: an option is of the wrong kind: {error}") from error

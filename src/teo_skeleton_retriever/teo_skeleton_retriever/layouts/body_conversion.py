@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
 
 
@@ -60,7 +60,7 @@ def as_body_25(body: FloatArray) -> FloatArray:
         x, y [px], confidence; absent keypoints are zero. Shape (25, 3).
 
     Raises:
-        KeypointError: Another number of keypoints.
+        RetrieverError: Another number of keypoints.
     """
     if len(body) == len(BODY_25):
         return body
@@ -70,7 +70,7 @@ def as_body_25(body: FloatArray) -> FloatArray:
     if len(body) == 0:
         return out
     if len(body) != len(_MPI):
-        raise KeypointError("wrong_layout", f"expected BODY_25, COCO or MPI, got {len(body)} keypoints")
+        raise RetrieverError("wrong_layout", f"expected BODY_25, COCO or MPI, got {len(body)} keypoints")
     for name, row in zip(_MPI, body, strict=True):
         if name is not None:
             out[BODY_25.index[name]] = row

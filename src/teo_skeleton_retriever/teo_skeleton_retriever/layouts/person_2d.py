@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import FACE_70, HAND_21
 
 # Keypoints of the body layouts that OpenPose writes.
@@ -65,20 +65,22 @@ class Person2D:
             for name, columns in ((part, 3), (f"{part}_3d", 4)):
                 array = np.asarray(getattr(self, name), dtype=np.float64)
                 if array.ndim != 2 or array.shape[1] != columns or len(array) not in (0, *allowed):
-                    raise KeypointError(
+                    raise RetrieverError(
                         "wrong_shape",
                         f"{name}: expected no rows or {' or '.join(map(str, allowed))} rows of {columns} "
                         f"numbers, got shape {array.shape}",
                     )
                 if not np.isfinite(array).all():
-                    raise KeypointError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
+                    raise RetrieverError(
+                        "not_finite", f"{name}: expected finite numbers, got NaN or infinity"
+                    )
                 object.__setattr__(self, name, frozen(array))
         for name in ("left_hand_world", "right_hand_world"):
             if getattr(self, name) is None:
                 continue
             world = np.asarray(getattr(self, name), dtype=np.float64)
             if world.shape != (len(HAND_21), 3):
-                raise KeypointError("wrong_shape", f"{name}: expected (21, 3), got {world.shape}")
+                raise RetrieverError("wrong_shape", f"{name}: expected (21, 3), got {world.shape}")
             if not np.isfinite(world).all():
-                raise KeypointError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
+                raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
             object.__setattr__(self, name, frozen(world))

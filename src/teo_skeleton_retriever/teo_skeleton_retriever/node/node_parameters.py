@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from teo_common.parameters import ParameterRow, Value
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
 
@@ -121,7 +121,7 @@ def retriever_parameters_from(values: Mapping[str, Value], detector: str) -> Ret
         detector: Name of the one that is used.
 
     Raises:
-        ParameterError: A value is wrong, or two do not go together.
+        RetrieverError: A value is wrong, or two do not go together.
     """
     chosen: dict[str, Value] = {row.name: values[row.name] for row in _retriever_rows()}
     if _DETECTOR in parameter_info():
@@ -134,11 +134,11 @@ def check_choices(values: Mapping[str, Value]) -> None:
     """Check what ROS does not: words among allowed ones.
 
     Raises:
-        ParameterError: A word is none of those allowed.
+        RetrieverError: A word is none of those allowed.
     """
     for row in PARAMETERS:
         if row.choices and values[row.name] not in row.choices:
-            raise ParameterError(
+            raise RetrieverError(
                 "unknown_choice", f"{row.name}: expected one of {row.choices}, got {values[row.name]!r}"
             )
 
@@ -150,13 +150,13 @@ def detector_options_from(words: Sequence[str]) -> dict[str, object]:
         words: NAME=VALUE each, where the value is JSON or else text; empty ones do not matter.
 
     Raises:
-        ParameterError: A word is not of this form.
+        RetrieverError: A word is not of this form.
     """
     options: dict[str, object] = {}
     for word in filter(None, words):
         name, found, text = word.partition("=")
         if not (found and name.isidentifier()):
-            raise ParameterError("bad_option", f"expected NAME=VALUE as detector option, got {word!r:.80}")
+            raise RetrieverError("bad_option", f"expected NAME=VALUE as detector option, got {word!r:.80}")
         try:
             options[name] = json.loads(text)
         except json.JSONDecodeError:
@@ -173,7 +173,7 @@ def parameters_from_words(words: Sequence[str], *, detector: str, one_image: boo
         one_image: Whether there is just one image, in which a person must be taken at first sight.
 
     Raises:
-        ParameterError: A name or a value is wrong, or two do not go together.
+        RetrieverError: A name or a value is wrong, or two do not go together.
     """
     values: dict[str, Value] = {row.name: row.default for row in _retriever_rows()}
     if one_image:
@@ -181,7 +181,7 @@ def parameters_from_words(words: Sequence[str], *, detector: str, one_image: boo
     for word in words:
         name, found, text = word.partition("=")
         if not found or name not in values:
-            raise ParameterError(
+            raise RetrieverError(
                 "unknown_parameter", f"expected NAME=VALUE with a name of {', '.join(values)}; got {word!r}"
             )
         values[name] = _value_of(name, text, type(values[name]))
@@ -197,4 +197,4 @@ def _value_of(name: str, text: str, kind: type) -> Value:
             return value
     except ValueError:
         pass
-    raise ParameterError("wrong_type", f"{name}: expected a value of type {kind.__name__}, got {text!r}")
+    raise RetrieverError("wrong_type", f"{name}: expected a value of type {kind.__name__}, got {text!r}")

@@ -38,7 +38,7 @@ from teo_skeleton_retriever.camera.image_messages import (
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.camera.synchroniser import Pair, Synchroniser
 from teo_skeleton_retriever.detectors import Detector, make_detector
-from teo_skeleton_retriever.errors import FrameError, RetrieverError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.image_retriever import (
     Detection,
     FrameRetriever,
@@ -183,7 +183,7 @@ class RetrieverNode(Node):
         with self._problems():
             info = self._camera_info
             if info is None:
-                raise FrameError(
+                raise RetrieverError(
                     NO_CAMERA_INFO, f"expected it on {self._topics['camera_info']}, got none so far"
                 )
             pair = job.pair

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from teo_common.atomic_files import atomic_path
-from teo_skeleton_retriever.errors import OutputError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 @contextmanager
@@ -21,11 +21,11 @@ def output_file(path: Path, suffix: str) -> Iterator[Path]:
         suffix: That its name must have.
 
     Raises:
-        OutputError: There is no such folder, or the name ends otherwise.
+        RetrieverError: There is no such folder, or the name ends otherwise.
     """
     if path.suffix != suffix:
-        raise OutputError("bad_name", f"expected a name that ends in {suffix}, got {path.name}")
+        raise RetrieverError("bad_name", f"expected a name that ends in {suffix}, got {path.name}")
     if not path.parent.is_dir():
-        raise OutputError("missing_folder", f"expected a folder for {path.name}, got {path.parent}")
+        raise RetrieverError("missing_folder", f"expected a folder for {path.name}, got {path.parent}")
     with atomic_path(path) as temporary:
         yield temporary

@@ -76,7 +76,7 @@ def overlay_video(path: Path) -> Iterator[OverlayVideo]:
         path: File to write, replaced if it exists; its folder exists.
 
     Raises:
-        OutputError: There is no such folder, or the name does not end in .mp4.
+        RetrieverError: There is no such folder, or the name does not end in .mp4.
     """
     # faststart: the index comes first, so that a browser can start before it has everything.
     options = {"movflags": "faststart"}

@@ -59,7 +59,7 @@ def skeleton_bag(path: Path) -> Iterator[SkeletonBag]:
         path: File to write, replaced if it exists; its folder exists.
 
     Raises:
-        OutputError: There is no such folder, or the name does not end in .mcap.
+        RetrieverError: There is no such folder, or the name does not end in .mcap.
     """
     with output_file(path, ".mcap") as temporary, temporary.open("wb") as stream:
         bag = SkeletonBag(stream)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import LimbError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 
 
@@ -35,11 +35,11 @@ class LimbLengthSettings:
 
     def __post_init__(self) -> None:
         if not 1 <= self.min_samples <= self.window:
-            raise LimbError(
+            raise RetrieverError(
                 "bad_window", f"expected 1 <= min_samples <= window, got {self.min_samples}, {self.window}"
             )
         if not 0.0 < self.shortest < self.longest < math.inf or not 1.0 < self.tolerance < math.inf:
-            raise LimbError("bad_range", "expected 0 < shortest < longest [m] and a tolerance above 1")
+            raise RetrieverError("bad_range", "expected 0 < shortest < longest [m] and a tolerance above 1")
 
 
 class LimbLength:

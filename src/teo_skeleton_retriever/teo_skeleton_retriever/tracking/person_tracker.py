@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
-from teo_skeleton_retriever.errors import TrackingError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,11 +54,11 @@ class TrackerSettings:
             self.apart,
         )
         if not all(math.isfinite(value) and value > 0.0 for value in positive):
-            raise TrackingError("bad_settings", f"expected finite times and lengths above 0, got {positive}")
+            raise RetrieverError("bad_settings", f"expected finite times and lengths above 0, got {positive}")
         if not (0.0 <= self.gate_growth < math.inf and self.gate <= self.max_gate < math.inf):
-            raise TrackingError("bad_settings", "expected gate_growth >= 0 and gate <= max_gate")
+            raise RetrieverError("bad_settings", "expected gate_growth >= 0 and gate <= max_gate")
         if self.newcomer_images < 1:
-            raise TrackingError("bad_settings", f"expected newcomer_images >= 1, got {self.newcomer_images}")
+            raise RetrieverError("bad_settings", f"expected newcomer_images >= 1, got {self.newcomer_images}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,10 +119,10 @@ class PersonTracker:
             The id of each detection, None while it is nobody or a newcomer on trial.
 
         Raises:
-            TrackingError: The time is not finite.
+            RetrieverError: The time is not finite.
         """
         if not math.isfinite(time):
-            raise TrackingError("bad_time", f"expected a finite time [s], got {time}")
+            raise RetrieverError("bad_time", f"expected a finite time [s], got {time}")
         if time < self._time:
             self._people, self._newcomers = {}, []
         self._time = time

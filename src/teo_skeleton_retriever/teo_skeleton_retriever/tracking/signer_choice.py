@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import TrackingError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # [s] How long a signer who is not seen stays the signer: as long as their id is remembered.
 DEFAULT_PATIENCE = 3.0
@@ -30,12 +30,12 @@ class SignerChoice:
             patience: How long a signer who is not seen is waited for [s].
 
         Raises:
-            TrackingError: The rule is not known or the patience is not a time.
+            RetrieverError: The rule is not known or the patience is not a time.
         """
         if rule not in ("nearest", "central"):
-            raise TrackingError("unknown_rule", f"expected 'nearest' or 'central', got {rule!r}")
+            raise RetrieverError("unknown_rule", f"expected 'nearest' or 'central', got {rule!r}")
         if not 0.0 <= patience < math.inf:
-            raise TrackingError("bad_settings", f"expected a patience of 0 s or more, got {patience}")
+            raise RetrieverError("bad_settings", f"expected a patience of 0 s or more, got {patience}")
         self._rule = rule
         self._patience = patience
         self._signer: int | None = None

@@ -15,7 +15,7 @@ from teo_skeleton_retriever.bags.bag_images import BagImages
 from teo_skeleton_retriever.bags.bag_reader import Bag
 from teo_skeleton_retriever.bags.topic_choice import choose_topics
 from teo_skeleton_retriever.camera.image_messages import color_of, stamp_of
-from teo_skeleton_retriever.errors import BagError
+from teo_skeleton_retriever.errors import RetrieverError
 
 IMAGES = 10
 SLOP = 10**7
@@ -78,7 +78,7 @@ def test_no_cut_anywhere_does_more_than_shorten(tmp_path, kind):
     for share in np.random.default_rng(0).random(12):
         try:
             assert len(list(Bag(bag_take.cut(file, share)).messages([bag_take.DEPTH]))) <= IMAGES
-        except BagError as refused:
+        except RetrieverError as refused:
             assert refused.code == "unreadable_bag"
 
 
@@ -113,18 +113,18 @@ def test_a_message_that_is_not_of_its_type_is_left_out_and_told(tmp_path):
 def test_what_is_no_bag_is_refused(tmp_path, content, suffix):
     path = tmp_path / f"take{suffix}"
     path.write_bytes(content)
-    with pytest.raises(BagError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         Bag(path)
     assert refused.value.code == "unreadable_bag"
 
 
 def test_a_missing_bag_and_another_file_are_refused(tmp_path):
-    with pytest.raises(BagError, match="missing_bag"):
+    with pytest.raises(RetrieverError, match="missing_bag"):
         Bag(tmp_path / "none")
     (tmp_path / "take.txt").write_text("hello")
-    with pytest.raises(BagError, match="no_bag"):
+    with pytest.raises(RetrieverError, match="no_bag"):
         Bag(tmp_path / "take.txt")
-    with pytest.raises(BagError, match="unreadable_bag"):
+    with pytest.raises(RetrieverError, match="unreadable_bag"):
         Bag(tmp_path)  # a folder without a bag
 
 
@@ -169,14 +169,14 @@ def test_topics_that_are_missing_or_not_clear_are_told(tmp_path):
     stored = list(bag_take.messages(2))
     twice = renamed(stored, {bag_take.COLOR: "/a"}) + renamed(stored[1:2], {bag_take.COLOR: "/b"})
     bag = Bag(bag_take.write_ros2(tmp_path / "twice", twice))
-    with pytest.raises(BagError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         choose_topics(bag)
     assert (refused.value.code, "/a, /b" in refused.value.sentence) == ("ambiguous_color", True)
     assert choose_topics(bag, color="b").color == "/b"
-    with pytest.raises(BagError, match="unknown_topic"):
+    with pytest.raises(RetrieverError, match="unknown_topic"):
         choose_topics(bag, color="/c")
     bag = Bag(bag_take.write_ros2(tmp_path / "none", [one for one in stored if one[0] != bag_take.DEPTH]))
-    with pytest.raises(BagError, match="no_depth"):
+    with pytest.raises(RetrieverError, match="no_depth"):
         choose_topics(bag)
 
 

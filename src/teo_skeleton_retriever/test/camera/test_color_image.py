@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_skeleton_retriever.camera.color_image import COLOR_ENCODINGS, decode_color
-from teo_skeleton_retriever.errors import ImageError
+from teo_skeleton_retriever.errors import RetrieverError
 
 RGB = np.random.default_rng(0).integers(0, 256, (6, 8, 3), dtype=np.uint8)
 GREY = np.ascontiguousarray(RGB[:, :, 0])
@@ -87,7 +87,7 @@ def test_padding_of_rows_does_not_matter(padding, encoding):
 )
 def test_what_is_no_image_is_refused_with_a_reason(code, fields):
     good = {"data": bytes(6 * 24), "width": 8, "height": 6, "encoding": "rgb8"}
-    with pytest.raises(ImageError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         decode_color(**(good | fields))
     assert refused.value.code == code
     assert "expected" in refused.value.sentence

@@ -14,7 +14,7 @@ from hypothesis.extra.numpy import arrays
 
 from teo_skeleton_retriever.camera.compressed_image import decode_compressed_color, decode_compressed_depth
 from teo_skeleton_retriever.camera.rvl import decode_rvl
-from teo_skeleton_retriever.errors import DepthError, ImageError
+from teo_skeleton_retriever.errors import RetrieverError
 
 HEADER = struct.pack("<iff", 0, 0.0, 0.0)
 GRADIENT = np.add.outer(np.arange(40), np.arange(60) * 2).astype(np.uint8)
@@ -66,7 +66,7 @@ def test_a_grey_jpeg_becomes_three_channels():
 
 @pytest.mark.parametrize("data", [b"", b"\x00" * 100, png(SCENE)[:40], b"\x89PNG\r\n\x1a\n"])
 def test_what_is_no_picture_is_refused(data):
-    with pytest.raises(ImageError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         decode_compressed_color(data)
     assert refused.value.code == "not_an_image"
 
@@ -80,7 +80,7 @@ def test_a_picture_that_claims_to_be_gigantic_is_refused():
         + struct.pack(">I", zlib.crc32(chunk))
         + bytes(50)
     )
-    with pytest.raises(ImageError):
+    with pytest.raises(RetrieverError):
         decode_compressed_color(data)
 
 
@@ -130,7 +130,7 @@ def test_any_image_comes_back_from_rvl(values):
 def test_no_bytes_make_rvl_do_more_than_refuse(data, pixels):
     try:
         assert decode_rvl(data, pixels).shape == (pixels,)
-    except DepthError as refused:
+    except RetrieverError as refused:
         assert refused.code in ("wrong_length", "wrong_data")
 
 
@@ -149,6 +149,6 @@ def test_no_bytes_make_rvl_do_more_than_refuse(data, pixels):
     ],
 )
 def test_what_is_no_depth_is_refused_with_a_reason(code, data, message_format):
-    with pytest.raises(DepthError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         decode_compressed_depth(data, message_format)
     assert refused.value.code == code

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.camera.depth_image import decode_depth, metres
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 def test_whole_millimetres_become_metres_and_zero_unknown() -> None:
@@ -56,14 +56,14 @@ def test_the_last_row_may_come_without_its_padding() -> None:
 def test_sizes_that_do_not_fit_are_refused(
     width: int, height: int, encoding: str, step: int, code: str
 ) -> None:
-    with pytest.raises(DepthError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         decode_depth(bytes(8), width=width, height=height, encoding=encoding, step=step)
     assert caught.value.code == code
 
 
 @pytest.mark.parametrize("image", [np.zeros((2, 2), np.uint8), np.zeros((2, 2, 3), np.float32)])
 def test_what_is_no_depth_image_is_refused(image: np.ndarray) -> None:
-    with pytest.raises(DepthError):
+    with pytest.raises(RetrieverError):
         metres(image)
 
 

@@ -8,7 +8,7 @@ import pytest
 from sensor_msgs.msg import CameraInfo, RegionOfInterest
 
 from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, depth_of, shows_depth, stamp_of
-from teo_skeleton_retriever.errors import CameraError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 def test_messages_become_the_arrays_they_were_made_from():
@@ -51,7 +51,7 @@ def test_distortion_is_kept_and_goes_where_the_images_are_rectified():
 
 def test_a_model_that_is_not_known_does_not_matter_without_coefficients():
     assert camera_of(take.camera_info(0, distortion_model="none")).fx == 300.0
-    with pytest.raises(CameraError):
+    with pytest.raises(RetrieverError):
         camera_of(take.camera_info(0, distortion_model="fisheye", d=[0.1, 0.0, 0.0, 0.0]))
 
 
@@ -66,6 +66,6 @@ def test_a_region_and_binning_move_and_scale_the_image():
 
 
 def test_an_uncalibrated_camera_is_refused():
-    with pytest.raises(CameraError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         camera_of(CameraInfo(width=320, height=240))
     assert refused.value.code == "no_focal_length"

@@ -17,7 +17,7 @@ from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
 from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -98,7 +98,7 @@ def test_keypoints_outside_the_image_are_not_seen() -> None:
 
 
 def test_a_body_in_a_layout_that_is_not_known_is_refused() -> None:
-    with pytest.raises(KeypointError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         seen(Person2D(body=np.ones((15, 3))))
     assert caught.value.code == "wrong_layout"
 

@@ -14,7 +14,7 @@ from hypothesis.extra.numpy import arrays
 from scipy.ndimage import minimum_filter
 
 from teo_skeleton_retriever.compat.contour_dilation import ContourDilation
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 images = arrays(
     np.float32,
@@ -92,5 +92,5 @@ def test_an_image_without_depth_stays_without(value: float) -> None:
     ],
 )
 def test_values_that_make_no_filter_are_refused(changes: dict[str, Any]) -> None:
-    with pytest.raises(DepthError):
+    with pytest.raises(RetrieverError):
         ContourDilation(**changes)

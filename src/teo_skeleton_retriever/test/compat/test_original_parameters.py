@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters, original_parameters_from
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 def test_what_is_not_named_has_the_default_of_the_code():
@@ -49,6 +49,6 @@ def test_the_shipped_configuration_can_be_given_by_its_own_names():
     ],
 )
 def test_what_is_no_option_is_refused(code, word):
-    with pytest.raises(ParameterError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         original_parameters_from([word])
     assert refused.value.code == code

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 
 FOCAL = 600.0
 
@@ -126,7 +126,7 @@ def test_an_uncertain_surface_says_so() -> None:
     ],
 )
 def test_values_that_make_no_lookup_are_refused(changes: dict[str, float]) -> None:
-    with pytest.raises(DepthError):
+    with pytest.raises(RetrieverError):
         DepthLookup(**changes)
 
 

@@ -10,7 +10,7 @@ import pytest
 from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.depth.limb_chain import LimbChain
 from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
-from teo_skeleton_retriever.errors import LimbError
+from teo_skeleton_retriever.errors import RetrieverError
 
 FAST = FastLimbSolver()
 CONVERGED = IpoptLimbSolver(CONVERGED_OPTIONS)
@@ -126,6 +126,6 @@ GOOD = LimbChain.original(np.array([[0.0, 0.0, 2.0], [0.2, 0.0, 2.0]]), np.array
 )
 def test_what_makes_no_problem_is_refused(changes: dict[str, np.ndarray], code: str) -> None:
     fields = {name: getattr(GOOD, name) for name in ("rays", "lengths", "start", "lower", "upper")}
-    with pytest.raises(LimbError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         LimbChain(**{**fields, **changes})
     assert caught.value.code == code

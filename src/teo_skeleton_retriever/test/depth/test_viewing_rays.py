@@ -6,7 +6,7 @@ import numpy as np
 from capsule_person import CAMERA
 
 from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.layout import BODY_25
 
@@ -50,7 +50,7 @@ def test_the_top_of_the_head_is_no_nose() -> None:
 def test_a_body_of_another_layout_is_refused() -> None:
     try:
         as_body_25(np.zeros((17, 3)))
-    except KeypointError as error:
+    except RetrieverError as error:
         assert error.code == "wrong_layout"
     else:
-        raise AssertionError("expected a KeypointError")
+        raise AssertionError("expected a RetrieverError")

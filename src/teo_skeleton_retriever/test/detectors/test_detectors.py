@@ -13,7 +13,7 @@ from openpose_writer import frame_path, write_frame
 
 from teo_skeleton_retriever.detectors import DETECTORS, Detector, make_detector
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 IMAGE = np.zeros((48, 64, 3), np.uint8)
@@ -30,20 +30,20 @@ def detector(request: pytest.FixtureRequest, tmp_path: Path) -> Detector:
 
 
 def code_of(call: Any, *arguments: Any, **options: Any) -> str:
-    with pytest.raises(DetectorError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         call(*arguments, **options)
     assert caught.value.sentence
     return caught.value.code
 
 
 def test_unknown_name_is_answered_with_the_known_ones() -> None:
-    with pytest.raises(DetectorError, match="mediapipe, openpose_json, openpose_onnx, replay") as caught:
+    with pytest.raises(RetrieverError, match="mediapipe, openpose_json, openpose_onnx, replay") as caught:
         make_detector("yolo")
     assert caught.value.code == "unknown_detector"
 
 
 def test_unknown_or_missing_option_is_answered_with_the_known_ones() -> None:
-    with pytest.raises(DetectorError, match="min_tracking_confidence") as caught:
+    with pytest.raises(RetrieverError, match="min_tracking_confidence") as caught:
         make_detector("mediapipe", complexity=2)
     assert caught.value.code == "bad_option"
     assert code_of(make_detector, "openpose_json") == "bad_option"

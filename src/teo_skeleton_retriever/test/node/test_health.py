@@ -7,7 +7,7 @@ import math
 import pytest
 
 from teo_common.diagnostics import Level
-from teo_skeleton_retriever.errors import DepthError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.node.health import Problem, assess
 from teo_skeleton_retriever.node.stream_stats import Result, StreamStats
 
@@ -77,7 +77,7 @@ def test_people_whom_the_detector_has_no_place_for_are_told():
 
 def test_a_problem_is_told_before_anything_else_and_a_fault_of_its_own_is_an_error():
     report = streaming(10.0).report(10.0)
-    told = assess(report, TOPICS, Problem.of(DepthError("wrong_length", "expected more")))
+    told = assess(report, TOPICS, Problem.of(RetrieverError("wrong_length", "expected more")))
     assert (told.level, told.message) == (Level.WARN, "wrong_length: expected more")
     assert assess(report, TOPICS, Problem.of(ZeroDivisionError("x"))).level is Level.ERROR
 

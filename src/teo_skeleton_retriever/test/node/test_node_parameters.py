@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
 
 
@@ -33,6 +33,6 @@ def test_defaults_are_within_their_ranges() -> None:
     ],
 )
 def test_what_is_no_value_of_a_parameter_is_refused(changes: dict[str, object], code: str) -> None:
-    with pytest.raises(ParameterError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         RetrieverParameters(**changes)  # type: ignore[arg-type]
     assert caught.value.code == code

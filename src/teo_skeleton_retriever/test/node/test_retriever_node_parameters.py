@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from rclpy.parameter import Parameter
 
-from teo_skeleton_retriever.errors import ParameterError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.node.node_parameters import PARAMETERS
 from teo_skeleton_retriever.node.retriever_node import RetrieverNode
 
@@ -54,6 +54,6 @@ def test_every_parameter_has_a_description_and_a_range_and_wrong_values_are_refu
     ],
 )
 def test_a_wrong_parameter_stops_the_start_with_its_reason(context, name, value, code):
-    with pytest.raises(ParameterError) as refused:
+    with pytest.raises(RetrieverError) as refused:
         RetrieverNode(context=context, parameter_overrides=[Parameter(name, value=value)])
     assert refused.value.code == code

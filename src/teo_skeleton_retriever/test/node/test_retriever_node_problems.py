@@ -13,7 +13,7 @@ import pytest
 from node_bench import NodeBench
 from sensor_msgs.msg import Image
 
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 
@@ -154,7 +154,7 @@ def test_a_detector_that_fails_is_told_and_tried_again(context):
         name = "failing"
         images_at_once = 1
         errors = iter(
-            [DetectorError("bad_day", "expected a good day")] * 3 + [ZeroDivisionError("on purpose")] * 3
+            [RetrieverError("bad_day", "expected a good day")] * 3 + [ZeroDivisionError("on purpose")] * 3
         )
 
         def detect(self, image: np.ndarray, stamp: float) -> tuple[Person2D, ...]:

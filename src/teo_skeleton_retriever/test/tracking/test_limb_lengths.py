@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.compat.original_track import OriginalLimbLength
-from teo_skeleton_retriever.errors import LimbError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.tracking.body_size import LimbLength, LimbLengthSettings
 
 NEAR = np.array([0.1, 0.2, 1.8])
@@ -106,5 +106,5 @@ def test_too_long_is_measured_against_the_estimate() -> None:
     [{"min_samples": 0}, {"window": 5}, {"shortest": 0.7}, {"tolerance": 1.0}, {"longest": math.nan}],
 )
 def test_settings_that_make_no_estimate_are_refused(changes: dict[str, float]) -> None:
-    with pytest.raises(LimbError):
+    with pytest.raises(RetrieverError):
         LimbLengthSettings(**changes)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.errors import TrackingError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings
 
 RATE = 30.0  # [1/s]
@@ -144,7 +144,7 @@ def test_of_several_places_where_a_person_may_be_that_where_they_are_expected_is
 
 @pytest.mark.parametrize("time", [math.nan, math.inf])
 def test_a_time_that_is_none_is_refused(time: float) -> None:
-    with pytest.raises(TrackingError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         PersonTracker().step(time, [])
     assert caught.value.code == "bad_time"
 
@@ -153,5 +153,5 @@ def test_a_time_that_is_none_is_refused(time: float) -> None:
     "changes", [{"gate": 0.0}, {"memory": math.nan}, {"max_gate": 0.1}, {"newcomer_images": 0}]
 )
 def test_settings_that_follow_nobody_are_refused(changes: dict[str, float]) -> None:
-    with pytest.raises(TrackingError):
+    with pytest.raises(RetrieverError):
         TrackerSettings(**changes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.errors import TrackingError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
 
 FAR_AHEAD = np.array([0.0, 0.0, 2.5])
@@ -67,5 +67,5 @@ def test_time_set_back_does_not_end_the_waiting_at_once() -> None:
 
 @pytest.mark.parametrize("arguments", [{"rule": "loudest"}, {"patience": -1.0}])
 def test_a_choice_that_makes_no_sense_is_refused(arguments: dict[str, object]) -> None:
-    with pytest.raises(TrackingError):
+    with pytest.raises(RetrieverError):
         SignerChoice(**arguments)

@@ -19,7 +19,7 @@ import pytest
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.mediapipe.hand_sides import without_doubles
 from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import MediaPipeDetector
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_synthetic_signer import SyntheticFrame, render_take
@@ -118,7 +118,7 @@ def test_the_small_network_finds_the_hands_nearly_as_well(
     detector.close()
     assert np.mean(errors) < 0.02
     assert min(differences) > 0.0  # it is another network
-    with pytest.raises(DetectorError, match="full"):
+    with pytest.raises(RetrieverError, match="full"):
         MediaPipeDetector(hands="tiny")
 
 
@@ -222,7 +222,7 @@ def test_a_graph_that_failed_fails_one_image_only(
     assert detector._follower is not None
     for graph in (*detector._follower._followed, *detector._follower._spare):
         graph._graph.close()
-    with pytest.raises(DetectorError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         detector.detect(frames[0].color, 0.0)
     assert caught.value.code == "failed"
     assert len(detector.detect(frames[0].color, 0.1)) == 1
@@ -243,7 +243,7 @@ def test_closing_waits_for_the_image_at_hand_and_refuses_the_next(frames: list[S
         assert begun.wait(60.0)
         detector.close()
         error = running.exception(timeout=60.0)
-    assert isinstance(error, DetectorError)
+    assert isinstance(error, RetrieverError)
     assert error.code == "closed"
     assert {len(people) for people in found} == {1}
 

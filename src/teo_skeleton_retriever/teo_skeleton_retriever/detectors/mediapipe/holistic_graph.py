@@ -30,7 +30,7 @@ from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import (
 )
 from teo_skeleton_retriever.detectors.mediapipe.resting_hands import HANDS, RestingHands
 from teo_skeleton_retriever.detectors.mediapipe.silence import silenced
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 _LEFT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_1__handlandmarkcpu__"
 _RIGHT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_2__handlandmarkcpu__"
@@ -175,12 +175,12 @@ class HolisticGraph:
             What `finish` wants.
 
         Raises:
-            DetectorError: The graph failed and cannot be used any more.
+            RetrieverError: The graph failed and cannot be used any more.
         """
         frame = packet_creator.create_image_frame(np.ascontiguousarray(image), image_format=ImageFormat.SRGB)
         with self._input_lock:
             if self._closed:
-                raise DetectorError("closed", "the detector was closed before it came to this image")
+                raise RetrieverError("closed", "the detector was closed before it came to this image")
             self._time_us += _FRAME_US
             height, width = image.shape[:2]
             pending = self._results.expect(self._time_us, width, height)
@@ -195,18 +195,18 @@ class HolisticGraph:
                 self._graph.add_packet_to_input_stream(PERSON, place)
                 self._graph.add_packet_to_input_stream("image", frame.at(self._time_us))
             except (RuntimeError, ValueError) as error:
-                raise DetectorError("failed", f"MediaPipe refused an image: {error}") from error
+                raise RetrieverError("failed", f"MediaPipe refused an image: {error}") from error
         return pending
 
     def finish(self, pending: Pending) -> HolisticLandmarks:
         """Wait for what is found in an image.
 
         Raises:
-            DetectorError: The graph failed and cannot be used any more.
+            RetrieverError: The graph failed and cannot be used any more.
         """
         while not pending.done.wait(_PATIENCE_S):
             if self._graph.has_error():
-                raise DetectorError("failed", "MediaPipe's graph stopped with an error")
+                raise RetrieverError("failed", "MediaPipe's graph stopped with an error")
         landmarks = _landmarks(pending.packets)
         found = {hand: getattr(landmarks, hand) is not None for hand in HANDS}
         self._resting_hands.saw(landmarks.pose, found, width=pending.width, height=pending.height)

@@ -17,7 +17,7 @@ from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGr
 from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import person_from_holistic
 from teo_skeleton_retriever.detectors.mediapipe.people_follower import PeopleFollower
 from teo_skeleton_retriever.detectors.mediapipe.people_graph import PeopleGraph
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 HAND_NETWORKS = ("full", "lite")
@@ -45,7 +45,7 @@ class MediaPipeDetector:
         people: Most people who are followed at once; each takes as long as the first.
 
     Raises:
-        DetectorError: An option is outside its range.
+        RetrieverError: An option is outside its range.
     """
 
     name = "mediapipe"
@@ -60,9 +60,9 @@ class MediaPipeDetector:
         people: int = 4,
     ) -> None:
         if hands not in HAND_NETWORKS:
-            raise DetectorError("bad_option", f"hands: expected one of {HAND_NETWORKS}, got {hands!r}")
+            raise RetrieverError("bad_option", f"hands: expected one of {HAND_NETWORKS}, got {hands!r}")
         if not (isinstance(people, int) and 1 <= people <= MOST_PEOPLE):
-            raise DetectorError("bad_option", f"people: expected 1 to {MOST_PEOPLE}, got {people!r}")
+            raise RetrieverError("bad_option", f"people: expected 1 to {MOST_PEOPLE}, got {people!r}")
         self._make_graph = partial(
             HolisticGraph,
             min_tracking_confidence=_in_unit_range("min_tracking_confidence", min_tracking_confidence),
@@ -83,11 +83,11 @@ class MediaPipeDetector:
         """
         follower = self._follower
         if follower is None:
-            raise DetectorError("closed", "expected an open detector, got one that was closed")
+            raise RetrieverError("closed", "expected an open detector, got one that was closed")
         check_image(image, stamp)
         try:
             found = follower.follow(image)
-        except DetectorError:
+        except RetrieverError:
             if self._follower is follower:  # a graph that failed once refuses everything after
                 self._follower = self._make_follower()
             raise
@@ -112,7 +112,7 @@ class MediaPipeDetector:
 
 def _in_unit_range(name: str, value: float) -> float:
     if not (isinstance(value, int | float) and math.isfinite(value) and 0.0 <= value <= 1.0):
-        raise DetectorError("bad_option", f"{name}: expected a number in [0, 1], got {value!r}")
+        raise RetrieverError("bad_option", f"{name}: expected a number in [0, 1], got {value!r}")
     return float(value)
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import midpoint
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
@@ -95,7 +95,7 @@ def person_from_holistic(
         face_confidence: Likewise for the face.
 
     Raises:
-        KeypointError: A shape is another, or a number is not finite, or a visibility is outside [0, 1]
+        RetrieverError: A shape is another, or a number is not finite, or a visibility is outside [0, 1]
             (MediaPipe's own test data holds logits).
     """
     size = np.array([width, height], dtype=np.float64)
@@ -116,14 +116,14 @@ def _checked(
         return None
     array = np.asarray(landmarks, dtype=np.float64)
     if array.ndim != 2 or len(array) not in counts or array.shape[1] != columns:
-        raise KeypointError(
+        raise RetrieverError(
             "wrong_shape",
             f"{name}: expected {' or '.join(map(str, counts))} rows of {columns}, got shape {array.shape}",
         )
     if not np.isfinite(array).all():
-        raise KeypointError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
+        raise RetrieverError("not_finite", f"{name}: expected finite numbers, got NaN or infinity")
     if columns == 3 and not ((array[:, 2] >= 0.0) & (array[:, 2] <= 1.0)).all():
-        raise KeypointError(
+        raise RetrieverError(
             "bad_visibility", f"{name}: expected visibilities in [0, 1]; logits want a sigmoid"
         )
     return array

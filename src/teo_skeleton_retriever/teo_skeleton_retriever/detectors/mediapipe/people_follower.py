@@ -13,7 +13,7 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticGraph, HolisticLandmarks
 from teo_skeleton_retriever.detectors.mediapipe.people_graph import VIEWS, PeopleGraph, Sighting
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # [images] between glances, each at another part: all of the image in half a second at 30 Hz, in which nobody
 # walks in and signs.
@@ -69,11 +69,11 @@ class PeopleFollower:
             image: RGB. Shape (height, width, 3).
 
         Raises:
-            DetectorError: A graph failed; none can be used any more.
+            RetrieverError: A graph failed; none can be used any more.
         """
         with self._order:
             if self._closed:
-                raise DetectorError("closed", "the detector was closed before it came to this image")
+                raise RetrieverError("closed", "the detector was closed before it came to this image")
             glance, rest = divmod(self._images, LOOK_EVERY)
             views: tuple[str, ...] = (VIEWS[glance % len(VIEWS)],) if rest == 0 else ()
             self._images += 1
@@ -129,7 +129,7 @@ class PeopleFollower:
         """Choose who is to follow: the graph that did in an image worked on meanwhile, or a spare one."""
         with self._order:
             if self._closed:
-                raise DetectorError("closed", "the detector was closed before it came to this image")
+                raise RetrieverError("closed", "the detector was closed before it came to this image")
             for graph, pose in self._followed.items():
                 if graph not in seen and sighting.is_of(pose, width=width, height=height):
                     return graph

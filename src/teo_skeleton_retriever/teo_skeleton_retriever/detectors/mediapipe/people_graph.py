@@ -17,7 +17,7 @@ from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import (
     people_configuration,
 )
 from teo_skeleton_retriever.detectors.mediapipe.silence import silenced
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 _NOSE = 0  # among the pose's landmarks
 # [sides of the region] from the middle of the face within which the nose of the same person is: the region
@@ -75,7 +75,7 @@ class PeopleGraph:
             view: Of `VIEWS`, where to look.
 
         Raises:
-            DetectorError: The graph failed and cannot be used any more.
+            RetrieverError: The graph failed and cannot be used any more.
         """
         height, width = image.shape[:2]
         start, end = {"whole": (0, width), "left": (0, height), "right": (width - height, width)}[view]
@@ -89,7 +89,7 @@ class PeopleGraph:
             self._graph.add_packet_to_input_stream("image", frame.at(self._time_us))
             self._graph.wait_until_idle()
         except (RuntimeError, ValueError) as error:
-            raise DetectorError("failed", f"MediaPipe refused an image: {error}") from error
+            raise RetrieverError("failed", f"MediaPipe refused an image: {error}") from error
         detections, regions = (
             packet_getter.get_proto_list(self._found[stream]) if stream in self._found else []
             for stream in PEOPLE_STREAMS

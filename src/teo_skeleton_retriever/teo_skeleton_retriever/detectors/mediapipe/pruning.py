@@ -15,7 +15,7 @@ from typing import Any
 import flatbuffers
 from mediapipe.tasks.metadata import schema_py_generated as schema
 
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 
 def only_for(configuration: Any, streams: Iterable[str]) -> Any:
@@ -31,7 +31,7 @@ def only_for(configuration: Any, streams: Iterable[str]) -> Any:
         A new one, with the nodes in their order and without outputs: its streams are to be observed.
 
     Raises:
-        DetectorError: Nothing gives one of the streams.
+        RetrieverError: Nothing gives one of the streams.
     """
     wanted = set(streams)
     needed: set[int] = set()
@@ -49,7 +49,7 @@ def only_for(configuration: Any, streams: Iterable[str]) -> Any:
         node = configuration.node[i]
         given |= _names(node.output_stream, node.output_side_packet)
     if missing := wanted - given:
-        raise DetectorError(
+        raise RetrieverError(
             "bad_graph", f"expected a graph that gives {sorted(missing)}, got one that does not"
         )
     pruned = type(configuration)()
@@ -82,17 +82,17 @@ def without_output(network: bytes, shape: tuple[int, ...]) -> bytes:
         The same, with the other outputs in their order.
 
     Raises:
-        DetectorError: It is no such file, or not exactly one of its outputs has this shape.
+        RetrieverError: It is no such file, or not exactly one of its outputs has this shape.
     """
     if network[4:8] != _IDENTIFIER:
-        raise DetectorError(
+        raise RetrieverError(
             "bad_network", f"expected a TensorFlow Lite file, got one that begins with {network[:8]!r}"
         )
     model = schema.ModelT.InitFromObj(schema.Model.GetRootAs(network, 0))
     (graph,) = model.subgraphs
     shapes = {output: tuple(int(n) for n in graph.tensors[output].shape) for output in graph.outputs}
     if list(shapes.values()).count(shape) != 1:
-        raise DetectorError(
+        raise RetrieverError(
             "bad_network", f"expected one output of shape {shape}, got outputs of {list(shapes.values())}"
         )
     graph.outputs = [output for output in graph.outputs if shapes[output] != shape]

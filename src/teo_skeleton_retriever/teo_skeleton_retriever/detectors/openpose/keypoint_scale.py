@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -31,21 +31,21 @@ class KeypointScale:
             (`--output_resolution`); the image was fitted into it.
 
     Raises:
-        DetectorError: No such scale, or a resolution is missing, superfluous or none.
+        RetrieverError: No such scale, or a resolution is missing, superfluous or none.
     """
 
     def __init__(self, keypoint_scale: int, resolution: Sequence[int] | None) -> None:
         if keypoint_scale not in range(5):
-            raise DetectorError("bad_scale", f"expected a keypoint_scale of 0 to 4, got {keypoint_scale!r}")
+            raise RetrieverError("bad_scale", f"expected a keypoint_scale of 0 to 4, got {keypoint_scale!r}")
         fitted = keypoint_scale in (NET, OUTPUT)
         if fitted and (resolution is None or len(resolution) != 2 or min(resolution) < 2):
-            raise DetectorError(
+            raise RetrieverError(
                 "bad_resolution",
                 f"keypoint_scale {keypoint_scale}: expected the resolution (width, height) [px] that "
                 f"keypoints are in, got {resolution!r}",
             )
         if not fitted and resolution is not None:
-            raise DetectorError(
+            raise RetrieverError(
                 "bad_resolution", f"keypoint_scale {keypoint_scale}: expected no resolution, got {resolution}"
             )
         self._kind = keypoint_scale

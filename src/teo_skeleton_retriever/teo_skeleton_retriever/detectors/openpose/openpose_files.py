@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray, frozen
-from teo_skeleton_retriever.errors import KeypointError, OpenPoseFormatError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import UNKNOWN_ID, Person2D
 
 # The version that is written.
@@ -74,18 +74,18 @@ def read_frame(path: Path) -> OpenPoseFrame:
     """Read one file.
 
     Raises:
-        OpenPoseFormatError: The file is missing, too large, no JSON or not OpenPose's; the sentence names it.
+        RetrieverError: The file is missing, too large, no JSON or not OpenPose's; the sentence names it.
     """
     try:
         size = path.stat().st_size
         if size > MAX_FILE_BYTES:
-            raise OpenPoseFormatError(
+            raise RetrieverError(
                 "too_large",
                 f"{path}: expected at most {MAX_FILE_BYTES} bytes, got {size}; is it a keypoint file?",
             )
         content = path.read_bytes()
     except OSError as error:
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "unreadable", f"{path}: expected a readable file, got: {error.strerror}"
         ) from error
     return parse_frame(content, source=str(path))
@@ -99,25 +99,25 @@ def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> OpenP
         source: What errors call it.
 
     Raises:
-        OpenPoseFormatError: The code says what is wrong, the sentence where.
+        RetrieverError: The code says what is wrong, the sentence where.
     """
     try:
         text = content if isinstance(content, str) else content.decode("utf-8-sig")
         data = json.loads(text)
     except UnicodeDecodeError as error:
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "not_text", f"{source}: expected UTF-8 text, got byte {error.start} of none"
         ) from error
     except (json.JSONDecodeError, RecursionError, ValueError) as error:
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "not_json",
             f"{source}: expected JSON, got: {error}; an empty or cut file is one still being written",
         ) from error
     if not isinstance(data, dict):
-        raise OpenPoseFormatError("not_an_object", f"{source}: expected an object, got {_kind(data)}")
+        raise RetrieverError("not_an_object", f"{source}: expected an object, got {_kind(data)}")
     people = data.get("people")
     if not isinstance(people, list):
-        raise OpenPoseFormatError("no_people", f"{source}: expected a list 'people', got {_kind(people)}")
+        raise RetrieverError("no_people", f"{source}: expected a list 'people', got {_kind(people)}")
     return OpenPoseFrame(
         tuple(_person(person, f"{source}: people[{i}]") for i, person in enumerate(people)),
         _candidates(data.get("part_candidates", []), source),
@@ -127,7 +127,7 @@ def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> OpenP
 
 def _version(value: object, source: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or float(value) not in VERSIONS:
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "unknown_version", f"{source}: expected 'version' among {VERSIONS}, got {value!r:.40}"
         )
     return float(value)
@@ -135,12 +135,13 @@ def _version(value: object, source: str) -> float:
 
 def _person(data: object, source: str) -> Person2D:
     if not isinstance(data, dict):
-        raise OpenPoseFormatError("not_a_person", f"{source}: expected an object, got {_kind(data)}")
+        raise RetrieverError("not_a_person", f"{source}: expected an object, got {_kind(data)}")
     parts = {part.attribute: _part(data, part, source) for part in PARTS}
+    person_id = _person_id(data.get("person_id", [UNKNOWN_ID]), source)
     try:
-        return Person2D(**parts, person_id=_person_id(data.get("person_id", [UNKNOWN_ID]), source))
-    except KeypointError as error:
-        raise OpenPoseFormatError(error.code, f"{source}: {error.sentence}") from error
+        return Person2D(**parts, person_id=person_id)
+    except RetrieverError as error:
+        raise RetrieverError(error.code, f"{source}: {error.sentence}") from error
 
 
 def _part(person: Mapping[str, object], part: PartKeys, source: str) -> FloatArray:
@@ -154,7 +155,7 @@ def _person_id(value: object, source: str) -> int:
     # OpenPose writes a list of one; some tools that imitate it write the number.
     number = value[0] if isinstance(value, list) and len(value) == 1 else value
     if isinstance(number, bool) or not isinstance(number, int):
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "bad_person_id", f"{source}.person_id: expected a list of one whole number, got {value!r:.40}"
         )
     return number
@@ -162,14 +163,14 @@ def _person_id(value: object, source: str) -> int:
 
 def _candidates(value: object, source: str) -> dict[int, FloatArray]:
     if not isinstance(value, list) or not all(isinstance(entry, dict) for entry in value):
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "bad_candidates", f"{source}.part_candidates: expected a list of objects, got {_kind(value)}"
         )
     found: dict[int, FloatArray] = {}
     for entry in value:
         for key, numbers in entry.items():
             if not (key.isascii() and key.isdigit()):
-                raise OpenPoseFormatError(
+                raise RetrieverError(
                     "bad_candidates",
                     f"{source}.part_candidates: expected indices of body parts, got {key!r:.40}",
                 )
@@ -179,21 +180,19 @@ def _candidates(value: object, source: str) -> dict[int, FloatArray]:
 
 def _table(value: object, columns: int, source: str) -> FloatArray:
     if not isinstance(value, list):
-        raise OpenPoseFormatError("not_a_list", f"{source}: expected a list of numbers, got {_kind(value)}")
+        raise RetrieverError("not_a_list", f"{source}: expected a list of numbers, got {_kind(value)}")
     if not all(isinstance(number, int | float) and not isinstance(number, bool) for number in value):
-        raise OpenPoseFormatError("not_numbers", f"{source}: expected numbers only")
+        raise RetrieverError("not_numbers", f"{source}: expected numbers only")
     if len(value) % columns:
-        raise OpenPoseFormatError(
+        raise RetrieverError(
             "wrong_length", f"{source}: expected {columns} numbers per keypoint, got {len(value)} in all"
         )
     try:
         table = np.array(value, dtype=np.float64).reshape(-1, columns)
     except OverflowError as error:
-        raise OpenPoseFormatError(
-            "not_finite", f"{source}: expected finite numbers, got a huge one"
-        ) from error
+        raise RetrieverError("not_finite", f"{source}: expected finite numbers, got a huge one") from error
     if not np.isfinite(table).all():
-        raise OpenPoseFormatError("not_finite", f"{source}: expected finite numbers, got NaN or infinity")
+        raise RetrieverError("not_finite", f"{source}: expected finite numbers, got NaN or infinity")
     return frozen(table)
 
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, read_frame
-from teo_skeleton_retriever.errors import DetectorError, OpenPoseFormatError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # The frame's number is what the name ends in: `000000000012_keypoints.json`, `video_12_keypoints.json`.
 _NAME = re.compile(r"(?:^|.*?)(\d+)_keypoints\.json")
@@ -31,7 +31,7 @@ class OpenPoseFolder:
         folder: What `--write_json` was given.
 
     Raises:
-        DetectorError: There is no such folder.
+        RetrieverError: There is no such folder.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -45,7 +45,7 @@ class OpenPoseFolder:
         """Give the files by frame number, whole or not; looks only if the folder has changed.
 
         Raises:
-            DetectorError: The folder is gone or cannot be read, or a name carries no number.
+            RetrieverError: The folder is gone or cannot be read, or a name carries no number.
         """
         try:
             changed_ns = self._folder.stat().st_mtime_ns
@@ -56,7 +56,7 @@ class OpenPoseFolder:
                 # Coarse times: believe them only when they are old.
                 self._scanned_ns = changed_ns if time.time_ns() - changed_ns > _SETTLED_NS else -1
         except OSError as error:
-            raise DetectorError(
+            raise RetrieverError(
                 "no_folder", f"{self._folder}: expected a folder of OpenPose's files, got: {error.strerror}"
             ) from error
         return self._files
@@ -65,26 +65,26 @@ class OpenPoseFolder:
         """Read a file; None if it is not whole yet.
 
         Raises:
-            DetectorError: It is whole and not OpenPose's.
+            RetrieverError: It is whole and not OpenPose's.
         """
         try:
             return read_frame(path)
-        except OpenPoseFormatError as error:
+        except RetrieverError as error:
             if error.code in _HALF_WRITTEN:
                 return None
-            raise DetectorError("bad_file", error.sentence) from error
+            raise RetrieverError("bad_file", error.sentence) from error
 
     def _add(self, name: str) -> None:
         if name in self._names or name.startswith(".") or not name.endswith("_keypoints.json"):
             return
         match = _NAME.fullmatch(name)
         if match is None:
-            raise DetectorError(
+            raise RetrieverError(
                 "no_number", f"{self._folder / name}: expected a name that ends in a frame number"
             )
         number = int(match[1])
         if number in self._files:
-            raise DetectorError(
+            raise RetrieverError(
                 "two_series",
                 f"{self._folder}: expected one file of number {number}, got {self._files[number].name} "
                 f"and {name}; take a folder for each recording",

@@ -14,7 +14,7 @@ from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointSca
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
 from teo_skeleton_retriever.detectors.openpose.openpose_folder import PERIOD, OpenPoseFolder
 from teo_skeleton_retriever.detectors.openpose.stamp_table import StampTable
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 Found = TypeVar("Found")
@@ -44,7 +44,7 @@ class OpenPoseJsonDetector:
         resolution: Likewise.
 
     Raises:
-        DetectorError: No such folder, or options that do not go together.
+        RetrieverError: No such folder, or options that do not go together.
     """
 
     name = "openpose_json"
@@ -62,13 +62,13 @@ class OpenPoseJsonDetector:
     ) -> None:
         pairing = pairing or ("order" if stamps is None else "stamp")
         if pairing not in PAIRINGS or (pairing == "stamp") != (stamps is not None):
-            raise DetectorError(
+            raise RetrieverError(
                 "bad_option",
                 f"expected a pairing of {', '.join(PAIRINGS)}, and stamps for 'stamp' alone, got {pairing!r} "
                 f"{'without' if stamps is None else 'with'} stamps",
             )
         if not 0.0 <= wait < float("inf"):
-            raise DetectorError("bad_option", f"wait: expected a time [s], got {wait}")
+            raise RetrieverError("bad_option", f"wait: expected a time [s], got {wait}")
         self._folder = OpenPoseFolder(Path(folder))
         self._table = None if stamps is None else StampTable(stamps)
         self._scale = KeypointScale(keypoint_scale, resolution)
@@ -83,11 +83,11 @@ class OpenPoseJsonDetector:
         """Give the people of the image; see `Detector.detect`.
 
         Raises:
-            DetectorError: A file did not come or was not whole in time, or is not OpenPose's. The next image
+            RetrieverError: A file did not come or was not whole in time, or is not OpenPose's. The next image
                 is paired with its own file all the same.
         """
         if self._closed:
-            raise DetectorError("closed", "expected an open detector, got one that was closed")
+            raise RetrieverError("closed", "expected an open detector, got one that was closed")
         check_image(image, stamp)
         frame = self._frame(stamp)
         height, width = image.shape[:2]
@@ -109,7 +109,7 @@ class OpenPoseJsonDetector:
         deadline = time.monotonic() + self._wait
         while (found := look()) is None:
             if time.monotonic() >= deadline:
-                raise DetectorError("late", f"expected {what}, whole, within {self._wait} s; got none")
+                raise RetrieverError("late", f"expected {what}, whole, within {self._wait} s; got none")
             time.sleep(PERIOD)
         return found
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
 from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
 from teo_skeleton_retriever.detectors.openpose.stamp_table import StampTable
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -26,7 +26,7 @@ class ReplayDetector:
             files in their order.
 
     Raises:
-        DetectorError: Neither frames nor folder, or both, or what `OpenPoseJsonDetector` raises.
+        RetrieverError: Neither frames nor folder, or both, or what `OpenPoseJsonDetector` raises.
     """
 
     name = "replay"
@@ -40,7 +40,7 @@ class ReplayDetector:
         stamps: Mapping[int, float] | Mapping[str, float] | str | Path | None = None,
     ) -> None:
         if (frames is None) == (folder is None) or (folder is None and stamps is not None):
-            raise DetectorError("bad_option", "expected either frames, or a folder with or without stamps")
+            raise RetrieverError("bad_option", "expected either frames, or a folder with or without stamps")
         self._folder = (
             None if folder is None else OpenPoseJsonDetector(folder=folder, stamps=stamps, wait=0.0)
         )
@@ -56,7 +56,7 @@ class ReplayDetector:
     def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
         """Give the people of that time; see `Detector.detect`."""
         if self._closed:
-            raise DetectorError("closed", "expected an open detector, got one that was closed")
+            raise RetrieverError("closed", "expected an open detector, got one that was closed")
         if self._folder is not None:
             return self._folder.detect(image, stamp)
         check_image(image, stamp)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 # How far a stamp may be off [s]: half the time between two images of a usual camera.
 NEAR = 1.0 / 60.0
@@ -24,14 +24,14 @@ class StampTable:
             without a headline.
 
     Raises:
-        DetectorError: The file cannot be read, or something in it is no number or no time.
+        RetrieverError: The file cannot be read, or something in it is no number or no time.
     """
 
     def __init__(self, stamps: Mapping[int, float] | Mapping[str, float] | str | Path) -> None:
         pairs = stamps.items() if isinstance(stamps, Mapping) else _lines(Path(stamps))
         self._frames = sorted((_stamp(stamp), _number(number)) for number, stamp in pairs)
         if not self._frames:
-            raise DetectorError("no_stamps", "expected at least one frame number with its time, got none")
+            raise RetrieverError("no_stamps", "expected at least one frame number with its time, got none")
 
     def number_at(self, stamp: float) -> int | None:
         """Give the number of the frame taken nearest to a time [s], if it is near."""
@@ -46,12 +46,12 @@ def _lines(path: Path) -> list[tuple[str, str]]:
         with path.open(newline="", encoding="utf-8-sig") as file:
             rows = [row for row in csv.reader(file) if row]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise DetectorError("bad_stamps", f"{path}: expected lines of number,stamp, got: {error}") from error
+        raise RetrieverError("bad_stamps", f"{path}: expected lines of number,stamp, got: {error}") from error
     if rows and not rows[0][0].strip().isdecimal():
         rows = rows[1:]
     for row in rows:
         if len(row) != 2:
-            raise DetectorError("bad_stamps", f"{path}: expected number,stamp, got {','.join(row):.80}")
+            raise RetrieverError("bad_stamps", f"{path}: expected number,stamp, got {','.join(row):.80}")
     return [(row[0], row[1]) for row in rows]
 
 
@@ -61,7 +61,7 @@ def _number(value: object) -> int:
     except ValueError:
         number = -1
     if number < 0:
-        raise DetectorError("bad_stamps", f"expected frame numbers from 0, got {value!r:.40}")
+        raise RetrieverError("bad_stamps", f"expected frame numbers from 0, got {value!r:.40}")
     return number
 
 
@@ -71,5 +71,5 @@ def _stamp(value: object) -> float:
     except ValueError:
         stamp = math.nan
     if not math.isfinite(stamp):
-        raise DetectorError("bad_stamps", f"expected a finite time [s] for each frame, got {value!r:.40}")
+        raise RetrieverError("bad_stamps", f"expected a finite time [s] for each frame, got {value!r:.40}")
     return stamp

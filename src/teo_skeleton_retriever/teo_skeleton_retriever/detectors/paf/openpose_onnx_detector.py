@@ -20,7 +20,7 @@ from teo_skeleton_retriever.detectors.paf.part_affinity import (
     find_peaks,
 )
 from teo_skeleton_retriever.detectors.paf.pose_network import Maps, PoseNetwork
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -45,7 +45,7 @@ class OpenPoseOnnxDetector:
         maximize_positives: Rather see somebody who is not there than miss somebody; as in OpenPose.
 
     Raises:
-        DetectorError: No or no fitting network, or a resolution that is none.
+        RetrieverError: No or no fitting network, or a resolution that is none.
     """
 
     name = "openpose_onnx"
@@ -67,7 +67,7 @@ class OpenPoseOnnxDetector:
     def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
         """Find the people; see `Detector.detect`."""
         if self._network is None:
-            raise DetectorError("closed", "expected an open detector, got one that was closed")
+            raise RetrieverError("closed", "expected an open detector, got one that was closed")
         check_image(image, stamp)
         height, width = image.shape[:2]
         net_width, net_height = self._net_size(width, height)
@@ -87,7 +87,7 @@ class OpenPoseOnnxDetector:
 
     def _net_size(self, width: int, height: int) -> tuple[int, int]:
         if max(width, height) > WIDEST * min(width, height):
-            raise DetectorError(
+            raise RetrieverError(
                 "bad_image",
                 f"expected sides no more than {WIDEST} to 1, got an image of {width} x {height} px",
             )
@@ -110,7 +110,7 @@ def _checked_resolution(resolution: Sequence[int]) -> tuple[int, int]:
         side == FREE or (isinstance(side, int) and side > 0 and side % MULTIPLE == 0) for side in sides
     )
     if not fine or sides == (FREE, FREE):
-        raise DetectorError(
+        raise RetrieverError(
             "bad_resolution",
             f"net_resolution: expected width, height, multiples of {MULTIPLE}, one of them possibly {FREE}, "
             f"got {resolution!r}",

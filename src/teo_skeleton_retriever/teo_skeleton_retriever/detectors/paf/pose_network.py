@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_skeleton_retriever.detectors.detector import ImageArray
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, Layout
 
 IntArray = NDArray[np.intp]
@@ -99,20 +99,22 @@ class PoseNetwork:
         path: Of the ONNX file.
 
     Raises:
-        DetectorError: There is no such file, or OpenCV cannot read it.
+        RetrieverError: There is no such file, or OpenCV cannot read it.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = path
         if not path.is_file():
-            raise DetectorError(
+            raise RetrieverError(
                 "no_model", f"{path}: expected an ONNX file of an OpenPose network; convert or fetch one"
             )
         try:
             self._network = cv2.dnn.readNetFromONNX(str(path))
             self._outputs = self._network.getUnconnectedOutLayersNames()
         except cv2.error as error:
-            raise DetectorError("bad_model", f"{path}: expected a readable ONNX file: {error.err}") from error
+            raise RetrieverError(
+                "bad_model", f"{path}: expected a readable ONNX file: {error.err}"
+            ) from error
 
     def run(self, image: ImageArray) -> Maps:
         """Run it on one image.
@@ -121,7 +123,7 @@ class PoseNetwork:
             image: RGB, in the size that the network is to see. Shape (height, width, 3).
 
         Raises:
-            DetectorError: The network does not take an image of this size, or gives something else.
+            RetrieverError: The network does not take an image of this size, or gives something else.
         """
         blob = cv2.dnn.blobFromImage(image, 1.0 / 256.0, mean=(128.0, 128.0, 128.0), swapRB=True)
         try:
@@ -129,7 +131,7 @@ class PoseNetwork:
             outputs = self._network.forward(self._outputs)
         except cv2.error as error:
             height, width = image.shape[:2]
-            raise DetectorError(
+            raise RetrieverError(
                 "wrong_model",
                 f"{self._path}: expected a network that takes (1, 3, {height}, {width}); if it takes one "
                 f"size only, give that as net_resolution: {error.err}",
@@ -149,7 +151,7 @@ class PoseNetwork:
             f"{model.map_channels} maps and {model.field_channels} field channels ({model.layout.name})"
             for model in PAF_MODELS
         )
-        raise DetectorError(
+        raise RetrieverError(
             "wrong_model",
             f"{self._path}: expected {expected}, in one output or two, in the shape of {size}, got shapes "
             f"{', '.join(str(output.shape) for output in outputs)}",

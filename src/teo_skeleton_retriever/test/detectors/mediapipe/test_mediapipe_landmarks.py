@@ -10,7 +10,7 @@ from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import (
     FACE_70_FROM_MESH,
     person_from_holistic,
 )
-from teo_skeleton_retriever.errors import KeypointError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.body_conversion import body_25_from_coco_18
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_PARTS
 
@@ -90,7 +90,7 @@ def test_pupils_need_the_irises() -> None:
     ],
 )
 def test_landmarks_that_are_not_mediapipes_are_refused(change: dict[str, np.ndarray], code: str) -> None:
-    with pytest.raises(KeypointError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         person_from_holistic(width=10, height=10, **change)
     assert caught.value.code == code
 

@@ -9,7 +9,7 @@ from google.protobuf import text_format
 from mediapipe.framework import calculator_pb2
 
 from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 GRAPH = """
     input_stream: "image"
@@ -61,6 +61,6 @@ def test_the_graph_that_was_given_stays_whole() -> None:
 
 
 def test_a_stream_that_nothing_gives_is_named() -> None:
-    with pytest.raises(DetectorError, match="tail") as caught:
+    with pytest.raises(RetrieverError, match="tail") as caught:
         only_for(graph(), ["face", "tail"])
     assert caught.value.code == "bad_graph"

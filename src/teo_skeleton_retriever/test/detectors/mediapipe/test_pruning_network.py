@@ -11,7 +11,7 @@ import pytest
 from mediapipe.tasks.metadata import schema_py_generated as schema
 
 from teo_skeleton_retriever.detectors.mediapipe.pruning import without_output
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 
 OUTLINE = (1, 256, 256, 1)
 
@@ -50,15 +50,15 @@ def has_data(network: bytes, tensor: int) -> bool:
 
 def test_an_output_that_is_not_there_or_not_the_only_one_is_refused(pose: bytes) -> None:
     for shape in ((1, 2, 3), ()):
-        with pytest.raises(DetectorError, match="195"):
+        with pytest.raises(RetrieverError, match="195"):
             without_output(pose, shape)
     hand = (Path(mediapipe.__file__).parent / "modules/hand_landmark/hand_landmark_full.tflite").read_bytes()
-    with pytest.raises(DetectorError, match="63"):
+    with pytest.raises(RetrieverError, match="63"):
         without_output(hand, (1, 63))  # landmarks in the image and in space
 
 
 @pytest.mark.parametrize("content", [b"", b"TFL3", b"\0" * 100])
 def test_what_is_no_network_is_refused(content: bytes) -> None:
-    with pytest.raises(DetectorError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         without_output(content, OUTLINE)
     assert caught.value.code == "bad_network"

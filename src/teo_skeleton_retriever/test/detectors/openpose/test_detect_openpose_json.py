@@ -18,7 +18,7 @@ from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointSca
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
 from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
 from teo_skeleton_retriever.detectors.openpose.replay_detector import ReplayDetector
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
@@ -42,7 +42,7 @@ def mark_of(people: tuple[Person2D, ...]) -> int | None:
 
 
 def code_of(call: Callable[..., Any], *arguments: Any, **options: Any) -> str:
-    with pytest.raises(DetectorError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         call(*arguments, **options)
     assert caught.value.sentence
     return caught.value.code

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame, parse_frame, read_frame
-from teo_skeleton_retriever.errors import KeypointError, OpenPoseFormatError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 
 # As OpenPose 1.7 writes one person without hands and face.
@@ -45,7 +45,7 @@ def person(**parts: Any) -> str:
 
 
 def code_of(content: bytes | str) -> str:
-    with pytest.raises(OpenPoseFormatError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         parse_frame(content)
     assert caught.value.sentence
     return caught.value.code
@@ -162,12 +162,12 @@ def test_what_openpose_does_not_write_is_refused_with_its_reason(content: str, c
 def test_errors_name_the_file_and_the_place(tmp_path: Path) -> None:
     path = tmp_path / "7_keypoints.json"
     path.write_text(person(face_keypoints_2d=[1, 2]))
-    with pytest.raises(OpenPoseFormatError, match=r"7_keypoints\.json: people\[0\]\.face_keypoints_2d"):
+    with pytest.raises(RetrieverError, match=r"7_keypoints\.json: people\[0\]\.face_keypoints_2d"):
         read_frame(path)
 
 
 def test_a_missing_file_is_said_to_be_unreadable(tmp_path: Path) -> None:
-    with pytest.raises(OpenPoseFormatError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         read_frame(tmp_path / "none.json")
     assert caught.value.code == "unreadable"
 
@@ -181,7 +181,7 @@ def test_a_folder_holds_whole_files_only(tmp_path: Path) -> None:
 
 
 def test_a_person_of_another_shape_cannot_be_made() -> None:
-    with pytest.raises(KeypointError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         Person2D(body=np.zeros((17, 3)))
     assert caught.value.code == "wrong_shape"
 

@@ -17,7 +17,7 @@ from onnx import TensorProto, helper, numpy_helper
 
 from teo_skeleton_retriever.detectors.paf.openpose_onnx_detector import OpenPoseOnnxDetector
 from teo_skeleton_retriever.detectors.paf.pose_network import BODY_25_MODEL, COCO_18_MODEL, PafModel
-from teo_skeleton_retriever.errors import DetectorError
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 
 NET = (320, 240)
@@ -64,7 +64,7 @@ def given_maps(
 
 
 def code_of(call: Callable[..., Any], *arguments: Any, **options: Any) -> str:
-    with pytest.raises(DetectorError) as caught:
+    with pytest.raises(RetrieverError) as caught:
         call(*arguments, **options)
     assert caught.value.sentence
     return caught.value.code
@@ -150,7 +150,7 @@ def test_a_missing_or_broken_file_is_told(tmp_path: Path) -> None:
 def test_a_network_of_another_kind_is_told_with_what_is_expected(tmp_path: Path) -> None:
     rows, columns = NET[1] // STRIDE, NET[0] // STRIDE
     model = save_network(tmp_path / "a.onnx", np.zeros((17, 3)), [np.zeros((17, rows, columns))])
-    with pytest.raises(DetectorError, match="26 maps and 52 field channels") as caught:
+    with pytest.raises(RetrieverError, match="26 maps and 52 field channels") as caught:
         OpenPoseOnnxDetector(model=model, net_resolution=NET)
     assert caught.value.code == "wrong_model"
 
