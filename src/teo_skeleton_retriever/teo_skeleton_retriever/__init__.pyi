@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from .camera.camera_model import CameraModel as CameraModel
 from .camera.rgbd_image import RgbdImage as RgbdImage
-from .detectors.detection_frame import DetectionFrame as DetectionFrame
+from .detectors.detector import DetectionFrame as DetectionFrame
 from .detectors.factory import DETECTORS as DETECTORS
 from .detectors.factory import make_detector as make_detector
 from .errors import RetrieverError as RetrieverError

@@ -13,8 +13,7 @@ from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
 from teo_skeleton_retriever.compat.original_parameters import original_parameters_from
 from teo_skeleton_retriever.detectors import Detector
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
-from teo_skeleton_retriever.detectors.detector import people_left_out
+from teo_skeleton_retriever.detectors.detector import DetectionFrame, people_left_out
 from teo_skeleton_retriever.empty_space import depth_summary
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D

@@ -12,15 +12,14 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray, median
 from teo_skeleton_retriever.depth.body_depth import BodyDepth, BodyDepths, WristView
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup, Surfaces
-from teo_skeleton_retriever.depth.face_depth import face_depths
 from teo_skeleton_retriever.depth.filtered_keypoints import keypoints_of, points_of
 from teo_skeleton_retriever.depth.hand_depth import HandFit, HandView, fit_hands
-from teo_skeleton_retriever.depth.head_depth import EARS, HEAD, HeadDepths, head_depths
+from teo_skeleton_retriever.depth.head_depth import EARS, HEAD, HeadDepths, face_depths, head_depths
 from teo_skeleton_retriever.depth.occluders import occluders
 from teo_skeleton_retriever.depth.shoulder_outline import by_outline
 from teo_skeleton_retriever.depth.skin import BODY_DEPTHS, HAND_DEPTHS
 from teo_skeleton_retriever.depth.viewing_rays import ViewingRays, viewing_rays
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.detectors.mediapipe.calibration import (
     BODY_SHIFTS,
     EAR_BEHIND,
@@ -29,8 +28,7 @@ from teo_skeleton_retriever.detectors.mediapipe.calibration import (
     corrected_hand,
     extra_hand_sigma,
 )
-from teo_skeleton_retriever.layouts.body_conversion import as_body_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 from teo_skeleton_retriever.layouts.person_layout import (
     ACCELERATION,
     ACROSS,

@@ -9,12 +9,16 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray, median
 from teo_skeleton_retriever.depth.depth_lookup import DepthLookup
 from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
-from teo_skeleton_retriever.layouts.body_conversion import as_body_25
-from teo_skeleton_retriever.layouts.body_frame import BodyFrame, body_frame
+from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
+from teo_skeleton_retriever.layouts.skeleton_3d import (
+    BodyFrame,
+    Keypoints3D,
+    KeypointStatus,
+    Skeleton,
+    body_frame,
+)
 from teo_skeleton_retriever.person_estimator import PersonEstimator
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.person_tracker import PersonTracker, TrackerSettings

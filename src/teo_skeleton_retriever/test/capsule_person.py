@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
+from teo_skeleton_retriever.compat.original_skeleton import SKELETON_STD
 
 sys.path.insert(0, str(Path(__file__).parent))  # for helpers that several tests share
 

@@ -10,8 +10,7 @@ import numpy as np
 
 from report import Figure, percentiles
 from teo_skeleton_retriever.compat.limb_ipopt import IpoptLimbSolver
-from teo_skeleton_retriever.depth.limb_chain import LimbChain
-from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 
 LIMBS = 200
 

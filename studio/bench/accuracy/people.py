@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from teo_synthetic_signer.body.body_shapes import BodyShape, Color
-from teo_synthetic_signer.body.phenotype import Phenotype
+from teo_synthetic_signer.body.body_shapes import BodyShape, Color, Phenotype
 
 
 def random_people(count: int, seed: int, name: str) -> dict[str, BodyShape]:

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from teo_skeleton_retriever.bags.bag_reader import Bag
-from teo_skeleton_retriever.camera.color_image import BAYER, DEBAYER
 from teo_skeleton_retriever.camera.image_messages import (
     CAMERA_INFO_TOPIC,
     COLOR_TOPIC,
     DEPTH_TOPIC,
     shows_depth,
 )
+from teo_skeleton_retriever.camera.raw_image import BAYER, DEBAYER
 from teo_skeleton_retriever.errors import RetrieverError, TopicError
 
 _IMAGES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")

@@ -13,9 +13,8 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.camera.color_image import COLOR_ENCODINGS, ColorArray, decode_color
 from teo_skeleton_retriever.camera.compressed_image import decode_compressed_color, decode_compressed_depth
-from teo_skeleton_retriever.camera.depth_image import decode_depth
+from teo_skeleton_retriever.camera.raw_image import COLOR_ENCODINGS, ColorArray, decode_color, decode_depth
 
 COLOR_TOPIC = "camera/color/image_raw"
 DEPTH_TOPIC = "camera/aligned_depth_to_color/image_raw"

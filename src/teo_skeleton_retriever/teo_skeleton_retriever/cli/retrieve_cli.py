@@ -17,8 +17,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from teo_skeleton_retriever.bags.bag_images import BagImage
-from teo_skeleton_retriever.camera.image_files import read_rgbd_image
-from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
+from teo_skeleton_retriever.camera.rgbd_image import RgbdImage, read_rgbd_image
 from teo_skeleton_retriever.camera.synchroniser import DEFAULT_SLOP, GREATEST_SLOP
 from teo_skeleton_retriever.detectors import DETECTORS, make_detector
 from teo_skeleton_retriever.empty_space import nobody_in_space

@@ -13,12 +13,10 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
-from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
-from teo_skeleton_retriever.compat.skeleton_std import FROM_BODY_25, SKELETON_STD
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
-from teo_skeleton_retriever.layouts.body_frame import body_frame
+from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD, OriginalSkeleton
+from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 from teo_skeleton_retriever.tracking.signer_choice import SignerChoice
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from teo_skeleton_retriever.depth.limb_chain import LimbChain, LimbSolution
+from teo_skeleton_retriever.depth.limb_solver import LimbChain, LimbSolution
 
 # Fixed in the original's code. With the tolerance on an objective in m^4 it stops some millimetres before the
 # minimum.

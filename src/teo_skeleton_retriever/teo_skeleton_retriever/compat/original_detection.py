@@ -9,12 +9,16 @@ import numpy as np
 from teo_skeleton_retriever.arrays import DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
-from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton
-from teo_skeleton_retriever.compat.skeleton_std import FALLBACKS, FROM_BODY_25, MIDPOINTS, SKELETON_STD
+from teo_skeleton_retriever.compat.original_skeleton import (
+    FALLBACKS,
+    FROM_BODY_25,
+    MIDPOINTS,
+    SKELETON_STD,
+    OriginalSkeleton,
+)
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.body_conversion import body_25_from_coco_18
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D, body_25_from_coco_18
 
 
 def detect(

@@ -12,9 +12,15 @@ import numpy as np
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
-from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton, body_planes
-from teo_skeleton_retriever.compat.skeleton_std import CHAINS, LIMBS, PARENTS, SKELETON_STD
-from teo_skeleton_retriever.depth.limb_chain import LimbChain, LimbSolution
+from teo_skeleton_retriever.compat.original_skeleton import (
+    CHAINS,
+    LIMBS,
+    PARENTS,
+    SKELETON_STD,
+    OriginalSkeleton,
+    body_planes,
+)
+from teo_skeleton_retriever.depth.limb_solver import LimbChain, LimbSolution
 
 
 class OriginalMedian:

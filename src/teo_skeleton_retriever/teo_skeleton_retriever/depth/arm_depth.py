@@ -17,8 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
-from teo_skeleton_retriever.depth.limb_chain import LimbChain
-from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 
 # [rad] How far an elbow bends, from straight. Source: AAOS, "Joint Motion: Method of Measuring and Recording"
 # (1965).

@@ -46,8 +46,7 @@ from teo_skeleton_retriever.image_retriever import (
     Retrieved,
     make_retriever,
 )
-from teo_skeleton_retriever.node.health import Problem
-from teo_skeleton_retriever.node.image_diagnostics import ImageDiagnostics
+from teo_skeleton_retriever.node.health import ImageDiagnostics, Problem
 from teo_skeleton_retriever.node.image_subscription import ImageSubscription
 from teo_skeleton_retriever.node.latest_frame_pipeline import LatestFramePipeline, tune_interpreter
 from teo_skeleton_retriever.node.node_parameters import (

@@ -16,10 +16,9 @@ from std_msgs.msg import Header
 from teo_sign_msgs.msg import Keypoint3D, Skeleton3D, SkeletonArray
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.camera.color_image import ColorArray
-from teo_skeleton_retriever.layouts.body_frame import BodyFrame
+from teo_skeleton_retriever.camera.raw_image import ColorArray
 from teo_skeleton_retriever.layouts.layout import Layout
-from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, Skeleton
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, BodyFrame, Keypoints3D, Skeleton
 
 
 def skeleton_array(skeletons: Sequence[Skeleton], header: Header) -> SkeletonArray:

@@ -12,7 +12,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.camera.color_image import ColorArray
+from teo_skeleton_retriever.camera.raw_image import ColorArray
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
 from teo_skeleton_retriever.image_retriever import Retrieved
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout

@@ -13,7 +13,7 @@ from typing import Any
 import av
 import cv2
 
-from teo_skeleton_retriever.camera.color_image import ColorArray
+from teo_skeleton_retriever.camera.raw_image import ColorArray
 from teo_skeleton_retriever.output.output_file import output_file
 
 _TICKS = 1000  # in a second: a film's times are whole milliseconds

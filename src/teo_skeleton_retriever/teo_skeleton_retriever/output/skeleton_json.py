@@ -8,9 +8,14 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from teo_skeleton_retriever.layouts.body_frame import BodyFrame
 from teo_skeleton_retriever.layouts.layout import Layout
-from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.layouts.skeleton_3d import (
+    SKELETON_PARTS,
+    BodyFrame,
+    Keypoints3D,
+    KeypointStatus,
+    Skeleton,
+)
 
 _DIGITS = 5  # of metres, hundredths of a millimetre
 

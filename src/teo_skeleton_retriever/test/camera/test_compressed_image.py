@@ -12,8 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from teo_skeleton_retriever.camera.compressed_image import decode_compressed_color, decode_compressed_depth
-from teo_skeleton_retriever.camera.rvl import decode_rvl
+from teo_skeleton_retriever.camera.compressed_image import (
+    decode_compressed_color,
+    decode_compressed_depth,
+    decode_rvl,
+)
 from teo_skeleton_retriever.errors import RetrieverError
 
 HEADER = struct.pack("<iff", 0, 0.0, 0.0)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import KeypointStatus

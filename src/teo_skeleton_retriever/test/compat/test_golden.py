@@ -28,11 +28,9 @@ import pytest
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
 from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
-from teo_skeleton_retriever.compat.original_skeleton import OriginalSkeleton, body_planes
+from teo_skeleton_retriever.compat.original_skeleton import SKELETON_STD, OriginalSkeleton, body_planes
 from teo_skeleton_retriever.compat.original_track import OriginalTrack
-from teo_skeleton_retriever.compat.skeleton_std import SKELETON_STD
-from teo_skeleton_retriever.depth.limb_chain import LimbChain
-from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 
 INDEX = SKELETON_STD.index
 CAMERA = CameraModel.from_field_of_view(

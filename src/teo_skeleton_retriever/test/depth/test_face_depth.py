@@ -8,7 +8,7 @@ import numpy as np
 from capsule_person import face, pose
 
 from teo_skeleton_retriever.depth.depth_lookup import Surfaces
-from teo_skeleton_retriever.depth.face_depth import FaceDepths, face_depths
+from teo_skeleton_retriever.depth.head_depth import FaceDepths, face_depths
 
 FACE = face(pose((-0.2, 0.3, -0.1), (0.2, 0.3, -0.1)))
 DEPTHS = FACE[:, 2]

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.compat.limb_ipopt import CONVERGED_OPTIONS, IpoptLimbSolver
-from teo_skeleton_retriever.depth.limb_chain import LimbChain
-from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver
+from teo_skeleton_retriever.depth.limb_solver import FastLimbSolver, LimbChain
 from teo_skeleton_retriever.errors import RetrieverError
 
 FAST = FastLimbSolver()

@@ -7,8 +7,8 @@ from capsule_person import CAMERA
 
 from teo_skeleton_retriever.depth.viewing_rays import viewing_rays
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.body_conversion import as_body_25
 from teo_skeleton_retriever.layouts.layout import BODY_25
+from teo_skeleton_retriever.layouts.person_2d import as_body_25
 
 
 def test_keypoints_that_are_unsure_absent_or_outside_the_image_are_not_seen() -> None:

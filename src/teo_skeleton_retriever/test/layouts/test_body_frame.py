@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from teo_skeleton_retriever.compat.original_skeleton import body_planes
-from teo_skeleton_retriever.layouts.body_frame import BodyFrame, body_frame
+from teo_skeleton_retriever.layouts.skeleton_3d import BodyFrame, body_frame
 
 # Someone who faces the camera, upright, at 2 m, in its optical frame: x right, y down, z away.
 FACING = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_skeleton_retriever.compat.skeleton_std import (
+from teo_skeleton_retriever.compat.original_skeleton import (
     CHAINS,
     FALLBACKS,
     FROM_BODY_25,

@@ -10,8 +10,7 @@ from scipy.spatial.transform import Rotation
 from std_msgs.msg import Header
 from teo_sign_msgs.msg import Skeleton3D
 
-from teo_skeleton_retriever.layouts.body_frame import BodyFrame
-from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, Keypoints3D, Skeleton
+from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, BodyFrame, Keypoints3D, Skeleton
 from teo_skeleton_retriever.output.messages import skeleton_array, skeletons_of
 
 

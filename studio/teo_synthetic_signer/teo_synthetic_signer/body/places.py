@@ -7,10 +7,9 @@ from __future__ import annotations
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_synthetic_signer.body.body_data import load_body_data
-from teo_synthetic_signer.body.face_vertices import EARS
-from teo_synthetic_signer.body.ray_caster import RayCaster
+from teo_synthetic_signer.body.body_data import EARS, load_body_data
 from teo_synthetic_signer.body.rig import Rig
+from teo_synthetic_signer.body.surface import RayCaster
 
 _ARM_BONES = ("upperarm", "lowerarm", "wrist", "metacarpal", "finger")
 

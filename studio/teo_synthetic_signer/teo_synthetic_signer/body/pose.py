@@ -11,10 +11,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_synthetic_signer.body.arm import Arm
 from teo_synthetic_signer.body.hand import Hand
 from teo_synthetic_signer.body.hand_shapes import HAND_SHAPES, HandShape
-from teo_synthetic_signer.body.leg import Leg
+from teo_synthetic_signer.body.limbs import Arm, Leg
 from teo_synthetic_signer.body.rig import SIDES, Rig
 from teo_synthetic_signer.body.rotations import about, turn
 

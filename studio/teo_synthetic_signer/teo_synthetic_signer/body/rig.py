@@ -12,7 +12,7 @@ from scipy.sparse import csr_array
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.body_data import load_body_data
-from teo_synthetic_signer.body.phenotype import Phenotype, shape_vertices
+from teo_synthetic_signer.body.body_shapes import Phenotype, shape_vertices
 from teo_synthetic_signer.body.rotations import perpendicular, unit
 
 SIDES = ("R", "L")

@@ -12,9 +12,15 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.appearance import Dress
-from teo_synthetic_signer.body.body_data import load_body_data, load_target
+from teo_synthetic_signer.body.body_data import (
+    EARS,
+    FACE_VERTICES,
+    HEELS,
+    NOSE_TIP,
+    load_body_data,
+    load_target,
+)
 from teo_synthetic_signer.body.body_shapes import body_shape
-from teo_synthetic_signer.body.face_vertices import EARS, FACE_VERTICES, HEELS, NOSE_TIP
 from teo_synthetic_signer.body.pose import BodyPose, Poser
 from teo_synthetic_signer.body.rig import SIDES, Rig
 from teo_synthetic_signer.errors import SyntheticError

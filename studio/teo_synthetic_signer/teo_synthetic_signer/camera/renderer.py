@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_synthetic_signer.body.ray_caster import Hits, RayCaster
-from teo_synthetic_signer.body.surface import Surface, vertex_normals
-from teo_synthetic_signer.camera.light import Light
-from teo_synthetic_signer.camera.painter import Floats, Painter
+from teo_synthetic_signer.body.surface import Hits, RayCaster, Surface, vertex_normals
+from teo_synthetic_signer.camera.painter import Floats, Light, Painter
 
 # Grey of what is beyond the room.
 _NOTHING = np.float32(0.35)

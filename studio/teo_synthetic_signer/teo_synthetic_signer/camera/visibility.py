@@ -15,7 +15,7 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_data import load_body_data
-from teo_synthetic_signer.body.ray_caster import RayCaster
+from teo_synthetic_signer.body.surface import RayCaster
 
 _TRUNK = ("root", "pelvis", "spine", "breast", "clavicle", "shoulder", "upperarm01")
 _LIMITS: dict[str, tuple[tuple[str, ...], float]] = {

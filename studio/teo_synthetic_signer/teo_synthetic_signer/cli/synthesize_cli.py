@@ -14,7 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.camera.light import LIGHTS
+from teo_synthetic_signer.camera.painter import LIGHTS
 from teo_synthetic_signer.camera.sensors import SENSORS
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.scripts import SCRIPTS, about

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from teo_synthetic_signer.body.body_data import data_folder
-from teo_synthetic_signer.body.hand_points import OTHER_HAND, POINTS
+from teo_synthetic_signer.body.hand import OTHER_HAND, POINTS
 from teo_synthetic_signer.body.hand_shapes import FINGERS, HAND_SHAPES, THUMBS, HandShape, hand_thumb
 from teo_synthetic_signer.body.places import PLACES
 from teo_synthetic_signer.script.keys import ArmKey, Key, Swing, Vector

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from teo_skeleton_retriever.arrays import DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_synthetic_signer.body.ray_caster import RayCaster
 from teo_synthetic_signer.body.signer import Signer
+from teo_synthetic_signer.body.surface import RayCaster
 from teo_synthetic_signer.camera.depth_model import DepthModel
-from teo_synthetic_signer.camera.light import light_named
+from teo_synthetic_signer.camera.painter import light_named
 from teo_synthetic_signer.camera.renderer import Rendered, Renderer
 from teo_synthetic_signer.camera.sensors import sensor as sensor_named
 from teo_synthetic_signer.camera.visibility import visible

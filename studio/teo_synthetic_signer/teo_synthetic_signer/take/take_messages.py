@@ -18,9 +18,8 @@ from teo_sign_msgs.msg import SkeletonArray
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.layouts.body_frame import body_frame
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
+from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.output.messages import skeleton_array
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_synthetic_signer.body.body_shapes import BODIES
+from teo_synthetic_signer.body.body_shapes import BODIES, Phenotype, target_weights
 from teo_synthetic_signer.body.hand_shapes import HAND_SHAPES, hand_shape
-from teo_synthetic_signer.body.phenotype import Phenotype, target_weights
 from teo_synthetic_signer.body.pose import BodyPose
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError

@@ -17,8 +17,7 @@ import numpy as np
 import pytest
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.detectors.mediapipe.hand_sides import without_doubles
-from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import MediaPipeDetector
+from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import MediaPipeDetector, without_doubles
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D

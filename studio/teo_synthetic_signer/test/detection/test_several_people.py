@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.detectors.detection_frame import DetectionFrame
+from teo_skeleton_retriever.detectors.detector import DetectionFrame
 from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import MediaPipeDetector
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.person_2d import Person2D

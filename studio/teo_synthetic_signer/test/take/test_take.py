@@ -12,7 +12,7 @@ import pytest
 
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer import Companion, SyntheticFrame, Take, TakeOptions, render_take
-from teo_synthetic_signer.body.ray_caster import RayCaster
+from teo_synthetic_signer.body.surface import RayCaster
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.furniture import furnish
 

@@ -8,7 +8,9 @@ Its detector of people is a graph of its own here: it sees everybody, of whom Ho
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -231,3 +233,23 @@ def _rename(streams: Any, name: str, new: str) -> None:
         tag, colon, stream = entry.rpartition(":")
         if stream == name:
             streams[i] = f"{tag}{colon}{new}"
+
+
+@contextmanager
+def silenced() -> Iterator[None]:
+    """Throw away what native code writes to standard error meanwhile, from whichever thread.
+
+    For a moment only: what others write to it in the meantime is lost as well.
+    """
+    sys.stderr.flush()
+    kept = os.dup(2)
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        try:
+            os.dup2(nowhere, 2)
+        finally:
+            os.close(nowhere)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)

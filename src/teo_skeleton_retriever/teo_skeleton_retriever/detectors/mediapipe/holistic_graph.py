@@ -27,9 +27,9 @@ from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import (
     PERSON,
     PERSON_IS_TOLD,
     holistic_configuration,
+    silenced,
 )
 from teo_skeleton_retriever.detectors.mediapipe.resting_hands import HANDS, RestingHands
-from teo_skeleton_retriever.detectors.mediapipe.silence import silenced
 from teo_skeleton_retriever.errors import RetrieverError
 
 _LEFT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_1__handlandmarkcpu__"

@@ -14,9 +14,8 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.body_conversion import midpoint
 from teo_skeleton_retriever.layouts.layout import BODY_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D, midpoint
 
 POSE_LANDMARKS = 33
 HAND_LANDMARKS = 21

@@ -15,8 +15,8 @@ from teo_skeleton_retriever.detectors.detector import ImageArray
 from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import (
     PEOPLE_STREAMS,
     people_configuration,
+    silenced,
 )
-from teo_skeleton_retriever.detectors.mediapipe.silence import silenced
 from teo_skeleton_retriever.errors import RetrieverError
 
 _NOSE = 0  # among the pose's landmarks

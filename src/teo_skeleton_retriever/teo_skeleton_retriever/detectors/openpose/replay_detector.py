@@ -9,11 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
+from teo_skeleton_retriever.detectors.openpose.openpose_folder import StampTable
 from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
-from teo_skeleton_retriever.detectors.openpose.stamp_table import StampTable
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.body_conversion import as_body_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 
 
 class ReplayDetector:

@@ -21,8 +21,7 @@ from teo_skeleton_retriever.detectors.paf.part_affinity import (
 )
 from teo_skeleton_retriever.detectors.paf.pose_network import Maps, PoseNetwork
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.body_conversion import as_body_25
-from teo_skeleton_retriever.layouts.person_2d import Person2D
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 
 # OpenPose's networks take sizes that are multiples of this.
 MULTIPLE = 16

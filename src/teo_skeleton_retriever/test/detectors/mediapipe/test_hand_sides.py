@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from teo_skeleton_retriever.detectors.mediapipe.hand_sides import own_hands
 from teo_skeleton_retriever.detectors.mediapipe.holistic_graph import HolisticLandmarks
+from teo_skeleton_retriever.detectors.mediapipe.mediapipe_detector import own_hands
 
 HAND = np.zeros((21, 3))
 

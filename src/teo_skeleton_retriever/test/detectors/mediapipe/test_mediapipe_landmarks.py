@@ -11,8 +11,8 @@ from teo_skeleton_retriever.detectors.mediapipe.mediapipe_landmarks import (
     person_from_holistic,
 )
 from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.body_conversion import body_25_from_coco_18
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_PARTS
+from teo_skeleton_retriever.layouts.person_2d import body_25_from_coco_18
 
 # MediaPipe's pose landmarks: odd is left from the ears on.
 LEFT_OF_POSE = {2, 7, *range(11, 33, 2)}

@@ -14,9 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from openpose_writer import format_frame, frame_path, write_frame
 
-from teo_skeleton_retriever.detectors.openpose.keypoint_scale import KeypointScale
 from teo_skeleton_retriever.detectors.openpose.openpose_files import OpenPoseFrame
-from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import OpenPoseJsonDetector
+from teo_skeleton_retriever.detectors.openpose.openpose_json_detector import (
+    KeypointScale,
+    OpenPoseJsonDetector,
+)
 from teo_skeleton_retriever.detectors.openpose.replay_detector import ReplayDetector
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
