@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 import mediapipe
-from google.protobuf import text_format
 from mediapipe.calculators.core.split_vector_calculator_pb2 import SplitVectorCalculatorOptions
 from mediapipe.calculators.tensor.tensors_to_detections_calculator_pb2 import (
     TensorsToDetectionsCalculatorOptions,
@@ -23,9 +22,6 @@ from mediapipe.calculators.tensor.tensors_to_detections_calculator_pb2 import (
 from mediapipe.calculators.util.thresholding_calculator_pb2 import ThresholdingCalculatorOptions
 from mediapipe.framework import calculator_pb2
 from mediapipe.framework.tool.switch_container_pb2 import SwitchContainerOptions
-from mediapipe.modules.holistic_landmark.calculators.roi_tracking_calculator_pb2 import (
-    RoiTrackingCalculatorOptions,
-)
 from mediapipe.python import Packet, ValidatedGraphConfig, packet_creator, resource_util
 
 from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for, without_output
@@ -34,13 +30,10 @@ from teo_skeleton_retriever.detectors.mediapipe.pruning import only_for, without
 # is told of this image.
 PERSON = "person"
 PERSON_IS_TOLD = "person_is_told"
-# Likewise: whether to look at a hand in this image.
-LOOKS = {"left_hand": "look_at_left_hand", "right_hand": "look_at_right_hand"}
 _FOLDER = Path(mediapipe.__file__).parent
 _POSE = "poselandmarkcpu__"
 _POSE_BY_ROI = f"{_POSE}poselandmarkbyroicpu__"
 _POSE_TENSORS = f"{_POSE_BY_ROI}tensorstoposelandmarksandsegmentation__"
-_FACE = "facelandmarksfromposecpu__"
 _DETECTION_NODE = f"{_POSE}posedetectioncpu__TensorsToDetectionsCalculator"
 # Everybody who is seen, and where the network of the pose is to look for each.
 PEOPLE_STREAMS = (f"{_POSE}pose_detections", "people")
@@ -93,8 +86,6 @@ def holistic_configuration(
     gate.output_stream.append("told_person")
     configuration.num_threads = _THREADS
     _leave_out_the_outline(configuration)
-    _look_for_the_face_only_where_it_is_lost(configuration)
-    _look_at_hands_only_when_told(configuration)
     network = (_FOLDER / "modules/pose_landmark/pose_landmark_full.tflite").read_bytes()
     side_packets = _SIDE_INPUTS | {
         _POSE_NETWORK: packet_creator.create_string(without_output(network, _OUTLINE))
@@ -157,74 +148,6 @@ def _leave_out_the_outline(configuration: Any) -> None:
     gate = nodes[f"{_POSE_TENSORS}GateCalculator_1"]
     gate.input_stream.remove(f"{_POSE_TENSORS}segmentation_tensor")
     gate.output_stream.remove(f"{_POSE_TENSORS}ensured_segmentation_tensor")
-
-
-def _look_for_the_face_only_where_it_is_lost(configuration: Any) -> None:
-    """Track a face from the last image instead of detecting it anew, as the graph does with the pose.
-
-    The packaged graph looks for the face in every image, by a network that takes more than a millisecond, and
-    mostly goes on from the last image all the same. Here the body says whether the followed face is still its
-    own, and where the face is if it is not: eyes, ears and mouth span 0.48 of the square that suits the
-    network, a third of the one to look for a face in.
-    """
-    for node in configuration.node:
-        if node.name == f"{_FACE}facetracking__RoiTrackingCalculator":
-            options = node.options.Extensions[RoiTrackingCalculatorOptions.ext]
-            options.ClearField("rect_requirements")  # the body knows the face's place, not its outline
-            _rename(node.input_stream, f"{_FACE}face_roi_from_detection", "followed_face_by_body")
-            _rename(node.output_stream, f"{_FACE}face_tracking_roi", "followed_face")
-        elif f"NORM_RECT:{_FACE}face_roi_from_pose" in node.input_stream:
-            _rename(node.input_stream, f"{_FACE}face_roi_from_pose", "lost_face_by_body")
-    added = f"""
-        node {{
-            calculator: "PacketPresenceCalculator"
-            input_stream: "PACKET:{_FACE}facetracking__prev_face_landmarks"
-            output_stream: "PRESENCE:face_is_followed"
-        }}
-        node {{
-            calculator: "RectTransformationCalculator"
-            input_stream: "NORM_RECT:{_FACE}face_roi_from_pose"
-            input_stream: "IMAGE_SIZE:{_FACE}image_size"
-            output_stream: "face_by_body"
-            options {{
-                [mediapipe.RectTransformationCalculatorOptions.ext] {{
-                    scale_x: 0.7 scale_y: 0.7 shift_y: -0.05 square_long: true
-                }}
-            }}
-        }}
-        node {{
-            calculator: "GateCalculator"
-            input_stream: "face_by_body"
-            input_stream: "ALLOW:face_is_followed"
-            output_stream: "followed_face_by_body"
-        }}
-        node {{
-            calculator: "GateCalculator"
-            input_stream: "{_FACE}face_roi_from_pose"
-            input_stream: "DISALLOW:face_is_followed"
-            output_stream: "lost_face_by_body"
-        }}
-        node {{
-            calculator: "MergeCalculator"
-            input_stream: "followed_face"
-            input_stream: "{_FACE}face_roi_from_detection"
-            output_stream: "{_FACE}face_tracking_roi"
-        }}
-    """
-    configuration.node.extend(text_format.Parse(added, type(configuration)()).node)
-
-
-def _look_at_hands_only_when_told(configuration: Any) -> None:
-    """Run the networks of a hand only where its stream of LOOKS says so."""
-    for side in ("left", "right"):
-        by_body = f"handlandmarksleftandrightcpu__{side}_hand_landmarks_from_pose"
-        for node in configuration.node:
-            _rename(node.input_stream, by_body, f"{side}_hand_to_look_at")
-        look = LOOKS[f"{side}_hand"]
-        configuration.input_stream.append(look)
-        gate = configuration.node.add(calculator="GateCalculator")
-        gate.input_stream.extend([by_body, f"ALLOW:{look}"])
-        gate.output_stream.append(f"{side}_hand_to_look_at")
 
 
 def _rename(streams: Any, name: str, new: str) -> None:

@@ -23,13 +23,11 @@ from mediapipe.python import CalculatorGraph, ImageFormat, Packet, packet_creato
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray
 from teo_skeleton_retriever.detectors.mediapipe.holistic_configuration import (
-    LOOKS,
     PERSON,
     PERSON_IS_TOLD,
     holistic_configuration,
     silenced,
 )
-from teo_skeleton_retriever.detectors.mediapipe.resting_hands import HANDS, RestingHands
 from teo_skeleton_retriever.errors import RetrieverError
 
 _LEFT = "handlandmarksleftandrightcpu__handlandmarksfromposecpu_1__handlandmarkcpu__"
@@ -95,8 +93,6 @@ class HolisticLandmarks:
 class Pending:
     """What is known so far of an image that the graph works on."""
 
-    width: int
-    height: int
     packets: dict[str, Packet | None] = field(default_factory=dict)
     done: threading.Event = field(default_factory=threading.Event)
 
@@ -116,10 +112,10 @@ class _Results:
         self._lock = threading.Lock()
         self._pending: dict[int, Pending] = {}
 
-    def expect(self, time_us: int, width: int, height: int) -> Pending:
+    def expect(self, time_us: int) -> Pending:
         """Await an image; to be called before the graph gets it."""
         with self._lock:
-            return self._pending.setdefault(time_us, Pending(width, height))
+            return self._pending.setdefault(time_us, Pending())
 
     def on_packet(self, stream: str, packet: Packet) -> None:
         """Take what one stream says; called from the graph's threads."""
@@ -149,7 +145,6 @@ class HolisticGraph:
     def __init__(self, *, min_tracking_confidence: float, lite_hands: bool) -> None:
         self._input_lock = threading.Lock()
         self._results = _Results()
-        self._resting_hands = RestingHands()
         self._closed = False
         self._time_us = 0
         configuration, side_packets = holistic_configuration(
@@ -182,13 +177,8 @@ class HolisticGraph:
             if self._closed:
                 raise RetrieverError("closed", "the detector was closed before it came to this image")
             self._time_us += _FRAME_US
-            height, width = image.shape[:2]
-            pending = self._results.expect(self._time_us, width, height)
-            looks = self._resting_hands.next_looks()
+            pending = self._results.expect(self._time_us)
             try:
-                for hand, look in looks.items():
-                    packet = packet_creator.create_bool(look).at(self._time_us)
-                    self._graph.add_packet_to_input_stream(LOOKS[hand], packet)
                 told = packet_creator.create_bool(person is not None).at(self._time_us)
                 place = packet_creator.create_proto(person or _NOBODY).at(self._time_us)
                 self._graph.add_packet_to_input_stream(PERSON_IS_TOLD, told)
@@ -207,10 +197,7 @@ class HolisticGraph:
         while not pending.done.wait(_PATIENCE_S):
             if self._graph.has_error():
                 raise RetrieverError("failed", "MediaPipe's graph stopped with an error")
-        landmarks = _landmarks(pending.packets)
-        found = {hand: getattr(landmarks, hand) is not None for hand in HANDS}
-        self._resting_hands.saw(landmarks.pose, found, width=pending.width, height=pending.height)
-        return landmarks
+        return _landmarks(pending.packets)
 
     def close(self) -> None:
         """Finish the images at hand, then stop the graph and its threads."""
