@@ -7,17 +7,16 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, cast
 
 from teo_skeleton_retriever.camera.rgbd_image import RgbdImage
-from teo_skeleton_retriever.compat.compat_retriever import CompatRetriever
-from teo_skeleton_retriever.compat.original_parameters import original_parameters_from
 from teo_skeleton_retriever.detectors import Detector
 from teo_skeleton_retriever.detectors.detector import DetectionFrame, people_left_out
 from teo_skeleton_retriever.empty_space import depth_summary
 from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.layouts.skeleton_3d import Skeleton
+from teo_skeleton_retriever.plugins import RETRIEVER_GROUP, plugin
 from teo_skeleton_retriever.retriever import Retriever
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters
 
@@ -86,20 +85,19 @@ def make_retriever(
 
     Args:
         parameters: Of ours.
-        compat: One of `COMPAT_MODES`.
-        compat_options: Of the original; see `original_parameters_from`.
+        compat: One of `COMPAT_MODES`; another than ours is a plugin.
+        compat_options: Of that plugin.
 
     Raises:
-        RetrieverError: No such mode or option.
+        RetrieverError: No such mode or option, or the plugin is not installed.
     """
-    match compat:
-        case "":
-            if any(compat_options):
-                raise RetrieverError("bad_option", "expected compat with compat_options, got none")
-            return Retriever(parameters)
-        case "skeleton_retriever":
-            return CompatRetriever(parameters, original_parameters_from(compat_options))
-    raise RetrieverError("unknown_choice", f"compat: expected one of {COMPAT_MODES}, got {compat!r}")
+    if compat not in COMPAT_MODES:
+        raise RetrieverError("unknown_choice", f"compat: expected one of {COMPAT_MODES}, got {compat!r}")
+    if compat:
+        return cast(FrameRetriever, plugin(RETRIEVER_GROUP, compat)(parameters, compat_options))
+    if any(compat_options):
+        raise RetrieverError("bad_option", "expected compat with compat_options, got none")
+    return Retriever(parameters)
 
 
 class ImageRetriever:

@@ -19,7 +19,7 @@ from teo_skeleton_retriever.arrays import BoolArray, FloatArray, frozen
 from teo_skeleton_retriever.errors import RetrieverError
 
 # How many each model has; a camera without a model has none.
-COEFFICIENTS = {"": 0, "plumb_bob": 5, "rational_polynomial": 8}
+_COEFFICIENTS = {"": 0, "plumb_bob": 5, "rational_polynomial": 8}
 # OpenCV's fixed-point iteration: lenses of depth cameras need 10 to 100 steps to the tolerance, which is
 # 1e-10 px at any focal length in use.
 _CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 200, 1e-13)
@@ -27,18 +27,18 @@ _CRITERIA = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 200, 1e-13)
 _RESIDUAL = 1e-9
 
 
-def padded(model: str, coefficients: FloatArray) -> FloatArray:
+def _padded(model: str, coefficients: FloatArray) -> FloatArray:
     """Check coefficients and bring them to the eight of the widest model. Shape (8,).
 
     Raises:
         RetrieverError: An unknown model, another number of coefficients or one that is not finite.
     """
-    if model not in COEFFICIENTS:
-        known = ", ".join(name for name in COEFFICIENTS if name)
+    if model not in _COEFFICIENTS:
+        known = ", ".join(name for name in _COEFFICIENTS if name)
         raise RetrieverError("unknown_distortion", f"expected one of {known} or none, got {model!r}")
     flat = np.asarray(coefficients, dtype=np.float64).ravel()
     # Four are OpenCV's short form of plumb_bob; drivers with no distortion send none.
-    expected = {0, COEFFICIENTS[model]} | ({4} if model == "plumb_bob" else set())
+    expected = {0, _COEFFICIENTS[model]} | ({4} if model == "plumb_bob" else set())
     if len(flat) not in expected:
         raise RetrieverError(
             "wrong_distortion", f"{model or 'no model'}: expected {expected} values, got {len(flat)}"
@@ -48,12 +48,12 @@ def padded(model: str, coefficients: FloatArray) -> FloatArray:
     return np.concatenate([flat, np.zeros(8 - len(flat))])
 
 
-def distort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
+def _distort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
     """Apply the distortion to normalised coordinates.
 
     Args:
         points: x/z, y/z. Shape (n, 2).
-        coefficients: Of `padded`. Shape (8,).
+        coefficients: Of `_padded`. Shape (8,).
 
     Returns:
         Shape (n, 2).
@@ -61,8 +61,8 @@ def distort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
     return _distort_with_jacobian(points, coefficients)[0]
 
 
-def undistort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
-    """Invert `distort`.
+def _undistort(points: FloatArray, coefficients: FloatArray) -> FloatArray:
+    """Invert `_distort`.
 
     Returns:
         x/z, y/z; NaN where no ray inside the lens's monotonic region is imaged there. Shape (n, 2).
@@ -146,7 +146,7 @@ class CameraModel:
                 "no_focal_length",
                 f"expected focal lengths > 0 px, got {self.fx}, {self.fy}; uncalibrated drivers send 0",
             )
-        object.__setattr__(self, "distortion", frozen(padded(self.distortion_model, self.distortion)))
+        object.__setattr__(self, "distortion", frozen(_padded(self.distortion_model, self.distortion)))
 
     @classmethod
     def from_field_of_view(cls, *, width: int, height: int, horizontal: float) -> CameraModel:
@@ -212,7 +212,7 @@ class CameraModel:
         pixels = np.full((len(points), 2), np.nan)
         front = points[:, 2] > 0.0
         rays = points[front, :2] / points[front, 2:]
-        pixels[front] = distort(rays, self.distortion) * [self.fx, self.fy] + [self.cx, self.cy]
+        pixels[front] = _distort(rays, self.distortion) * [self.fx, self.fy] + [self.cx, self.cy]
         return pixels
 
     def rays(self, pixels: FloatArray) -> FloatArray:
@@ -225,7 +225,7 @@ class CameraModel:
             x/z, y/z, 1; NaN where a pixel is NaN or the lens images nothing there. Shape (n, 3).
         """
         points = (np.asarray(pixels, dtype=np.float64) - [self.cx, self.cy]) / [self.fx, self.fy]
-        return np.column_stack([undistort(points, self.distortion), np.ones(len(points))])
+        return np.column_stack([_undistort(points, self.distortion), np.ones(len(points))])
 
     def unproject(self, pixels: FloatArray, depths: FloatArray) -> FloatArray:
         """Give the points that are imaged at pixels, at these depths along the optical axis.

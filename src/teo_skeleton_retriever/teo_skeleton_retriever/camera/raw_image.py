@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from teo_skeleton_retriever.arrays import DepthArray
 from teo_skeleton_retriever.errors import RetrieverError
 
-MILLIMETRE = np.float32(0.001)
+_MILLIMETRE = np.float32(0.001)
 _TYPES = {"16UC1": "u2", "mono16": "u2", "32FC1": "f4"}
 # 67 million: twice 8K; larger sizes come from a corrupt message.
 MAX_PIXELS = 1 << 26
@@ -83,7 +83,7 @@ def metres(image: np.ndarray) -> DepthArray:
         )
     depth: DepthArray = image.astype(np.float32)
     if image.dtype == np.uint16:
-        depth *= MILLIMETRE
+        depth *= _MILLIMETRE
     depth[~(np.isfinite(depth) & (depth > 0.0))] = np.nan
     return depth
 

@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_skeleton_retriever.compat.original_parameters import OriginalParameters
+from teo_skeleton_retriever.compat.original_parameters import OriginalParameters, original_parameters_from
 from teo_skeleton_retriever.compat.original_retriever import OriginalRetriever
 from teo_skeleton_retriever.compat.original_skeleton import FROM_BODY_25, SKELETON_STD, OriginalSkeleton
 from teo_skeleton_retriever.detectors.detector import DetectionFrame
@@ -70,6 +70,15 @@ class CompatRetriever:
             self._signer.unlock()
         else:
             self._signer.lock(track_id)
+
+
+def compat_retriever(parameters: RetrieverParameters, options: Sequence[str]) -> CompatRetriever:
+    """Make one from options as users type them; see `original_parameters_from`.
+
+    Raises:
+        RetrieverError: An option is not known, or a value is none.
+    """
+    return CompatRetriever(parameters, original_parameters_from(options))
 
 
 def _same(one: CameraModel | None, other: CameraModel) -> bool:

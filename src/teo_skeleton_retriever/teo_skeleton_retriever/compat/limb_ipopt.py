@@ -15,7 +15,7 @@ from teo_skeleton_retriever.depth.limb_solver import LimbChain, LimbSolution
 
 # Fixed in the original's code. With the tolerance on an objective in m^4 it stops some millimetres before the
 # minimum.
-ORIGINAL_OPTIONS: dict[str, object] = {
+_ORIGINAL_OPTIONS: dict[str, object] = {
     "tol": 1e-4,
     "acceptable_iter": 0,
     "mu_strategy": "adaptive",
@@ -24,7 +24,11 @@ ORIGINAL_OPTIONS: dict[str, object] = {
     "max_cpu_time": 0.05,  # [s]
 }
 # The same problem solved to its end: what the fast solve is measured against.
-CONVERGED_OPTIONS: dict[str, object] = ORIGINAL_OPTIONS | {"tol": 1e-10, "max_iter": 500, "max_cpu_time": 1.0}
+CONVERGED_OPTIONS: dict[str, object] = _ORIGINAL_OPTIONS | {
+    "tol": 1e-10,
+    "max_iter": 500,
+    "max_cpu_time": 1.0,
+}
 _ACCEPTED = ("Solve_Succeeded", "Solved_To_Acceptable_Level", "Feasible_Point_Found")
 
 
@@ -37,7 +41,7 @@ class IpoptLimbSolver:
         Args:
             options: Of Ipopt; the original's if None.
         """
-        self._options = tuple((options or ORIGINAL_OPTIONS).items())
+        self._options = tuple((options or _ORIGINAL_OPTIONS).items())
 
     def solve(self, chain: LimbChain) -> LimbSolution:
         """Solve one limb. Takes about 2 ms."""

@@ -134,7 +134,7 @@ _DEPTH_OPTIONS = {
 }
 _ENABLE = "depth::enable"
 # The names that are known; those of the original's camera and ports have no meaning here.
-COMPAT_OPTIONS = (*_OPTIONS, _ENABLE, *_DEPTH_OPTIONS)
+_COMPAT_OPTIONS = (*_OPTIONS, _ENABLE, *_DEPTH_OPTIONS)
 
 
 def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
@@ -162,7 +162,7 @@ def original_parameters_from(words: Sequence[str]) -> OriginalParameters:
         else:
             raise RetrieverError(
                 "unknown_compat_option",
-                f"expected NAME=VALUE with a name of {', '.join(COMPAT_OPTIONS)}; got {word!r:.80}",
+                f"expected NAME=VALUE with a name of {', '.join(_COMPAT_OPTIONS)}; got {word!r:.80}",
             )
     depth_filter = ContourDilation(**chosen["depth"]) if enabled else None  # type: ignore[arg-type]
     return OriginalParameters(depth_filter=depth_filter, **chosen["general"])  # type: ignore[arg-type]

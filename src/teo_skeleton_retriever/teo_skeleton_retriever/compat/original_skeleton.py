@@ -72,7 +72,7 @@ MIDPOINTS: dict[str, tuple[str, str]] = {
 }
 
 # People are told apart by the pixels of these; a skeleton with neither is refused.
-PIVOTS = ("shoulderCenter", "hipCenter")
+_PIVOTS = ("shoulderCenter", "hipCenter")
 
 # Limbs whose length is calibrated, each named by its far end.
 LIMBS: tuple[str, ...] = (
@@ -100,7 +100,7 @@ class BodyPlanes(NamedTuple):
     """sagittal x transverse, out of the chest; as long as the sine between the two, as in the original"""
 
 
-UNKNOWN_PLANES = BodyPlanes(*(np.full(3, np.nan) for _ in range(3)))
+_UNKNOWN_PLANES = BodyPlanes(*(np.full(3, np.nan) for _ in range(3)))
 
 
 def body_planes(
@@ -109,7 +109,7 @@ def body_planes(
     right_shoulder: FloatArray,
     shoulder_center: FloatArray,
     hip_center: FloatArray,
-    before: BodyPlanes = UNKNOWN_PLANES,
+    before: BodyPlanes = _UNKNOWN_PLANES,
 ) -> BodyPlanes:
     """Find the planes of a body.
 
@@ -153,15 +153,15 @@ class OriginalSkeleton:
     points: FloatArray = field(default_factory=lambda: np.full((_N, 3), np.nan))
     pixels: FloatArray = field(default_factory=lambda: np.full((_N, 2), np.nan))
     updated: BoolArray = field(default_factory=lambda: np.zeros(_N, dtype=bool))
-    planes: BodyPlanes = UNKNOWN_PLANES
+    planes: BodyPlanes = _UNKNOWN_PLANES
 
     def copy(self) -> OriginalSkeleton:
         """Give a skeleton that does not change with this one."""
         return OriginalSkeleton(self.points.copy(), self.pixels.copy(), self.updated.copy(), self.planes)
 
     def pivots(self) -> FloatArray:
-        """Pixels of `PIVOTS`, by which people are told apart; infinite if not updated. Shape (2, 2)."""
-        rows = [SKELETON_STD.index[name] for name in PIVOTS]
+        """Pixels of `_PIVOTS`, by which people are told apart; infinite if not updated. Shape (2, 2)."""
+        rows = [SKELETON_STD.index[name] for name in _PIVOTS]
         seen = self.updated[rows, None] & np.isfinite(self.pixels[rows])
         pixels: FloatArray = np.where(seen, self.pixels[rows], np.inf)
         return pixels

@@ -27,9 +27,9 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray, frozen
 from teo_skeleton_retriever.errors import RetrieverError
 
-NEAREST = 0.01  # [m] no depth is bounded below this
-END_FREEDOM = 0.01  # [m] how far the first and last keypoint may move away from the camera
-JOINT_FREEDOM = (
+_NEAREST = 0.01  # [m] no depth is bounded below this
+_END_FREEDOM = 0.01  # [m] how far the first and last keypoint may move away from the camera
+_JOINT_FREEDOM = (
     0.30  # [m] how far the ones between may: the sensor sees the skin, or something before the joint
 )
 
@@ -88,9 +88,9 @@ class LimbChain:
         points = np.asarray(points, dtype=np.float64)
         measured = points[:, 2].copy()
         measured[0] = anchor_depth
-        lower = np.maximum(measured, NEAREST)
-        freedom = np.full(len(points), JOINT_FREEDOM)
-        freedom[[0, -1]] = END_FREEDOM
+        lower = np.maximum(measured, _NEAREST)
+        freedom = np.full(len(points), _JOINT_FREEDOM)
+        freedom[[0, -1]] = _END_FREEDOM
         return cls(
             rays=points[:, :2] / points[:, 2:],
             lengths=np.asarray(lengths, dtype=np.float64),

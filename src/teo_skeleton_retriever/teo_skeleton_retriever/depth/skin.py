@@ -14,7 +14,7 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.layouts.layout import BODY_25, HAND_21
 
 # [m] From the skin to the joint, of an average adult, seen across the limb.
-BODY_DEPTH: dict[str, float] = {
+_BODY_DEPTH: dict[str, float] = {
     "Nose": -0.012,
     "Neck": 0.06,
     **dict.fromkeys(("RShoulder", "LShoulder"), 0.057),
@@ -30,7 +30,7 @@ BODY_DEPTH: dict[str, float] = {
 }
 
 # [m] Likewise.
-HAND_DEPTH: dict[str, float] = {
+_HAND_DEPTH: dict[str, float] = {
     name: 0.025
     if name == "Wrist"
     else 0.015
@@ -53,9 +53,9 @@ FOREARM_LEAST_SINE = 0.15
 # cm from its axis, a kneecap 5 cm from the knee's. A shoulder is a ball.
 _CAP = {"Elbow": 0.5, "Knee": 0.6}
 
-BODY_DEPTHS: FloatArray = np.array([BODY_DEPTH[name] for name in BODY_25.keypoints])
+BODY_DEPTHS: FloatArray = np.array([_BODY_DEPTH[name] for name in BODY_25.keypoints])
 BODY_CAPS: FloatArray = np.array([_CAP.get(name[1:], 1.0) for name in BODY_25.keypoints])
-HAND_DEPTHS: FloatArray = np.array([HAND_DEPTH[name] for name in HAND_21.keypoints])
+HAND_DEPTHS: FloatArray = np.array([_HAND_DEPTH[name] for name in HAND_21.keypoints])
 
 
 def along_ray(

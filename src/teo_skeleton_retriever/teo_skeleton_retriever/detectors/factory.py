@@ -5,20 +5,14 @@
 from __future__ import annotations
 
 import inspect
-from importlib import import_module
 from typing import cast
 
 from teo_skeleton_retriever.detectors.detector import Detector
 from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.plugins import DETECTOR_GROUP, plugin
 
-_CLASSES = {
-    "mediapipe": "mediapipe.mediapipe_detector.MediaPipeDetector",
-    "openpose_json": "openpose.openpose_json_detector.OpenPoseJsonDetector",
-    "openpose_onnx": "paf.openpose_onnx_detector.OpenPoseOnnxDetector",
-    "replay": "openpose.replay_detector.ReplayDetector",
-}
 # The names that `make_detector` knows.
-DETECTORS = tuple(_CLASSES)
+DETECTORS = ("mediapipe", "openpose_json", "openpose_onnx", "replay")
 
 
 def make_detector(name: str, **options: object) -> Detector:
@@ -29,13 +23,11 @@ def make_detector(name: str, **options: object) -> Detector:
         options: Of that detector's constructor.
 
     Raises:
-        RetrieverError: The name or an option is unknown, or the detector cannot be made.
+        RetrieverError: The name or an option is unknown, or the detector is not installed or cannot be made.
     """
-    if name not in _CLASSES:
+    if name not in DETECTORS:
         raise RetrieverError("unknown_detector", f"expected one of {', '.join(DETECTORS)}, got {name!r}")
-    module, _, class_name = _CLASSES[name].rpartition(".")
-    # Imported only when asked for: MediaPipe takes a second to load.
-    detector = getattr(import_module(f"teo_skeleton_retriever.detectors.{module}"), class_name)
+    detector = plugin(DETECTOR_GROUP, name)
     try:
         inspect.signature(detector).bind(**options)
     except TypeError as error:
@@ -43,7 +35,5 @@ def make_detector(name: str, **options: object) -> Detector:
         raise RetrieverError("bad_option", f"{name}: expected options among {known}; {error}") from error
     try:
         return cast(Detector, detector(**options))
-    except (
-        TypeError
-    ) as error:  # options come from users, as JSON: a text where a number should be, and the like
+    except TypeError as error:  # users give options as JSON: a text where a number should be, and the like
         raise RetrieverError("bad_option", f"{name}: an option is of the wrong kind: {error}") from error

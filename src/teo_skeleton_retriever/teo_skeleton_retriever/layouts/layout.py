@@ -36,7 +36,7 @@ class Layout:
         return len(self.keypoints)
 
 
-def bones_of(keypoints: tuple[str, ...], pairs: str) -> tuple[tuple[str, str], ...]:
+def _bones_of(keypoints: tuple[str, ...], pairs: str) -> tuple[tuple[str, str], ...]:
     """Read bones from a table of index pairs.
 
     Args:
@@ -63,7 +63,7 @@ _BODY_25_PAIRS = """
     1-0 0-15 15-17 0-16 16-18 14-19 19-20 14-21 11-22 22-23 11-24
 """
 
-BODY_25 = Layout("BODY_25", _BODY_25, bones_of(_BODY_25, _BODY_25_PAIRS))
+BODY_25 = Layout("BODY_25", _BODY_25, _bones_of(_BODY_25, _BODY_25_PAIRS))
 
 
 _COCO_18 = (
@@ -76,7 +76,7 @@ _COCO_18 = (
 )
 _COCO_18_PAIRS = "1-2 1-5 2-3 3-4 5-6 6-7 1-8 8-9 9-10 1-11 11-12 12-13 1-0 0-14 14-16 0-15 15-17"
 
-COCO_18 = Layout("COCO", _COCO_18, bones_of(_COCO_18, _COCO_18_PAIRS))
+COCO_18 = Layout("COCO", _COCO_18, _bones_of(_COCO_18, _COCO_18_PAIRS))
 
 _HAND_21 = (
     "Wrist",  # 0
@@ -88,7 +88,7 @@ _HAND_21 = (
 )
 _HAND_21_PAIRS = "0-1-2-3-4 0-5-6-7-8 0-9-10-11-12 0-13-14-15-16 0-17-18-19-20"
 
-HAND_21 = Layout("HAND_21", _HAND_21, bones_of(_HAND_21, _HAND_21_PAIRS))
+HAND_21 = Layout("HAND_21", _HAND_21, _bones_of(_HAND_21, _HAND_21_PAIRS))
 
 
 FACE_PARTS: dict[str, range] = {
@@ -105,7 +105,7 @@ FACE_PARTS: dict[str, range] = {
     "LPupil": range(69, 70),
 }
 # Parts whose last keypoint is joined to their first.
-CLOSED_FACE_PARTS = frozenset({"REye", "LEye", "OuterLip", "InnerLip"})
+_CLOSED_FACE_PARTS = frozenset({"REye", "LEye", "OuterLip", "InnerLip"})
 
 _FACE_70 = tuple(f"Face{i}" for part in FACE_PARTS.values() for i in part)
 
@@ -114,7 +114,7 @@ def _face_bones() -> tuple[tuple[str, str], ...]:
     pairs: list[tuple[int, int]] = []
     for name, part in FACE_PARTS.items():
         pairs += pairwise(part)
-        if name in CLOSED_FACE_PARTS:
+        if name in _CLOSED_FACE_PARTS:
             pairs.append((part[-1], part[0]))
     return tuple((_FACE_70[a], _FACE_70[b]) for a, b in pairs)
 

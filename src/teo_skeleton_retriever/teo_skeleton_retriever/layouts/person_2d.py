@@ -13,7 +13,7 @@ from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25, COCO_18, FACE_70, HAND_21
 
 # Keypoints of the body layouts that OpenPose writes.
-BODY_SIZES = {25: "BODY_25", 18: "COCO", 15: "MPI"}
+_BODY_SIZES = {25: "BODY_25", 18: "COCO", 15: "MPI"}
 # What OpenPose writes where it does not track people.
 UNKNOWN_ID = -1
 
@@ -56,7 +56,7 @@ class Person2D:
 
     def __post_init__(self) -> None:
         sizes = {
-            "body": tuple(BODY_SIZES),
+            "body": tuple(_BODY_SIZES),
             "left_hand": (len(HAND_21),),
             "right_hand": (len(HAND_21),),
             "face": (len(FACE_70),),

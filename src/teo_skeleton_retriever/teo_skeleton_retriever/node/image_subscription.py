@@ -10,7 +10,7 @@ from typing import Any
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import CompressedImage, Image
 
-AUTO, RAW = "auto", "raw"
+_AUTO, _RAW = "auto", "raw"
 
 
 class ImageSubscription:
@@ -43,11 +43,11 @@ class ImageSubscription:
         """
         base = node.resolve_topic_name(topic)
         self._node = node
-        self._names = {RAW: base, compressed: f"{base}/{compressed}"}
-        self._automatic = transport == AUTO
+        self._names = {_RAW: base, compressed: f"{base}/{compressed}"}
+        self._automatic = transport == _AUTO
         self._callback = callback
         self._qos = qos
-        self._subscription = self._subscribe(RAW if self._automatic else transport)
+        self._subscription = self._subscribe(_RAW if self._automatic else transport)
 
     @property
     def topic(self) -> str:
@@ -66,5 +66,5 @@ class ImageSubscription:
                 return
 
     def _subscribe(self, transport: str) -> Any:
-        kind = Image if transport == RAW else CompressedImage
+        kind = Image if transport == _RAW else CompressedImage
         return self._node.create_subscription(kind, self._names[transport], self._callback, self._qos)

@@ -28,19 +28,19 @@ def tune_interpreter() -> None:
     gc.freeze()
 
 
-Job = TypeVar("Job")
-StageResult = TypeVar("StageResult")
+_Job = TypeVar("_Job")
+_StageResult = TypeVar("_StageResult")
 
 
-class _Slot(Generic[StageResult]):
+class _Slot(Generic[_StageResult]):
     """A job that was begun, and the result of its first stage once that is done."""
 
     def __init__(self) -> None:
         self.done = False
-        self.result: StageResult | None = None
+        self.result: _StageResult | None = None
 
 
-class LatestFramePipeline(Generic[Job, StageResult]):
+class LatestFramePipeline(Generic[_Job, _StageResult]):
     """Works on jobs in two stages, so that the second of one runs beside the first of the next.
 
     Whoever submits never waits. One job may wait to be begun; a newer one takes its place. The second stage
@@ -50,8 +50,8 @@ class LatestFramePipeline(Generic[Job, StageResult]):
 
     def __init__(
         self,
-        first: Callable[[Job], StageResult | None],
-        second: Callable[[StageResult], object],
+        first: Callable[[_Job], _StageResult | None],
+        second: Callable[[_StageResult], object],
         *,
         at_once: int = 1,
     ) -> None:
@@ -65,8 +65,8 @@ class LatestFramePipeline(Generic[Job, StageResult]):
         self._first = first
         self._second = second
         self._at_once = at_once
-        self._waiting: Job | None = None
-        self._begun: deque[_Slot[StageResult]] = deque()
+        self._waiting: _Job | None = None
+        self._begun: deque[_Slot[_StageResult]] = deque()
         self._closed = False
         self._changed = threading.Condition()
         self._threads = [threading.Thread(target=self._run_first, daemon=True) for _ in range(at_once)]
@@ -74,7 +74,7 @@ class LatestFramePipeline(Generic[Job, StageResult]):
         for thread in self._threads:
             thread.start()
 
-    def submit(self, job: Job) -> Job | None:
+    def submit(self, job: _Job) -> _Job | None:
         """Give a job; returns the one that it takes the place of, if one was waiting."""
         with self._changed:
             replaced, self._waiting = self._waiting, job
@@ -96,7 +96,7 @@ class LatestFramePipeline(Generic[Job, StageResult]):
                 if self._closed:
                     return
                 job, self._waiting = self._waiting, None
-                slot = _Slot[StageResult]()
+                slot = _Slot[_StageResult]()
                 self._begun.append(slot)
             assert job is not None
             result = self._first(job)

@@ -15,8 +15,8 @@ from teo_skeleton_retriever.image_retriever import COMPAT_MODES
 from teo_skeleton_retriever.retriever_parameters import RetrieverParameters, parameter_info
 
 _DETECTOR = "detector"
-TRANSPORTS_COLOR = ("auto", "raw", "compressed")
-TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
+_TRANSPORTS_COLOR = ("auto", "raw", "compressed")
+_TRANSPORTS_DEPTH = ("auto", "raw", "compressedDepth")
 
 
 _NODE = (
@@ -49,7 +49,7 @@ _NODE = (
     ParameterRow(
         name="color_transport",
         default="auto",
-        choices=TRANSPORTS_COLOR,
+        choices=_TRANSPORTS_COLOR,
         description="Which form of the colour image is subscribed to; auto: raw, unless only compressed is "
         "published.",
         read_only=True,
@@ -57,7 +57,7 @@ _NODE = (
     ParameterRow(
         name="depth_transport",
         default="auto",
-        choices=TRANSPORTS_DEPTH,
+        choices=_TRANSPORTS_DEPTH,
         description="Which form of the depth image is subscribed to; likewise.",
         read_only=True,
     ),

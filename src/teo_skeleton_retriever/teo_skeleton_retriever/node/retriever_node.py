@@ -67,10 +67,10 @@ _LOOK_PERIOD = 0.25  # [s] between looks for who publishes images; of a bag of s
 _SAME_CLOCK = 60.0  # [s] An image that seems older, or younger, was stamped by another clock: in a bag.
 
 # Images whose turn never came: a newer one was there first.
-BUSY = "busy"
-NO_CAMERA_INFO = "no_camera_info"
+_BUSY = "busy"
+_NO_CAMERA_INFO = "no_camera_info"
 # Images left out because of the parameter `period`.
-NOT_DUE = "not_due"
+_NOT_DUE = "not_due"
 
 
 class _Job(NamedTuple):
@@ -167,11 +167,11 @@ class RetrieverNode(Node):
     def _offer(self, pairs: Sequence[Pair]) -> None:
         for pair in pairs:
             if not self._is_due(pair.stamp):
-                self._stats.drop(NOT_DUE)
+                self._stats.drop(_NOT_DUE)
                 continue
             self._last_stamp = pair.stamp
             if self._pipeline.submit(_Job(pair, time.monotonic())) is not None:
-                self._stats.drop(BUSY)
+                self._stats.drop(_BUSY)
 
     def _is_due(self, stamp: int) -> bool:
         last = self._last_stamp
@@ -183,7 +183,7 @@ class RetrieverNode(Node):
             info = self._camera_info
             if info is None:
                 raise RetrieverError(
-                    NO_CAMERA_INFO, f"expected it on {self._topics['camera_info']}, got none so far"
+                    _NO_CAMERA_INFO, f"expected it on {self._topics['camera_info']}, got none so far"
                 )
             pair = job.pair
             image = RgbdImage(

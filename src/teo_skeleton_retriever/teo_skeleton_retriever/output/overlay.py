@@ -18,9 +18,9 @@ from teo_skeleton_retriever.image_retriever import Retrieved
 from teo_skeleton_retriever.layouts.layout import BODY_25, FACE_70, HAND_21, Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton
 
-Rgb = tuple[int, int, int]
+_Rgb = tuple[int, int, int]
 
-STATUS_COLORS: dict[KeypointStatus, Rgb] = {
+STATUS_COLORS: dict[KeypointStatus, _Rgb] = {
     KeypointStatus.MEASURED: (60, 230, 90),
     KeypointStatus.OPTIMISED: (80, 170, 255),
     KeypointStatus.HELD: (255, 165, 30),
@@ -87,7 +87,7 @@ def _draw_part(
     layout: Layout,
     camera: CameraModel,
     *,
-    edge: Rgb | None,
+    edge: _Rgb | None,
     width: float,
     joint: float,
 ) -> None:
@@ -193,7 +193,7 @@ def _draw_texts(picture: ColorArray, lines: Sequence[str], scale: float) -> None
 
 
 def _text(
-    picture: ColorArray, text: str, where: tuple[int, int], size: float, scale: float, color: Rgb = _SIGNER
+    picture: ColorArray, text: str, where: tuple[int, int], size: float, scale: float, color: _Rgb = _SIGNER
 ) -> None:
     """Write with a dark edge, legible on any ground."""
     width = max(round(scale), 1)
@@ -219,7 +219,7 @@ def _fixed(pixel: FloatArray) -> tuple[int, int]:
 
 
 def _line(
-    picture: ColorArray, a: FloatArray, b: FloatArray, color: Rgb, width: float, *, dashed: bool = False
+    picture: ColorArray, a: FloatArray, b: FloatArray, color: _Rgb, width: float, *, dashed: bool = False
 ) -> None:
     pieces = [(a, b)]
     if dashed:
@@ -230,7 +230,7 @@ def _line(
         cv2.line(picture, _fixed(start), _fixed(end), color, max(round(width), 1), cv2.LINE_AA, _SHIFT)
 
 
-def _dot(picture: ColorArray, pixel: FloatArray, color: Rgb, radius: float) -> None:
+def _dot(picture: ColorArray, pixel: FloatArray, color: _Rgb, radius: float) -> None:
     fixed_radius = round(radius * (1 << _SHIFT))
     cv2.circle(picture, _fixed(pixel), fixed_radius, color, cv2.FILLED, cv2.LINE_AA, _SHIFT)
 

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from ament_index_python.packages import get_package_share_directory
 from mcap.writer import CompressionType, Writer
-from rclpy.serialization import serialize_message
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
@@ -29,7 +29,7 @@ class SkeletonBag:
         """Begin the file."""
         self._writer = Writer(stream, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library="teo_skeleton_retriever")
-        types = message_types()
+        self._types = types = message_types()
         definition, _ = types.generate_msgdef(_TYPE, ros_version=2)
         schema = self._writer.register_schema(_TYPE, "ros2msg", definition.encode())
         metadata = {"topic_type_hash": types.hash_rihs01(_TYPE), "offered_qos_profiles": "[]"}
@@ -44,7 +44,8 @@ class SkeletonBag:
         """
         stamp = message.header.stamp
         published = stamp.sec * 1_000_000_000 + stamp.nanosec
-        self._writer.add_message(self._channel, time, serialize_message(message), published)
+        data = bytes(self._types.serialize_cdr(message, _TYPE))
+        self._writer.add_message(self._channel, time, data, published)
 
     def finish(self) -> None:
         """Write the index; nothing can be appended after it."""
@@ -67,6 +68,7 @@ def skeleton_bag(path: Path) -> Iterator[SkeletonBag]:
         bag.finish()
 
 
+@cache
 def message_types() -> Typestore:
     """Give the types of messages of ROS 2 and that of the skeletons, for bags."""
     folder = Path(get_package_share_directory("teo_sign_msgs")) / "msg"

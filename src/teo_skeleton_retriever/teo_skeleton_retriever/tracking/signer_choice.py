@@ -14,7 +14,7 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.errors import RetrieverError
 
 # [s] How long a signer who is not seen stays the signer: as long as their id is remembered.
-DEFAULT_PATIENCE = 3.0
+_DEFAULT_PATIENCE = 3.0
 
 Rule = Literal["nearest", "central"]
 
@@ -22,7 +22,7 @@ Rule = Literal["nearest", "central"]
 class SignerChoice:
     """Who signs. A signer stays the signer while seen, however near others come; a locked one always does."""
 
-    def __init__(self, rule: Rule = "nearest", patience: float = DEFAULT_PATIENCE) -> None:
+    def __init__(self, rule: Rule = "nearest", patience: float = _DEFAULT_PATIENCE) -> None:
         """Choose by a rule.
 
         Args:

@@ -86,7 +86,7 @@ def study(name: str, distance: float, frames: int) -> Study:
             retriever = Retriever(RetrieverParameters(newcomer_images=1))
             for index in range(start, start + frames):
                 image = take.frame(index)
-                space = signing_space_seen(image, sensor) if math.isnan(space) else space
+                space = _signing_space_seen(image, sensor) if math.isnan(space) else space
                 people = detector.detect(image.color, image.stamp)
                 found = retriever.process(DetectionFrame(image.stamp, people, image.depth, image.camera))
                 body, tips = np.full((25, 3), math.nan), np.full((10, 3), math.nan)
@@ -105,7 +105,7 @@ def study(name: str, distance: float, frames: int) -> Study:
     return Study(name, distance, space, *_summary(wrists), *_summary(fingertips))
 
 
-def signing_space_seen(image: SyntheticFrame, sensor: Sensor) -> float:
+def _signing_space_seen(image: SyntheticFrame, sensor: Sensor) -> float:
     """Tell the share of the signing space that is in the image and within the device's range.
 
     Args:

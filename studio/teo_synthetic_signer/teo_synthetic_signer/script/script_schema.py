@@ -153,7 +153,7 @@ class ArmText(BaseModel):
         )
 
 
-Hanging = Literal["hanging"]
+_Hanging = Literal["hanging"]
 Angle = Annotated[float, Field(ge=-90.0, le=90.0)]
 Angles = Annotated[tuple[Angle, Angle, Angle], Field(strict=False)]
 
@@ -163,8 +163,8 @@ class KeyText(BaseModel):
 
     model_config = _STRICT
 
-    right: ArmText | Hanging | None = None
-    left: ArmText | Hanging | None = None
+    right: ArmText | _Hanging | None = None
+    left: ArmText | _Hanging | None = None
     move: Annotated[float, Field(gt=0.0, le=60.0)] = 0.45
     hold: Seconds = 0.0
     bulge: Annotated[tuple[Metres, Metres, Metres], Field(strict=False)] = (0.0, 0.0, 0.0)

@@ -44,7 +44,7 @@ def neutral(
     )
 
 
-def beaten(key: Key, times: int, by: Vector, move: float = 0.16) -> list[Key]:
+def _beaten(key: Key, times: int, by: Vector, move: float = 0.16) -> list[Key]:
     """Repeat a key pose with a short movement of the hands there and back."""
 
     def shifted(arm: ArmKey | None) -> ArmKey | None:
@@ -72,7 +72,7 @@ def spelled(shapes: Sequence[str]) -> list[Key]:
     ]
 
 
-HELLO = beaten(
+HELLO = _beaten(
     Key(
         right=ArmKey(at="temple", offset=(0.10, 0.10, -0.06), fingers=_UP, palm=_TO_VIEWER, shape="open"),
         face=_SMILE,
@@ -81,7 +81,7 @@ HELLO = beaten(
     (0.0, 0.07, 0.0),
 )
 # A greeting with the hand well before the shoulder, where a robot with long upper arms can hold it as well.
-WAVE = beaten(Key(right=neutral("open", at=(0.38, 0.05, 0.08)), face=_SMILE), 2, (0.0, 0.09, 0.0), move=0.22)
+WAVE = _beaten(Key(right=neutral("open", at=(0.38, 0.05, 0.08)), face=_SMILE), 2, (0.0, 0.09, 0.0), move=0.22)
 THINK = [
     Key(
         right=ArmKey(
@@ -106,7 +106,7 @@ THINK = [
         move=0.25,
     ),
 ]
-EAT = beaten(
+EAT = _beaten(
     Key(
         right=ArmKey(
             at="mouth",

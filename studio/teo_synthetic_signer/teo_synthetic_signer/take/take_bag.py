@@ -11,7 +11,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from rclpy.serialization import serialize_message
 from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer, WriterError
 
@@ -113,7 +112,8 @@ def write_take(
                 time = START + round(frame.stamp * 1e9)
                 at = take_messages.header(time)
                 for topic, connection in zip(topics, connections, strict=True):
-                    writer.write(connection, time, serialize_message(topic.message(frame, at)))
+                    message = topic.message(frame, at)
+                    writer.write(connection, time, types.serialize_cdr(message, topic.type))
                 yield number
         (beside / out.name).replace(out)
     except (OSError, WriterError) as error:

@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Frames of a take as the messages that a camera's driver sends, and their truth as skeletons."""
+"""Frames of a take as the messages that a camera's driver sends, and their truth as skeletons.
+
+Images and camera_info are of the classes with which bags are written, which hold arrays of numpy.
+"""
 
 from __future__ import annotations
 
-import struct
-from array import array
 from typing import Any
 
 import cv2
 import numpy as np
 from builtin_interfaces.msg import Time
 from numpy.typing import NDArray
-from sensor_msgs.msg import CameraInfo, CompressedImage, Image
 from std_msgs.msg import Header
 from teo_sign_msgs.msg import SkeletonArray
 
@@ -21,6 +21,7 @@ from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.output.messages import skeleton_array
+from teo_skeleton_retriever.output.skeleton_bag import message_types
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame
 
@@ -29,7 +30,7 @@ FRAME_ID = "camera_color_optical_frame"
 # image_transport has 95; at 90 nobody sees a difference, and a bag is a third smaller.
 JPEG_QUALITY = 90
 _PNG_EFFORT = 7  # 9 takes eight times as long for 5 % less
-_DEPTH_HEADER = struct.pack("<iff", 0, 0.0, 0.0)  # of compressedDepth; its terms matter to floats alone
+_DEPTH_HEADER = np.zeros(12, dtype=np.uint8)  # of compressedDepth; its terms matter to floats alone
 _NANOSECONDS = 1_000_000_000
 
 
@@ -38,42 +39,48 @@ def header(time: int) -> Header:
     return Header(stamp=Time(sec=time // _NANOSECONDS, nanosec=time % _NANOSECONDS), frame_id=FRAME_ID)
 
 
-def camera_info(camera: CameraModel, at: Header) -> CameraInfo:
-    """Describe a camera without distortion."""
+def camera_info(camera: CameraModel, at: Header) -> Any:
+    """Describe a camera without distortion, as a sensor_msgs/CameraInfo."""
     k = [camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0]
     p = [camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0]
-    return CameraInfo(
+    region = _message("RegionOfInterest", x_offset=0, y_offset=0, height=0, width=0, do_rectify=False)
+    return _message(
+        "CameraInfo",
         header=at,
         width=camera.width,
         height=camera.height,
         distortion_model="plumb_bob",
-        d=[0.0] * 5,
-        k=k,
-        r=np.eye(3).ravel().tolist(),
-        p=p,
+        d=np.zeros(5),
+        k=np.array(k),
+        r=np.eye(3).ravel(),
+        p=np.array(p),
+        binning_x=0,
+        binning_y=0,
+        roi=region,
     )
 
 
-def color_image(frame: SyntheticFrame, at: Header) -> Image:
-    """Give the colour image, not compressed."""
+def color_image(frame: SyntheticFrame, at: Header) -> Any:
+    """Give the colour image, not compressed, as a sensor_msgs/Image."""
     return _image(frame.color, "rgb8", at)
 
 
-def depth_image(frame: SyntheticFrame, at: Header) -> Image:
-    """Give the depth image, not compressed [mm]."""
+def depth_image(frame: SyntheticFrame, at: Header) -> Any:
+    """Give the depth image, not compressed [mm], as a sensor_msgs/Image."""
     return _image(_millimetres(frame), "16UC1", at)
 
 
-def compressed_color(frame: SyntheticFrame, at: Header, quality: int = JPEG_QUALITY) -> CompressedImage:
+def compressed_color(frame: SyntheticFrame, at: Header, quality: int = JPEG_QUALITY) -> Any:
     """Give the colour image as image_transport's `compressed` sends it: JPEG, of a quality of 1 to 100."""
     data = _encoded(".jpg", frame.color[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])
-    return CompressedImage(header=at, format="rgb8; jpeg compressed bgr8", data=array("B", data))
+    return _message("CompressedImage", header=at, format="rgb8; jpeg compressed bgr8", data=data)
 
 
-def compressed_depth(frame: SyntheticFrame, at: Header) -> CompressedImage:
+def compressed_depth(frame: SyntheticFrame, at: Header) -> Any:
     """Give the depth image as image_transport's `compressedDepth` sends it: PNG behind 12 bytes."""
-    data = _DEPTH_HEADER + _encoded(".png", _millimetres(frame), [cv2.IMWRITE_PNG_COMPRESSION, _PNG_EFFORT])
-    return CompressedImage(header=at, format="16UC1; compressedDepth png", data=array("B", data))
+    png = _encoded(".png", _millimetres(frame), [cv2.IMWRITE_PNG_COMPRESSION, _PNG_EFFORT])
+    data = np.concatenate([_DEPTH_HEADER, png])
+    return _message("CompressedImage", header=at, format="16UC1; compressedDepth png", data=data)
 
 
 def truth_skeletons(frame: TruthFrame, at: Header) -> SkeletonArray:
@@ -118,21 +125,27 @@ def _millimetres(frame: SyntheticFrame) -> NDArray[np.uint16]:
     return np.where(steps < 65536.0, steps, 0.0).astype(np.uint16)
 
 
-def _image(pixels: NDArray[Any], encoding: str, at: Header) -> Image:
+def _image(pixels: NDArray[Any], encoding: str, at: Header) -> Any:
     height, width = pixels.shape[:2]
     data = np.ascontiguousarray(pixels)
-    return Image(
+    return _message(
+        "Image",
         header=at,
         width=width,
         height=height,
         encoding=encoding,
+        is_bigendian=0,
         step=data.strides[0],
-        data=array("B", data.tobytes()),
+        data=data.view(np.uint8).ravel(),
     )
 
 
-def _encoded(kind: str, pixels: NDArray[Any], options: list[int]) -> bytes:
+def _message(kind: str, **fields: Any) -> Any:
+    return message_types().types[f"sensor_msgs/msg/{kind}"](**fields)
+
+
+def _encoded(kind: str, pixels: NDArray[Any], options: list[int]) -> NDArray[np.uint8]:
     done, data = cv2.imencode(kind, pixels, options)
     if not done:
         raise SyntheticError("not_encoded", f"OpenCV could not write a {kind} of shape {pixels.shape}")
-    return bytes(data.tobytes())
+    return np.asarray(data, dtype=np.uint8).ravel()

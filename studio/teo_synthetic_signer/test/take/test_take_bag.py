@@ -18,7 +18,7 @@ from teo_synthetic_signer.cli.synthesize_cli import _app
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.take.take_bag import START, write_take
 
-MESSAGES = Path(__file__).parents[3] / "teo_sign_msgs" / "msg"
+MESSAGES = Path(__file__).parents[4] / "src" / "teo_sign_msgs" / "msg"
 COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
 SMALL = {"width": 160, "height": 120, "scene": "studio", "rate": 10.0}
 

@@ -150,21 +150,21 @@ def _flat(landmarks: FloatArray | None) -> FloatArray | None:
 # sure as ever; its network also tells left hands from right ones, which gives this away. Below this a hand
 # is the other one. Of 646 hands on rendered people 16 were the other hand, 15 of them below it, with 11 of
 # the 630 others: fists, or hands seen from their edge, which were off by 33 mm instead of 9.
-LEAST_SIDE = 0.3
+_LEAST_SIDE = 0.3
 
 
-class OwnHands(NamedTuple):
+class _OwnHands(NamedTuple):
     """Whether the left and the right hand are there and on the side they were taken for."""
 
     left: bool
     right: bool
 
 
-def own_hands(landmarks: HolisticLandmarks) -> OwnHands:
+def own_hands(landmarks: HolisticLandmarks) -> _OwnHands:
     """Tell which hands are on the side they were taken for; a single hand always counts as such."""
     if landmarks.left_hand is None or landmarks.right_hand is None:
-        return OwnHands(landmarks.left_hand is not None, landmarks.right_hand is not None)
-    return OwnHands(landmarks.left_hand_side >= LEAST_SIDE, landmarks.right_hand_side >= LEAST_SIDE)
+        return _OwnHands(landmarks.left_hand is not None, landmarks.right_hand is not None)
+    return _OwnHands(landmarks.left_hand_side >= _LEAST_SIDE, landmarks.right_hand_side >= _LEAST_SIDE)
 
 
 # Where hands come close, both crops may settle on the same hand: in a rendered take of two hands on each

@@ -47,7 +47,7 @@ BODY_25_FROM_POSE: dict[str, int] = {
     "RHeel": 30,
 }
 # Keypoints that MediaPipe does not give: mean of two, with the lower confidence.
-BODY_25_FROM_PAIRS: dict[str, tuple[str, str]] = {
+_BODY_25_FROM_PAIRS: dict[str, tuple[str, str]] = {
     "Neck": ("RShoulder", "LShoulder"),
     "MidHip": ("RHip", "LHip"),
 }
@@ -134,7 +134,7 @@ def _body(pose: FloatArray | None, size: FloatArray) -> FloatArray:
     body = np.zeros((len(BODY_25), 3))
     for name, landmark in BODY_25_FROM_POSE.items():
         body[BODY_25.index[name]] = pose[landmark] * [*size, 1.0]
-    for name, (first, second) in BODY_25_FROM_PAIRS.items():
+    for name, (first, second) in _BODY_25_FROM_PAIRS.items():
         body[BODY_25.index[name]] = midpoint(body[BODY_25.index[first]], body[BODY_25.index[second]])
     return body
 

@@ -23,7 +23,7 @@ from teo_skeleton_retriever.layouts.person_2d import UNKNOWN_ID, Person2D
 # The version that is written.
 VERSION = 1.3
 # The versions that are read.
-VERSIONS = (0.1, 1.0, 1.1, 1.2, 1.3)
+_VERSIONS = (0.1, 1.0, 1.1, 1.2, 1.3)
 
 
 class PartKeys(NamedTuple):
@@ -126,9 +126,9 @@ def parse_frame(content: bytes | str, *, source: str = "OpenPose JSON") -> OpenP
 
 
 def _version(value: object, source: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or float(value) not in VERSIONS:
+    if isinstance(value, bool) or not isinstance(value, int | float) or float(value) not in _VERSIONS:
         raise RetrieverError(
-            "unknown_version", f"{source}: expected 'version' among {VERSIONS}, got {value!r:.40}"
+            "unknown_version", f"{source}: expected 'version' among {_VERSIONS}, got {value!r:.40}"
         )
     return float(value)
 

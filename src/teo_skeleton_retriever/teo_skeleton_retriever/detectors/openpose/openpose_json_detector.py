@@ -22,7 +22,7 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
 # Source of the figures: OpenPose 1.7, `keypointScaler.cpp`: fractions are of size - 1, one factor for both
 # axes where an image is fitted into a resolution. Pixels of the image; of the network's input; of the
 # output; [0, 1]; [-1, 1].
-SOURCE, NET, OUTPUT, UNIT, SYMMETRIC = range(5)
+_SOURCE, _NET, _OUTPUT, _UNIT, _SYMMETRIC = range(5)
 
 
 class KeypointScale:
@@ -40,7 +40,7 @@ class KeypointScale:
     def __init__(self, keypoint_scale: int, resolution: Sequence[int] | None) -> None:
         if keypoint_scale not in range(5):
             raise RetrieverError("bad_scale", f"expected a keypoint_scale of 0 to 4, got {keypoint_scale!r}")
-        fitted = keypoint_scale in (NET, OUTPUT)
+        fitted = keypoint_scale in (_NET, _OUTPUT)
         if fitted and (resolution is None or len(resolution) != 2 or min(resolution) < 2):
             raise RetrieverError(
                 "bad_resolution",
@@ -67,9 +67,9 @@ class KeypointScale:
 
     def _factors(self, width: int, height: int) -> tuple[FloatArray, float]:
         last = np.array([width - 1.0, height - 1.0])
-        if self._kind == UNIT:
+        if self._kind == _UNIT:
             return last, 0.0
-        if self._kind == SYMMETRIC:
+        if self._kind == _SYMMETRIC:
             return last / 2.0, 1.0
         if self._resolution is None:
             return np.ones(2), 0.0
@@ -83,7 +83,7 @@ def _scaled(table: FloatArray, scale: FloatArray, offset: float) -> FloatArray:
 
 
 Found = TypeVar("Found")
-PAIRINGS = ("order", "stamp", "newest")
+_PAIRINGS = ("order", "stamp", "newest")
 
 
 class OpenPoseJsonDetector:
@@ -126,11 +126,11 @@ class OpenPoseJsonDetector:
         resolution: Sequence[int] | None = None,
     ) -> None:
         pairing = pairing or ("order" if stamps is None else "stamp")
-        if pairing not in PAIRINGS or (pairing == "stamp") != (stamps is not None):
+        if pairing not in _PAIRINGS or (pairing == "stamp") != (stamps is not None):
             raise RetrieverError(
                 "bad_option",
-                f"expected a pairing of {', '.join(PAIRINGS)}, and stamps for 'stamp' alone, got {pairing!r} "
-                f"{'without' if stamps is None else 'with'} stamps",
+                f"expected a pairing of {', '.join(_PAIRINGS)}, and stamps for 'stamp' alone, got "
+                f"{pairing!r} {'without' if stamps is None else 'with'} stamps",
             )
         if not 0.0 <= wait < float("inf"):
             raise RetrieverError("bad_option", f"wait: expected a time [s], got {wait}")

@@ -12,23 +12,23 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.detectors.detector import ImageArray, check_image
-from teo_skeleton_retriever.detectors.paf.part_affinity import (
+from teo_skeleton_retriever.errors import RetrieverError
+from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
+from teo_skeleton_retriever.paf.part_affinity import (
     CAREFUL,
     GENEROUS,
     assemble,
     find_limbs,
     find_peaks,
 )
-from teo_skeleton_retriever.detectors.paf.pose_network import Maps, PoseNetwork
-from teo_skeleton_retriever.errors import RetrieverError
-from teo_skeleton_retriever.layouts.person_2d import Person2D, as_body_25
+from teo_skeleton_retriever.paf.pose_network import Maps, PoseNetwork
 
 # OpenPose's networks take sizes that are multiples of this.
-MULTIPLE = 16
+_MULTIPLE = 16
 # To 1: beyond, a free side would ask for more memory than there may be.
-WIDEST = 8
+_WIDEST = 8
 # A side of the net resolution that follows from the other and from the image's shape.
-FREE = -1
+_FREE = -1
 
 
 class OpenPoseOnnxDetector:
@@ -54,13 +54,13 @@ class OpenPoseOnnxDetector:
         self,
         *,
         model: str | Path,
-        net_resolution: Sequence[int] = (FREE, 368),
+        net_resolution: Sequence[int] = (_FREE, 368),
         maximize_positives: bool = False,
     ) -> None:
         self._resolution = _checked_resolution(net_resolution)
         self._thresholds = GENEROUS if maximize_positives else CAREFUL
         self._network: PoseNetwork | None = PoseNetwork(Path(model))
-        if FREE not in self._resolution:  # what it gives shows only when it runs, and now is the time to tell
+        if _FREE not in self._resolution:  # what it gives shows only when it runs: tell now
             self._network.run(np.zeros((self._resolution[1], self._resolution[0], 3), np.uint8))
 
     def detect(self, image: ImageArray, stamp: float) -> tuple[Person2D, ...]:
@@ -85,15 +85,15 @@ class OpenPoseOnnxDetector:
         self._network = None
 
     def _net_size(self, width: int, height: int) -> tuple[int, int]:
-        if max(width, height) > WIDEST * min(width, height):
+        if max(width, height) > _WIDEST * min(width, height):
             raise RetrieverError(
                 "bad_image",
-                f"expected sides no more than {WIDEST} to 1, got an image of {width} x {height} px",
+                f"expected sides no more than {_WIDEST} to 1, got an image of {width} x {height} px",
             )
         net_width, net_height = self._resolution
-        if net_width == FREE:
+        if net_width == _FREE:
             net_width = _multiple(net_height * width / height)
-        elif net_height == FREE:
+        elif net_height == _FREE:
             net_height = _multiple(net_width * height / width)
         return net_width, net_height
 
@@ -106,19 +106,19 @@ class OpenPoseOnnxDetector:
 def _checked_resolution(resolution: Sequence[int]) -> tuple[int, int]:
     sides = tuple(resolution)
     fine = len(sides) == 2 and all(
-        side == FREE or (isinstance(side, int) and side > 0 and side % MULTIPLE == 0) for side in sides
+        side == _FREE or (isinstance(side, int) and side > 0 and side % _MULTIPLE == 0) for side in sides
     )
-    if not fine or sides == (FREE, FREE):
+    if not fine or sides == (_FREE, _FREE):
         raise RetrieverError(
             "bad_resolution",
-            f"net_resolution: expected width, height, multiples of {MULTIPLE}, one of them possibly {FREE}, "
-            f"got {resolution!r}",
+            f"net_resolution: expected width, height, multiples of {_MULTIPLE}, one of them possibly "
+            f"{_FREE}, got {resolution!r}",
         )
     return sides[0], sides[1]
 
 
 def _multiple(side: float) -> int:
-    return max(round(side / MULTIPLE), 1) * MULTIPLE
+    return max(round(side / _MULTIPLE), 1) * _MULTIPLE
 
 
 def _in_image(body: FloatArray, scale: FloatArray) -> FloatArray:

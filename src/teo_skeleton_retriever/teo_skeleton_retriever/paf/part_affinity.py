@@ -14,7 +14,7 @@ import cv2
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_skeleton_retriever.detectors.paf.pose_network import IntArray, MapArray, PafModel
+from teo_skeleton_retriever.paf.pose_network import IntArray, MapArray, PafModel
 
 
 class PafThresholds(NamedTuple):
@@ -209,9 +209,9 @@ def _sample(fields: MapArray, channels: IntArray, places: FloatArray, size: tupl
 
 
 # How much the confidence of its two parts counts beside a limb's own score when limbs are ranked.
-PEAK_SHARE = 0.1
+_PEAK_SHARE = 0.1
 # Other parts that somebody with feet must have: feet alone are often shoes, or reflections.
-FEWEST_BESIDE_FEET = 5
+_FEWEST_BESIDE_FEET = 5
 
 
 @dataclass
@@ -233,7 +233,7 @@ def assemble(
     Returns:
         x, y [px], confidence of each person's parts, zero where not found; shape (parts, 3) each.
     """
-    rank = limbs.score + PEAK_SHARE * (peaks.score[limbs.first] + peaks.score[limbs.second])
+    rank = limbs.score + _PEAK_SHARE * (peaks.score[limbs.first] + peaks.score[limbs.second])
     owner: dict[int, _Person] = {}
     for limb in np.argsort(-rank, kind="stable"):
         first, second = int(limbs.first[limb]), int(limbs.second[limb])
@@ -264,7 +264,7 @@ def _is_person(person: _Person, model: PafModel, thresholds: PafThresholds) -> b
     return (
         parts >= thresholds.parts
         and person.score / parts >= thresholds.score
-        and not (feet and parts - feet < FEWEST_BESIDE_FEET)
+        and not (feet and parts - feet < _FEWEST_BESIDE_FEET)
     )
 
 

@@ -13,7 +13,7 @@ from drawn_maps import draw, person
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_skeleton_retriever.detectors.paf.part_affinity import (
+from teo_skeleton_retriever.paf.part_affinity import (
     CAREFUL,
     GENEROUS,
     MOST_PER_PART,
@@ -22,7 +22,7 @@ from teo_skeleton_retriever.detectors.paf.part_affinity import (
     find_limbs,
     find_peaks,
 )
-from teo_skeleton_retriever.detectors.paf.pose_network import (
+from teo_skeleton_retriever.paf.pose_network import (
     BODY_25_MODEL,
     COCO_18_MODEL,
     PAF_MODELS,
