@@ -325,6 +325,7 @@ def test_a_stamp_that_is_no_time_is_refused(stamp: float) -> None:
     assert caught.value.code == "bad_stamp"
 
 
+@pytest.mark.slow
 def test_memory_is_bounded_over_ten_thousand_images() -> None:
     retriever = Retriever(replace(AT_ONCE, optimise_limbs=False))
     image = frame(0.0, signing(0.0))

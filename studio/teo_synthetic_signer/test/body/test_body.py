@@ -215,7 +215,7 @@ def test_no_wrist_is_strained_beyond_what_wrists_can(body: str) -> None:
     signer = Signer(body)
     for name in SCRIPTS:
         motion = Motion(signer.poser, script(name))
-        for time in np.linspace(0.0, motion.duration, 15):
+        for time in np.linspace(0.0, motion.duration, 8):
             pose = motion.pose(float(time))
             for side, arm in pose.arms.items():
                 limb = signer.poser.arms[side]

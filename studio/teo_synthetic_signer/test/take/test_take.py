@@ -106,7 +106,7 @@ def test_visible_finger_joints_lie_a_few_millimetres_below_the_skin(frames: list
 
 def test_pupils_are_dark_and_the_whites_beside_them_are_not() -> None:
     frame = perfect(
-        width=1280, height=960, distance=0.8, camera_height=1.6, camera_pitch=0.0, script="still"
+        width=640, height=480, distance=0.8, camera_height=1.6, camera_pitch=0.0, script="still"
     ).frame(20)
     for pupil, corner in ((68, 36), (69, 45)):
         places = frame.truth.face[[pupil, corner]]
@@ -118,7 +118,7 @@ def test_pupils_are_dark_and_the_whites_beside_them_are_not() -> None:
 def test_what_a_hand_covers_is_hidden_and_seen_again_after() -> None:
     take = perfect(script="face", body="man_average")
     nose = BODY_25.index["Nose"]
-    seen = [take.frame(i).truth.body_visible[nose] for i in range(0, len(take), 6)]
+    seen = [take.truth(i).truth.body_visible[nose] for i in range(0, len(take), 6)]
     assert seen[0] and seen[-1]
     assert not all(seen)
 
@@ -127,7 +127,7 @@ def test_a_hand_behind_the_other_arm_is_hidden() -> None:
     take = perfect(script="crossing", body="man_average")
     covered = 0.0
     for i in range(0, len(take), 6):
-        truth = take.frame(i).truth
+        truth = take.truth(i).truth
         covered = max(covered, 1.0 - truth.right_hand_visible.mean())
     assert covered > 0.6
 
@@ -169,7 +169,7 @@ def test_the_person_drawn_over_the_room_is_what_one_cast_of_both_gives(take: Tak
 
 
 def test_a_camera_that_is_higher_looks_down_on_the_same_truth() -> None:
-    low, high = (perfect(script="still", camera_height=h).frame(0) for h in (1.0, 1.9))
+    low, high = (perfect(script="still", camera_height=h).truth(0) for h in (1.0, 1.9))
     for frame in (low, high):
         chest = frame.camera.project(frame.truth.body[[BODY_25.index["Neck"]]])[0]
         assert 80 < chest[1] < 200
@@ -198,7 +198,7 @@ def test_another_light_changes_the_colours_and_nothing_else() -> None:
 
 
 def test_a_companion_before_the_signer_hides_the_signer_and_has_a_truth_too() -> None:
-    alone = perfect(script="still").frame(0)
+    alone = perfect(script="still").truth(0)
     both = perfect(script="still", companions=(Companion(body="man_tall", behind=-0.4, aside=0.0),)).frame(0)
     np.testing.assert_allclose(both.truth.body, alone.truth.body)
     assert alone.truth.body_visible[BODY_25.index["Neck"]]
