@@ -25,10 +25,6 @@ def frame_path(folder: Path, name: str) -> Path:
 def format_frame(frame: OpenPoseFrame) -> str:
     """Write people as the text of one file; it is always of the present version."""
     data: dict[str, object] = {"version": VERSION, "people": [_person(person) for person in frame.people]}
-    if frame.part_candidates:
-        data["part_candidates"] = [
-            {str(i): _numbers(table) for i, table in sorted(frame.part_candidates.items())}
-        ]
     return json.dumps(data, separators=(",", ":"))
 
 
@@ -49,8 +45,9 @@ def write_frame(path: Path, frame: OpenPoseFrame) -> None:
 
 
 def _person(person: Person2D) -> dict[str, object]:
-    parts = {part.keys[0]: _numbers(getattr(person, part.attribute)) for part in PARTS}
-    return {"person_id": [person.person_id], **parts}
+    parts: dict[str, object] = {part.keys[0]: _numbers(getattr(person, part.attribute)) for part in PARTS}
+    unused = {f"{key}_keypoints_3d": [] for key in ("pose", "face", "hand_left", "hand_right")}
+    return {"person_id": [-1], **parts, **unused}
 
 
 def _numbers(table: FloatArray) -> list[float]:
