@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Skeletons as messages, and back; pictures as messages."""
+"""Skeletons and pictures as messages."""
 
 from __future__ import annotations
 
 import math
 from array import array
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
@@ -17,7 +16,6 @@ from teo_sign_msgs.msg import Keypoint3D, Skeleton3D, SkeletonArray
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.raw_image import ColorArray
-from teo_skeleton_retriever.layouts.layout import Layout
 from teo_skeleton_retriever.layouts.skeleton_3d import SKELETON_PARTS, BodyFrame, Keypoints3D, Skeleton
 
 
@@ -29,11 +27,6 @@ def skeleton_array(skeletons: Sequence[Skeleton], header: Header) -> SkeletonArr
         header: Of the image: its stamp, and the camera's optical frame.
     """
     return SkeletonArray(header=header, skeletons=[_message(skeleton) for skeleton in skeletons])
-
-
-def skeletons_of(message: SkeletonArray) -> tuple[Skeleton, ...]:
-    """Read a message; a part that it leaves out is lost."""
-    return tuple(_skeleton(skeleton) for skeleton in message.skeletons)
 
 
 def image_message(picture: ColorArray, header: Header) -> Image:
@@ -103,40 +96,3 @@ def _quaternion(rotation: FloatArray) -> tuple[float, float, float, float]:
     q /= np.linalg.norm(q)
     qx, qy, qz, qw = (q if q[3] >= 0.0 else -q).tolist()
     return qx, qy, qz, qw
-
-
-def _skeleton(message: Skeleton3D) -> Skeleton:
-    parts: dict[str, Any] = {
-        part: _keypoints(getattr(message, part), layout) for part, layout in SKELETON_PARTS.items()
-    }
-    return Skeleton(
-        track_id=message.id, is_signer=message.is_signer, body_frame=_body_frame(message), **parts
-    )
-
-
-def _keypoints(messages: Sequence[Keypoint3D], layout: Layout) -> Keypoints3D:
-    if not messages:
-        return Keypoints3D.lost(len(layout))
-    return Keypoints3D(
-        points=np.array([(m.position.x, m.position.y, m.position.z) for m in messages]),
-        confidence=np.array([m.confidence for m in messages]),
-        status=np.array([m.status for m in messages], dtype=np.uint8),
-        sigma=np.array([m.sigma for m in messages], dtype=np.float64),
-        pixels=np.array([m.pixel for m in messages], dtype=np.float64),
-    )
-
-
-def _body_frame(message: Skeleton3D) -> BodyFrame | None:
-    if message.body_frame_origin == Skeleton3D.BODY_FRAME_UNKNOWN:
-        return None
-    origin, turn = message.body_frame.position, message.body_frame.orientation
-    x, y, z, w = turn.x, turn.y, turn.z, turn.w
-    rotation = np.array(
-        [
-            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
-            [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
-            [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
-        ]
-    )
-    hips = message.body_frame_origin == Skeleton3D.BODY_FRAME_HIPS
-    return BodyFrame(np.array([origin.x, origin.y, origin.z]), rotation, "hips" if hips else "shoulders")
