@@ -23,7 +23,6 @@ setup(
         "mediapipe",
         "numpy",
         "opencv-python-headless",
-        "protobuf",
         "rich",
         "rosbags",
         "scipy",
