@@ -4,7 +4,7 @@
 # Makes the workspace ready: a virtual environment in .venv and the packages built into install/.
 #   scripts/setup.sh run   what signs, and the demo
 #   scripts/setup.sh view  that, the console, and what sees and captures, which it teaches with
-#   scripts/setup.sh all   that, and what trains, tests and documents
+#   scripts/setup.sh all   that, the studio (studio/: writes signs, trains, renders people), and what tests and documents
 #   scripts/setup.sh wheelhouse  fetches all of it into wheelhouse/, from which each of these then installs
 # Does only what is missing; a second call takes well under a second.
 set -euo pipefail
@@ -83,8 +83,8 @@ list_requirements() { # LEVEL
         alone+=(-r requirements/retriever-alone.txt)
     fi
     if [ "$1" = all ]; then
-        wanted+=(-r requirements/train.txt -r requirements/test.txt -r requirements/docs.txt
-            -r requirements/physics.txt)
+        wanted+=(-r requirements/authoring.txt -r requirements/train.txt -r requirements/test.txt
+            -r requirements/docs.txt -r requirements/physics.txt)
         alone+=(-r requirements/people-alone.txt)
     fi
 }
@@ -164,19 +164,20 @@ build() { # OPTION...: builds what colcon's options select
 }
 
 build_workspace() {
-    local want selection=()
+    local want selection=() shelves=(src tools)
+    if [ -d studio ]; then shelves+=(studio); fi # an image for a robot has none
     # Python files are linked, not copied: only a new or renamed file, or one that is generated from, needs a build.
     want="$(
         {
-            find src studio tools -type f -not -path '*/__pycache__/*' -not -path '*/test/*' -not -path '*.egg-info/*' | sort
-            find src studio tools -type f \( -name '*.msg' -o -name '*.srv' -o -name '*.action' -o -name CMakeLists.txt \
+            find "${shelves[@]}" -type f -not -path '*/__pycache__/*' -not -path '*/test/*' -not -path '*.egg-info/*' | sort
+            find "${shelves[@]}" -type f \( -name '*.msg' -o -name '*.srv' -o -name '*.action' -o -name CMakeLists.txt \
                 -o -name package.xml -o -name 'setup.*' \) -print0 | sort -z | xargs -0 cat
         } | sha256sum | cut -d' ' -f1
     )"
     is_ready install "$want" && return
     case "$level" in
         run) selection=(--packages-up-to teo_bringup teo_ros2cli) ;;
-        view) selection=(--packages-up-to teo_bringup teo_ros2cli teo_console teo_sign_authoring) ;;
+        view) selection=(--packages-up-to teo_bringup teo_ros2cli teo_console teo_sign_capture) ;;
     esac
     echo "setup: building the workspace"
     # Links to files that are gone would stop the build.

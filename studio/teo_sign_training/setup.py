@@ -19,7 +19,6 @@ setup(
         "PyYAML",
         "rich",
         "sacrebleu",
-        "safetensors",
         "torch",
         "typer",
     ],

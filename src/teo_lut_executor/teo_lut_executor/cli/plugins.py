@@ -27,7 +27,7 @@ class _Known(NamedTuple):
 
 
 _CAPTURE = ("teo_sign_capture", "requirements/capture.txt")
-_AUTHORING = ("teo_sign_authoring", "requirements/capture.txt")
+_AUTHORING = ("teo_sign_authoring", "requirements/authoring.txt")
 _KNOWN = {
     "capture": _Known("A sign from recordings of a person.", *_CAPTURE),
     "coverage": _Known("What of a text has signs.", "teo_sign_translator", "requirements/run.txt"),
