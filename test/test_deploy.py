@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from teo_bringup.graph import SIGNING
-from teo_bringup.up import parse
+from teo_bringup.graph import NODES, SIGNING
 
 DEPLOY = Path(__file__).parents[1] / "deploy"
 UNITS = sorted(DEPLOY.glob("*.service"))
@@ -22,19 +21,20 @@ UNITS = sorted(DEPLOY.glob("*.service"))
 def nodes_of_unit(unit: Path) -> list[str]:
     found = re.search(r"teo_bringup up (.*?) --log-folder", unit.read_text())
     assert found is not None
-    return parse(found[1].split()).nodes
+    return found[1].split()
 
 
 def nodes_of_service(name: str) -> list[str]:
     services = yaml.safe_load((DEPLOY / "compose.yaml").read_text())["services"]
-    return parse(services[name]["command"]).nodes
+    return list(services[name]["command"])
 
 
 def test_units_and_containers_share_the_nodes_out_alike() -> None:
     machines = {unit.stem.removeprefix("teo-"): nodes_of_unit(unit) for unit in UNITS}
     assert machines == {name: nodes_of_service(name) for name in ("robot", "workstation")}
-    signing = [name for nodes in machines.values() for name in nodes if name in SIGNING]
-    assert sorted(signing) == sorted(SIGNING)
+    started = [name for nodes in machines.values() for name in nodes]
+    assert sorted(name for name in started if name in SIGNING) == sorted(SIGNING)
+    assert set(started) <= set(NODES)
 
 
 def test_what_an_image_copies_is_there_and_not_left_out_of_its_context() -> None:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import signal
 import sys
@@ -12,12 +11,17 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
-from typing import NamedTuple, NoReturn
+from typing import Annotated, Literal, NamedTuple, NoReturn
 
+import typer
 from ament_index_python.packages import get_package_share_directory
 
 from teo_bringup.graph import NODES, SIGNING, Graph, GraphError
 from teo_common.node_process import tell_supervisor
+
+# What is no option of ours is taken for a node, so that the refusal can name --ros-args.
+_app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+_SETTINGS = {"ignore_unknown_options": True}
 
 
 class _ToldToEndError(Exception):
@@ -30,16 +34,9 @@ class _ToldToEndError(Exception):
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run nodes; exit with 0 when told to end, else with the status of the first that ended for good."""
-    asked = parse(arguments)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _raise_told_to_end)
-    try:
-        status = _run(asked)
-    except GraphError as error:
-        sys.exit(f"up: {error}")
-    except OSError as error:  # of the log folder
-        sys.exit(f"up: expected to write logs in {asked.log_folder}: {error.strerror}; choose a --log-folder")
-    sys.exit(status)
+    ours = list(sys.argv[1:] if arguments is None else arguments)
+    start = ours.index("--ros-args") if "--ros-args" in ours else len(ours)
+    _app(ours[:start], prog_name="up", obj=ours[start:])
 
 
 class Asked(NamedTuple):
@@ -55,37 +52,95 @@ class Asked(NamedTuple):
     """Where each node's output is kept."""
 
 
-def parse(arguments: Sequence[str] | None) -> Asked:
-    """Read the command line.
+def _known(nodes: list[str] | None) -> list[str]:
+    """The nodes to start, each once; what signs where none is named."""
+    for name in nodes or ():
+        if name not in NODES:
+            raise typer.BadParameter(
+                f"expected some of {', '.join(NODES)}, and --ros-args before what the nodes get; got {name}"
+            )
+    return list(dict.fromkeys(nodes or SIGNING))
 
-    Args:
-        arguments: Of the command line; None for the process's own.
 
-    Raises:
-        SystemExit: They are wrong; the parser has said how.
-    """
-    ours = list(sys.argv[1:] if arguments is None else arguments)
-    start = ours.index("--ros-args") if "--ros-args" in ours else len(ours)
-    ours, ros_arguments = ours[:start], ours[start:]
-    given = _parser().parse_args(ours)
-    for_nodes = ["--ros-args", "--params-file", str(given.params_file)]
-    if given.namespace:
-        for_nodes += ["-r", f"__ns:=/{given.namespace.strip('/')}"]
-    if given.robot:
-        for_nodes += ["-p", f"robot:={given.robot}"]
-    if given.language:
-        for_nodes += ["-p", f"language:={given.language}"]
-    if given.use_sim_time:
+def _shipped_parameters() -> Path:
+    return Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml"
+
+
+def _log_folder() -> Path:
+    """A folder for this run where ROS keeps logs: `ROS_LOG_DIR`, else log/ in `ROS_HOME`, else ~/.ros/log."""
+    home = Path(os.environ.get("ROS_HOME") or Path.home() / ".ros")
+    logs = Path(os.environ.get("ROS_LOG_DIR") or home / "log")
+    return logs / f"teo_{time.strftime('%Y-%m-%d_%H-%M-%S')}_{os.getpid()}"
+
+
+@_app.command(
+    context_settings=_SETTINGS, epilog="Every node gets what follows --ros-args: --ros-args -p model:=lstm256"
+)
+def _up(
+    context: typer.Context,
+    nodes: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[NODE]...",
+            callback=_known,
+            help=f"Of {', '.join(NODES)}; {', '.join(SIGNING)} if none is named.",
+        ),
+    ] = None,
+    params_file: Annotated[
+        Path,
+        typer.Option(exists=True, dir_okay=False, help="Parameters of the nodes.", show_default=False),
+    ] = _shipped_parameters(),  # noqa: B008 - where the installed file is does not change
+    namespace: Annotated[
+        str, typer.Option(help="Before every topic, service and node: one for each robot.")
+    ] = "",
+    robot: Annotated[str, typer.Option(help="Name of the robot, whatever the parameter file says.")] = "",
+    language: Annotated[
+        str, typer.Option(help="Sign language by its ISO 639-3 code, whatever the parameter file says.")
+    ] = "",
+    use_sim_time: Annotated[
+        bool, typer.Option("--use-sim-time", help="Take the time from the topic clock.")
+    ] = False,
+    restart: Annotated[
+        Literal["on-failure", "no"],
+        typer.Option(help="When a node that was ready ends is started again, five times a minute at most."),
+    ] = "on-failure",
+    log_folder: Annotated[
+        Path | None,
+        typer.Option(help="Where each node's log goes; a new one in ROS's log folder if not given."),
+    ] = None,
+) -> None:
+    """Start nodes and keep them up, until Ctrl-C or until one ends for good."""
+    for_nodes = ["--ros-args", "--params-file", str(params_file)]
+    if namespace:
+        for_nodes += ["-r", f"__ns:=/{namespace.strip('/')}"]
+    if robot:
+        for_nodes += ["-p", f"robot:={robot}"]
+    if language:
+        for_nodes += ["-p", f"language:={language}"]
+    if use_sim_time:
         for_nodes += ["-p", "use_sim_time:=true"]
-    return Asked(
-        nodes=list(dict.fromkeys(given.nodes or SIGNING)),
-        for_nodes=[*for_nodes, *ros_arguments],
-        restarts=given.restart == "on-failure",
-        log_folder=given.log_folder or _log_folder(),
+    asked = Asked(
+        nodes=nodes or [],
+        for_nodes=[*for_nodes, *context.obj],
+        restarts=restart == "on-failure",
+        log_folder=log_folder or _log_folder(),
     )
+    raise typer.Exit(run(asked))
 
 
-def _run(asked: Asked) -> int:
+def run(asked: Asked) -> int:
+    """Run nodes until told to end (0) or one ends for good (its status)."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _raise_told_to_end)
+    try:
+        return _keep_up(asked)
+    except GraphError as error:
+        sys.exit(f"up: {error}")
+    except OSError as error:  # of the log folder
+        sys.exit(f"up: expected to write logs in {asked.log_folder}: {error.strerror}; choose a --log-folder")
+
+
+def _keep_up(asked: Asked) -> int:
     with Graph(asked.log_folder, printed=True) as graph:
         try:
             print(f"[up] each node's log is in {asked.log_folder}/", file=sys.stderr, flush=True)
@@ -105,73 +160,6 @@ def _run(asked: Asked) -> int:
 def _say_ready() -> None:
     print("[up] every node is ready", file=sys.stderr, flush=True)
     tell_supervisor("READY=1")  # systemd's, where it started us
-
-
-def _log_folder() -> Path:
-    """A folder for this run where ROS keeps logs: `ROS_LOG_DIR`, else log/ in `ROS_HOME`, else ~/.ros/log."""
-    home = Path(os.environ.get("ROS_HOME") or Path.home() / ".ros")
-    logs = Path(os.environ.get("ROS_LOG_DIR") or home / "log")
-    return logs / f"teo_{time.strftime('%Y-%m-%d_%H-%M-%S')}_{os.getpid()}"
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="up",
-        description="Start nodes and keep them up, until Ctrl-C or until one ends for good.",
-        epilog="Every node gets what follows --ros-args, as in --ros-args -p model:=lstm256.",
-    )
-    parser.add_argument(
-        "nodes",
-        nargs="*",
-        type=_known_node,
-        metavar="NODE",
-        help=f"of {', '.join(NODES)}; {', '.join(SIGNING)} if none is named",
-    )
-    parser.add_argument(
-        "--params-file",
-        type=_existing_file,
-        default=Path(get_package_share_directory("teo_bringup")) / "config" / "parameters.yaml",
-        help="parameters of the nodes; those of teo_bringup if not given",
-    )
-    parser.add_argument(
-        "--namespace", default="", help="before every topic, service and node: one for each robot"
-    )
-    parser.add_argument(
-        "--robot", default="", help="name of the robot; that of the parameter file if not given"
-    )
-    parser.add_argument(
-        "--language",
-        default="",
-        help="sign language by its ISO 639-3 code; that of the parameter file if not given",
-    )
-    parser.add_argument("--use-sim-time", action="store_true", help="take the time from the topic clock")
-    parser.add_argument(
-        "--restart",
-        choices=("on-failure", "no"),
-        default="on-failure",
-        help="whether a node that was ready and fails is started again, five times a minute at most",
-    )
-    parser.add_argument(
-        "--log-folder",
-        type=Path,
-        help="where each node's log goes; a new one in ROS's log folder if not given",
-    )
-    return parser
-
-
-def _known_node(text: str) -> str:
-    if text not in NODES:
-        raise argparse.ArgumentTypeError(
-            f"expected some of {', '.join(NODES)}, and --ros-args before what the nodes get; got {text}"
-        )
-    return text
-
-
-def _existing_file(text: str) -> Path:
-    path = Path(text)
-    if not path.is_file():
-        raise argparse.ArgumentTypeError(f"expected a file of parameters, got {text}")
-    return path
 
 
 def _raise_told_to_end(number: int, _: FrameType | None) -> NoReturn:

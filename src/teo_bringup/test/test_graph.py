@@ -13,13 +13,14 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from teo_bringup.graph import NODES, Graph, GraphError, executable_of
 from teo_bringup.keeper import MOST_RESTARTS
-from teo_bringup.up import parse
+from teo_bringup.up import Asked, main
 from teo_common.node_process import tell_supervisor
 
 PATIENCE = 120.0  # [s] for a Python process to start on a loaded machine
@@ -236,49 +237,57 @@ def test_up_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path) ->
     assert "/nowhere" in said
 
 
-def test_up_hands_namespace_clock_and_what_follows_on_to_every_node() -> None:
-    given = parse(["--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256"]).for_nodes
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Asked]:
+    """What `up` would do for a command line."""
+    kept: list[Asked] = []
+    monkeypatch.setattr("teo_bringup.up.run", kept.append)
+
+    def ask(*arguments: str) -> Asked:
+        with pytest.raises(SystemExit):
+            main(arguments)
+        return kept[-1]
+
+    return ask
+
+
+def test_up_hands_namespace_clock_and_what_follows_on_to_every_node(asked: Callable[..., Asked]) -> None:
+    given = asked("--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256").for_nodes
     assert given[:2] == ["--ros-args", "--params-file"]
-    assert given[3:] == [
-        "-r",
-        "__ns:=/left",
-        "-p",
-        "use_sim_time:=true",
-        "--ros-args",
-        "-p",
-        "model:=lstm256",
-    ]
-    assert parse([]).for_nodes[3:] == []
+    ours, theirs = given[3:7], given[7:]
+    assert ours == ["-r", "__ns:=/left", "-p", "use_sim_time:=true"]
+    assert theirs == ["--ros-args", "-p", "model:=lstm256"]
+    assert asked().for_nodes[3:] == []
 
 
-def test_up_starts_what_is_named_each_once_and_what_signs_if_nothing_is() -> None:
-    assert parse([]).nodes == ["translator", "executor", "driver"]
-    assert parse(["driver", "console", "driver"]).nodes == ["driver", "console"]
+def test_up_starts_what_is_named_each_once_and_what_signs_if_nothing_is(asked: Callable[..., Asked]) -> None:
+    assert asked().nodes == ["translator", "executor", "driver"]
+    assert asked("driver", "console", "driver").nodes == ["driver", "console"]
 
 
-def test_up_names_the_nodes_that_there_are(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        parse(["camera"])
-    assert re.search("expected some of .*retriever.* got camera", capsys.readouterr().err)
-
-
-def test_up_keeps_logs_where_ros_does(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_up_keeps_logs_where_ros_does(
+    asked: Callable[..., Asked], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "logs"))
-    assert parse([]).log_folder.parent == tmp_path / "logs"
+    assert asked().log_folder.parent == tmp_path / "logs"
     monkeypatch.delenv("ROS_LOG_DIR")
     monkeypatch.setenv("ROS_HOME", str(tmp_path))
-    assert parse([]).log_folder.parent == tmp_path / "log"
+    assert asked().log_folder.parent == tmp_path / "log"
 
 
-def test_up_wants_a_file_of_parameters_that_is_there() -> None:
-    process = up("--params-file", "nowhere.yaml")
-    said, _ = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 2
-    assert "nowhere.yaml" in said
-
-
-def test_up_wants_ros_args_before_what_the_nodes_get() -> None:
-    process = up("-r", "__ns:=/teo")
-    said, _ = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 2
-    assert "--ros-args" in said
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["camera"], r"expected some of .*retriever.* got camera"),
+        (["--params-file", "nowhere.yaml"], "nowhere.yaml"),
+        (["-r", "__ns:=/teo"], "--ros-args before what the nodes get"),
+    ],
+    ids=["no such node", "no such file", "no --ros-args"],
+)
+def test_up_refuses_what_it_cannot_start(
+    arguments: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(arguments)
+    assert ended.value.code == 2
+    assert re.search(told, capsys.readouterr().err)

@@ -15,7 +15,6 @@ from typed_page import blocks_of
 from teo_bringup.graph import executable_of
 
 PAGE = Path(__file__).parents[3] / "docs" / "machines.md"
-BASE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 PATIENCE = 120.0  # [s] for Python processes to start and find each other on a loaded machine
 # Says its own name until it has heard another's, and then for a second more, so that the other hears it too.
 TALKER = """
@@ -44,11 +43,9 @@ run_node(Talker, None)
 """
 
 
-def network(*arguments: str | Path, **variables: str) -> subprocess.CompletedProcess[str]:
+def network(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     command = [str(executable_of("teo_bringup", "network")), *map(str, arguments)]
-    return subprocess.run(
-        command, capture_output=True, text=True, timeout=PATIENCE, check=False, env=os.environ | variables
-    )
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
 
 
 def sourced(done: subprocess.CompletedProcess[str]) -> dict[str, str]:
@@ -137,27 +134,24 @@ def test_a_client_without_certificates_needs_no_profile() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "variables", "code"),
+    ("arguments", "code"),
     [
-        (["peers", "10.0.0", "--output", "x.xml"], {}, "bad_address"),
-        (["peers", "10.0.0.1", "--output", "x.xml"], {BASE: ""}, "no_base"),
-        (["peers", "10.0.0.1", "--output", "x.xml"], {BASE: "/nowhere"}, "bad_base"),
-        (["peers", "10.0.0.1", "--output", "/nowhere/x.xml"], {}, "not_written"),
-        (["server", "10.0.0.1", "--output", "x.xml"], {}, "bad_endpoint"),
-        (["server", "10.0.0.1:70000", "--output", "x.xml"], {}, "bad_endpoint"),
-        (["client", "10.0.0.1:1", "--output", "x.xml", "--key", "k.pem"], {}, "no_certificate"),
+        (["peers", "10.0.0", "--output", "x.xml"], "bad_address"),
+        (["peers", "10.0.0.1", "--output", "/nowhere/x.xml"], "not_written"),
+        (["server", "10.0.0.1", "--output", "x.xml"], "bad_endpoint"),
+        (["server", "10.0.0.1:70000", "--output", "x.xml"], "bad_endpoint"),
+        (["client", "10.0.0.1:1", "--output", "x.xml", "--key", "k.pem"], "no_certificate"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_what_cannot_be_made_is_refused_by_reason_and_leaves_no_file(
     arguments: list[str],
-    variables: dict[str, str],
     code: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    done = network(*arguments, **variables)
+    done = network(*arguments)
     assert (done.returncode, done.stdout) == (1, "")
     assert f"network: [{code}] expected" in done.stderr
     assert not list(tmp_path.iterdir())

@@ -1,19 +1,17 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Refusing to run without the Fast DDS profiles that were asked for.
+"""Refusing to run without the Fast DDS profile that was asked for.
 
 Fast DDS writes a line and goes on when the file that FASTRTPS_DEFAULT_PROFILES_FILE names is missing or
 malformed, when a certificate cannot be read or a port is taken: a node that was to speak through TLS then
-speaks plain UDP to everybody.
+speaks plain UDP to everybody. So the ports that a participant opens are compared with what the file says.
 """
 
 from __future__ import annotations
 
-import ctypes
 import os
 import socket
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -21,17 +19,10 @@ from teo_common.errors import CodedError
 
 VARIABLE = "FASTRTPS_DEFAULT_PROFILES_FILE"
 _TAG = "{http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles}"
-# `XMLProfileManager::loadXMLFile(const std::string&)` of Fast DDS 2. It keeps what it has loaded, so the
-# participant gets what was judged.
-_LOAD = (
-    "_ZN8eprosima8fastrtps9xmlparser17XMLProfileManager11loadXMLFile"
-    "ERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
-)
-_XML_OK = 1  # of its `enum class XMLP_ret`
 
 
 class ProfileError(CodedError):
-    """The profiles that were asked for cannot be used, or are not."""
+    """The profile that was asked for cannot be used, or is not."""
 
 
 class Sockets(NamedTuple):
@@ -52,16 +43,16 @@ class Profile(NamedTuple):
     tcp_ports: frozenset[int] | None
     """Where it is to listen over TCP, 0 for any port; None: it is not to speak TCP."""
 
-    def check(self, before: Sockets, now: Sockets) -> None:
-        """Compare with what the process has opened since.
+    def check(self, before: Sockets) -> None:
+        """Compare with what the process has opened.
 
         Args:
             before: Sockets before the participant was made.
-            now: Sockets now.
 
         Raises:
             ProfileError: `profile_not_in_force`: the participant speaks otherwise.
         """
+        now = own_sockets()
         udp, listening = now.udp - before.udp, now.listening - before.listening
         told = (
             f"({VARIABLE}={self.path}): see what Fast DDS wrote; where TCP alone is wanted,"
@@ -80,36 +71,32 @@ class Profile(NamedTuple):
             )
 
 
-def require_profile(rmw: str) -> Profile | None:
-    """Have Fast DDS load the profiles that the environment names, before there is a participant.
+def requested_profile(rmw: str) -> Profile | None:
+    """Read the profile that the environment names.
 
     Args:
-        rmw: The middleware, as `rclpy.get_rmw_implementation_identifier` names it. Others than rmw_fastrtps
-        do not
-            read the variable.
+        rmw: The middleware, as `rclpy.get_rmw_implementation_identifier` names it. Only rmw_fastrtps reads
+            the variable.
 
     Returns:
         What the participant is to use; None where nothing is asked for.
 
     Raises:
-        ProfileError: `profile_missing`, `profile_malformed`, `profile_without_default`,
-        `profile_certificate` or, where
-            Fast DDS cannot be asked, `profile_unverifiable`.
+        ProfileError: `profile_missing`, `profile_malformed`, `profile_without_default` or
+            `profile_certificate`.
     """
     name = os.environ.get(VARIABLE)
     if not name or not rmw.startswith("rmw_fastrtps"):
         return None
     path = Path(name).resolve()
-    if not path.is_file():
+    try:
+        return _read(path)
+    except OSError as error:
         raise ProfileError(
-            "profile_missing", f"expected a file of profiles, got {VARIABLE}={name}: not there"
-        )
-    if _loader(rmw)(os.fsencode(path)) != _XML_OK:
-        raise ProfileError(
-            "profile_malformed",
-            f"expected profiles that Fast DDS can read in {path}; its lines above name the element to mend",
-        )
-    return _read(path)
+            "profile_missing", f"expected a file of profiles, got {VARIABLE}={name}: {error.strerror}"
+        ) from error
+    except (ET.ParseError, ValueError) as error:
+        raise ProfileError("profile_malformed", f"expected profiles in XML in {path}: {error}") from error
 
 
 def own_sockets() -> Sockets:
@@ -134,60 +121,27 @@ def own_sockets() -> Sockets:
     return Sockets(frozenset(udp), frozenset(listening))
 
 
-def _loader(rmw: str) -> Callable[[bytes], int]:
-    """Fast DDS's own reading of a file of profiles."""
-    try:
-        load = ctypes.CDLL(f"lib{rmw}.so")[_LOAD]
-    except (OSError, AttributeError) as error:
-        raise ProfileError(
-            "profile_unverifiable",
-            f"expected Fast DDS 2 of ROS 2 Jazzy to judge {VARIABLE} with: {error};"
-            " unset it to run without profiles",
-        ) from error
-    load.restype = ctypes.c_int
-
-    def loaded(path: bytes) -> int:
-        return int(load(ctypes.byref(_StdString(path, len(path)))))
-
-    return loaded
-
-
-class _StdString(ctypes.Structure):
-    """`std::string` of libstdc++, as a function sees it that only reads it."""
-
-    _fields_ = [
-        ("pointer", ctypes.c_char_p),
-        ("size", ctypes.c_size_t),
-        ("capacity", ctypes.c_char * 16),
-    ]
-
-
 def _read(path: Path) -> Profile:
     root = ET.parse(path).getroot()
-    transports = {
-        item.findtext(f"{_TAG}transport_id"): item for item in root.iter(f"{_TAG}transport_descriptor")
-    }
     participant = root.find(f".//{_TAG}participant[@is_default_profile='true']/{_TAG}rtps")
     if participant is None:
         raise ProfileError(
             "profile_without_default",
             f'expected a participant with is_default_profile="true" in {path}: nodes use no other',
         )
-    used = [
-        transports[item.text] for item in participant.iterfind(f"{_TAG}userTransports/{_TAG}transport_id")
-    ]
+    named = {each.text for each in participant.iterfind(f"{_TAG}userTransports/{_TAG}transport_id")}
+    used = {
+        each.findtext(f"{_TAG}type"): each
+        for each in root.iter(f"{_TAG}transport_descriptor")
+        if each.findtext(f"{_TAG}transport_id") in named
+    }
     builtin = (participant.findtext(f"{_TAG}useBuiltinTransports") or "true").strip() in ("true", "1")
-    kinds = {item.findtext(f"{_TAG}type"): item for item in used}
-    tcp = kinds.get("TCPv4", kinds.get("TCPv6"))
+    tcp = used.get("TCPv4", used.get("TCPv6"))
+    ports = None
     if tcp is not None:
         _check_certificates(tcp)
-    return Profile(
-        path,
-        udp=builtin or "UDPv4" in kinds or "UDPv6" in kinds,
-        tcp_ports=None
-        if tcp is None
-        else frozenset(int(port.text or 0) for port in tcp.iterfind(f"{_TAG}listening_ports/{_TAG}port")),
-    )
+        ports = frozenset(int(port.text or 0) for port in tcp.iterfind(f"{_TAG}listening_ports/{_TAG}port"))
+    return Profile(path, builtin or not used.keys().isdisjoint(("UDPv4", "UDPv6")), ports)
 
 
 def _check_certificates(transport: ET.Element) -> None:

@@ -18,7 +18,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.signals import uninstall_signal_handlers
 
-from teo_common.dds_profiles import ProfileError, own_sockets, require_profile
+from teo_common.dds_profiles import ProfileError, own_sockets, requested_profile
 
 # A signal is noticed within this time, where nothing else happens [s].
 _LOOK = 0.1
@@ -50,11 +50,11 @@ def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> 
         arguments: Of the command line; None for the process's own.
 
     Raises:
-        SystemExit: The Fast DDS profiles that the environment asks for are not in force.
+        SystemExit: The Fast DDS profile that the environment asks for is not in force.
     """
     node: Node | None = None
     try:
-        profile, sockets = require_profile(rclpy.get_rmw_implementation_identifier()), own_sockets()
+        profile, sockets = requested_profile(rclpy.get_rmw_implementation_identifier()), own_sockets()
         rclpy.init(args=arguments)
         # Before the node: an executor that is told to end while it is being made leaves a half-made
         # object, whose destructor writes a traceback.
@@ -63,7 +63,7 @@ def run_node(make_node: Callable[[], Node], arguments: Sequence[str] | None) -> 
         gc.disable()
         node = make_node()
         if profile is not None:
-            profile.check(sockets, own_sockets())
+            profile.check(sockets)
         # Models and tables are there to stay: a collection that walked them all would hold up a callback
         # for a tenth of a second.
         gc.collect()

@@ -7,13 +7,14 @@ Each command prints the lines that a shell is to source, and writes the profile 
 
 from __future__ import annotations
 
-import argparse
 import ipaddress
-import os
 import shlex
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated
+
+import typer
 
 from teo_bringup.network.access import write_access_files
 from teo_bringup.network.profiles import (
@@ -27,113 +28,120 @@ from teo_bringup.network.profiles import (
 from teo_common.atomic_files import write_atomically
 from teo_common.dds_profiles import VARIABLE
 
+_app = typer.Typer(
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="Make what nodes need to find those of other machines. Prints lines to source.",
+)
 # ROS 2's own variables, beside the profile: what the shell had before must not linger.
 _FIND_BY_SERVER = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "ROS_STATIC_PEERS": ""}
+# Domains whose ports are below Linux's ephemeral ones.
+_HIGHEST_DOMAIN = 101
+
+_Output = Annotated[Path, typer.Option(help="Profile to write (XML).", show_default=False)]
+_Endpoint = Annotated[
+    str, typer.Argument(metavar="ADDRESS:PORT", help="IPv4 address and port where the server listens.")
+]
+_Authority = Annotated[
+    Path | None, typer.Option(help="PEM of who signs certificates; with it all goes over TLS.")
+]
+_Certificate = Annotated[Path | None, typer.Option(help="This machine's PEM.")]
+_Key = Annotated[Path | None, typer.Option(help="This machine's secret key, PEM.")]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Do what the command line asks; exit with 1 and the reason where it cannot be done."""
-    options = _parser().parse_args(arguments)
-    do: Callable[[argparse.Namespace], dict[str, str]] = options.do
     try:
-        variables = do(options)
+        _app(arguments, prog_name="network")
     except NetworkError as error:
         sys.exit(f"network: [{error.code}] {error}")
     except OSError as error:
         sys.exit(f"network: [not_written] expected to write a file: {error}")
-    for name, value in variables.items():
-        print(f"export {name}={shlex.quote(value)}")
 
 
-def _peers(options: argparse.Namespace) -> dict[str, str]:
-    for address in options.addresses:
+@_app.command()
+def peers(
+    addresses: Annotated[
+        list[str],
+        typer.Argument(metavar="ADDRESS...", help="IPv4 address of each machine, also this one's."),
+    ],
+    output: _Output,
+) -> None:
+    """Every machine knows the addresses of all; no multicast."""
+    for address in addresses:
         try:
             ipaddress.IPv4Address(address)
         except ValueError as error:
             raise NetworkError("bad_address", f"expected an IPv4 address, got {address!r}") from error
-    write_atomically(options.output, peers_profile(_base()))
-    return {
-        # Of its own, a node looks on this machine alone, without multicast; the peers come on top.
-        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-        "ROS_STATIC_PEERS": ";".join(options.addresses),
-        VARIABLE: str(options.output.resolve()),
-    }
-
-
-def _server(options: argparse.Namespace) -> dict[str, str]:
-    listen = Endpoint.parse(options.endpoint)
-    write_atomically(options.output, server_profile(_base(), listen, _certificates(options)))
-    return _FIND_BY_SERVER | {VARIABLE: str(options.output.resolve())}
-
-
-def _client(options: argparse.Namespace) -> dict[str, str]:
-    server = Endpoint.parse(options.endpoint)
-    certificates = _certificates(options)
-    if certificates is None:  # what ROS 2 has is enough
-        return _FIND_BY_SERVER | {
-            "ROS_DISCOVERY_SERVER": f"{server.address}:{server.port}",
-            "ROS_SUPER_CLIENT": "TRUE",  # nodes and `ros2` see the whole graph
+    write_atomically(output, peers_profile())
+    _export(
+        {
+            # Of its own, a node looks on this machine alone, without multicast; the peers come on top.
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "ROS_STATIC_PEERS": ";".join(addresses),
+            VARIABLE: str(output.resolve()),
         }
-    if options.output is None:
+    )
+
+
+@_app.command()
+def server(
+    endpoint: _Endpoint,
+    output: _Output,
+    authority: _Authority = None,
+    certificate: _Certificate = None,
+    key: _Key = None,
+) -> None:
+    """This machine runs `discovery_server`, which knows all nodes."""
+    profile = server_profile(Endpoint.parse(endpoint), _certificates(authority, certificate, key))
+    write_atomically(output, profile)
+    _export(_FIND_BY_SERVER | {VARIABLE: str(output.resolve())})
+
+
+@_app.command()
+def client(
+    endpoint: _Endpoint,
+    output: Annotated[Path | None, typer.Option(help="Profile to write (XML), with certificates.")] = None,
+    authority: _Authority = None,
+    certificate: _Certificate = None,
+    key: _Key = None,
+) -> None:
+    """This machine's nodes ask a discovery server."""
+    where = Endpoint.parse(endpoint)
+    certificates = _certificates(authority, certificate, key)
+    if certificates is None:  # what ROS 2 has is enough
+        _export(
+            _FIND_BY_SERVER
+            | {
+                "ROS_DISCOVERY_SERVER": f"{where.address}:{where.port}",
+                "ROS_SUPER_CLIENT": "TRUE",  # nodes and `ros2` see the whole graph
+            }
+        )
+        return
+    if output is None:
         raise NetworkError("no_output", "expected --output FILE with certificates: TLS needs a profile")
-    write_atomically(options.output, client_profile(_base(), server, certificates))
-    return _FIND_BY_SERVER | {VARIABLE: str(options.output.resolve())}
+    write_atomically(output, client_profile(where, certificates))
+    _export(_FIND_BY_SERVER | {VARIABLE: str(output.resolve())})
 
 
-def _access(options: argparse.Namespace) -> dict[str, str]:
-    write_access_files(options.output, domain=options.domain)
-    return {}
+@_app.command()
+def access(
+    output: Annotated[Path, typer.Option(help="Folder to write into.", show_default=False)],
+    domain: Annotated[int, typer.Option(min=0, max=_HIGHEST_DOMAIN, help="ROS_DOMAIN_ID.")] = 0,
+) -> None:
+    """SROS2: governance and each node's permissions."""
+    write_access_files(output, domain=domain)
 
 
-def _base() -> Path:
-    name = os.environ.get(VARIABLE)
-    if not name:
-        raise NetworkError(
-            "no_base", f"expected {VARIABLE} to name the profile to start from; source env.sh first"
-        )
-    return Path(name)
-
-
-def _certificates(options: argparse.Namespace) -> Certificates | None:
-    files = (options.authority, options.certificate, options.key)
-    if files == (None, None, None):
+def _certificates(authority: Path | None, certificate: Path | None, key: Path | None) -> Certificates | None:
+    if authority is None and certificate is None and key is None:
         return None
-    if None in files:
+    if authority is None or certificate is None or key is None:
         raise NetworkError("no_certificate", "expected --authority, --certificate and --key together")
-    return Certificates(*files)
+    return Certificates(authority, certificate, key)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="network",
-        description="Make what nodes need to find those of other machines. Prints lines to source.",
-    )
-    commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    peers = commands.add_parser("peers", help="every machine knows the addresses of all; no multicast")
-    peers.add_argument(
-        "addresses", nargs="+", metavar="ADDRESS", help="IPv4 address of each machine, also this one's"
-    )
-    peers.add_argument("--output", type=Path, required=True, help="profile to write (XML)")
-    peers.set_defaults(do=_peers)
-    for name, do, told in (
-        ("server", _server, "this machine runs `discovery_server`, which knows all nodes"),
-        ("client", _client, "this machine's nodes ask a discovery server"),
-    ):
-        command = commands.add_parser(name, help=told)
-        command.add_argument(
-            "endpoint", metavar="ADDRESS:PORT", help="IPv4 address and port where the server listens"
-        )
-        command.add_argument("--output", type=Path, required=do is _server, help="profile to write (XML)")
-        command.add_argument(
-            "--authority", type=Path, help="PEM of who signs certificates; with it all goes over TLS"
-        )
-        command.add_argument("--certificate", type=Path, help="this machine's PEM")
-        command.add_argument("--key", type=Path, help="this machine's secret key, PEM")
-        command.set_defaults(do=do)
-    access = commands.add_parser("access", help="SROS2: governance and each node's permissions")
-    access.add_argument("--output", type=Path, required=True, help="folder to write into")
-    access.add_argument(
-        "--domain", type=int, default=0, choices=range(102), metavar="0-101", help="ROS_DOMAIN_ID"
-    )
-    access.set_defaults(do=_access)
-    return parser
+def _export(variables: dict[str, str]) -> None:
+    for name, value in variables.items():
+        print(f"export {name}={shlex.quote(value)}")

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from teo_common.dds_profiles import ProfileError, own_sockets, require_profile
+from teo_common.dds_profiles import ProfileError, own_sockets, requested_profile
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.classes import interface_name_of
 from teo_ros2cli.packages import package_prefix
@@ -81,7 +81,7 @@ def cli_node(
         ) from error
 
     try:
-        profile = require_profile(rclpy.get_rmw_implementation_identifier()) if chosen else None
+        profile = requested_profile(rclpy.get_rmw_implementation_identifier()) if chosen else None
     except ProfileError as error:
         raise Ros2CliError(error.code, str(error)) from error
     sockets = own_sockets()
@@ -99,7 +99,7 @@ def cli_node(
         )
         try:
             if profile is not None:
-                profile.check(sockets, own_sockets())
+                profile.check(sockets)
             yield node
         finally:
             node.destroy_node()
