@@ -7,10 +7,11 @@
 
 from __future__ import annotations
 
-import argparse
 import subprocess
-import sys
 from pathlib import Path
+from typing import Annotated
+
+import typer
 
 ROOT = Path(__file__).parents[1]
 # Files that can carry a comment, by the ends of their names; hand-written data among them.
@@ -49,21 +50,20 @@ def with_header(text: str) -> str:
     return f"{HEADER}{text}"
 
 
-def main() -> None:
-    """Add the lines, or check them."""
-    parser = argparse.ArgumentParser(description="Add SPDX lines to every source file.")
-    parser.add_argument(
-        "--check", action="store_true", help="change nothing; exit with 1 if a file lacks them"
-    )
-    check = parser.parse_args().check
+def main(
+    check: Annotated[
+        bool, typer.Option("--check", help="Change nothing; exit with 1 if a file lacks them.")
+    ] = False,
+) -> None:
+    """Add SPDX lines to every source file."""
     lacking = [path for path in sources() if not has_header(path.read_text(encoding="utf-8"))]
     for path in lacking:
         if check:
             print(f"{path.relative_to(ROOT)}: expected the SPDX lines; run python scripts/spdx.py")
         else:
             path.write_text(with_header(path.read_text(encoding="utf-8")), encoding="utf-8")
-    sys.exit(1 if check and lacking else 0)
+    raise typer.Exit(1 if check and lacking else 0)
 
 
 if __name__ == "__main__":
-    main()
+    typer.run(main)

