@@ -81,7 +81,7 @@ def _up(
     nodes: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[NODE]...",
+            metavar="NODE",
             callback=_known,
             help=f"Of {', '.join(NODES)}; {', '.join(SIGNING)} if none is named.",
         ),

@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def peers(
     addresses: Annotated[
         list[str],
-        typer.Argument(metavar="ADDRESS...", help="IPv4 address of each machine, also this one's."),
+        typer.Argument(metavar="ADDRESS", help="IPv4 address of each machine, also this one's."),
     ],
     output: _Output,
 ) -> None:
