@@ -116,7 +116,7 @@ install_requirements() {
     fi
     case "$level" in
         run) echo "setup: installing what signs and building it (about a minute and 1.2 GB the first time)" ;;
-        view) echo "setup: installing what signs, the page and what it teaches with, and building it (two minutes and 1.8 GB the first time)" ;;
+        view) echo "setup: installing what signs, the page and what it teaches with, and building it (two minutes and 1.6 GB the first time)" ;;
         *) echo "setup: installing Python packages (a few minutes and 3 GB the first time)" ;;
     esac
     if [ -d wheelhouse ]; then # all of it: a wheel does not tell which level wants it
