@@ -18,9 +18,6 @@ TRAINING = "teo_sign_training/teo_sign_training"
 CAPTURE = "teo_sign_capture/teo_sign_capture"
 AUTHORING = "teo_sign_authoring/teo_sign_authoring"
 
-_DRAFTS = (
-    "drafts a Spanish sentence where the model is unsure; only a language with set_phrases.tsv has drafts"
-)
 _INFLECTS = "inflects Spanish by rule; a language with morphology/suffixes.tsv has its own forms as data"
 _PAPER = "the published model's sentences, which are Spanish"
 LEFT = {
@@ -34,11 +31,6 @@ LEFT = {
     f"{TRANSLATOR}/morphology/derivation.py": _INFLECTS,
     f"{TRANSLATOR}/morphology/guessing.py": _INFLECTS,
     f"{TRANSLATOR}/morphology/lexicon.py": _INFLECTS,
-    f"{TRANSLATOR}/pipeline/drafting/drafter.py": _DRAFTS,
-    f"{TRANSLATOR}/pipeline/drafting/meaning.py": _DRAFTS,
-    f"{TRANSLATOR}/pipeline/drafting/order.py": _DRAFTS,
-    f"{TRANSLATOR}/pipeline/drafting/persons.py": _DRAFTS,
-    f"{TRANSLATOR}/pipeline/drafting/times.py": _DRAFTS,
     f"{TRAINING}/fitting/memorised_pairs.py": _PAPER,
     "teo_sign_languages/teo_sign_languages/language.py": "the language that is signed where none is named",
 }

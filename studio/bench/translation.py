@@ -41,7 +41,7 @@ from teo_sign_translator.pipeline.translator import Translator
 _GENERATED = 30_000
 _TIMED = 500
 # Where the translator's README has a model trained that was not taught the held-out constructions.
-_WITHOUT_CONSTRUCTIONS = Path(__file__).parents[1] / "out" / "held_out_constructions"
+_WITHOUT_CONSTRUCTIONS = Path(__file__).parents[2] / "out" / "held_out_constructions"
 _DIGITS = {"UNO": "1", "DOS": "2", "TRES": "3", "CUATRO": "4", "CINCO": "5", "SEIS": "6", "SIETE": "7"}
 _PARTS = {
     "test_words": "words never seen",

@@ -10,16 +10,12 @@ from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
-from teo_sign_translator.pipeline.coverage import FunctionWords
-from teo_sign_translator.pipeline.drafting.drafter import Drafter
-from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
+from teo_sign_translator.pipeline.completeness import Completeness, FunctionWords
+from teo_sign_translator.pipeline.given_sentences import GivenSentences
 from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.taught.aligned_pairs import training_pairs
-from teo_sign_translator.taught.gloss_list import GlossList
-from teo_sign_translator.taught.phrasebook import Phrasebook
 from teo_sign_translator.text.source_words import SourceWord
 
 
@@ -53,8 +49,6 @@ MORPHOLOGY = Morphology.load()
 
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
-    taught = Phrasebook(training_pairs(), GlossList.load())
-    back_end = PointerBackEnd(
-        model, MORPHOLOGY, HypothesisRepair.load(), Drafter.load(), taught, Agreement.load()
-    )
+    given = GivenSentences.load(MORPHOLOGY.folder)
+    back_end = PointerBackEnd(model, MORPHOLOGY, Completeness.load(), given, Agreement.load())
     return Translator(back_end, SignChooser(SubstituteLists.load(), MORPHOLOGY))

@@ -37,7 +37,7 @@ from teo_sign_translator.pipeline.translator import Translator
 
 #: Of a language's text folder: sentence, accepted glosses, `blind` or `known`, and where it is published.
 FILE = "published_sentences.tsv"
-_RECORD = Path(__file__).parents[2] / "test" / "data" / "published.json"
+_RECORD = Path(__file__).parents[3] / "test" / "data" / "published.json"
 # Pairs to generate: about 300 of each held-out part are among them.
 _GENERATED = 15_000
 # What the trivial baseline leaves out: articles, copulas, "do", prepositions of place, "and".

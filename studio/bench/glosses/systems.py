@@ -15,7 +15,7 @@ from teo_sign_translator.pipeline.translator import Translator
 Glosses = tuple[str, ...]
 System = Callable[[str], Glosses]
 
-SENTENCES = Path(__file__).parents[2] / "test" / "data"
+SENTENCES = Path(__file__).parents[3] / "test" / "data"
 
 
 def systems(ours: Translator | None = None) -> dict[str, System]:

@@ -36,7 +36,6 @@ class Origin(IntEnum):
     PAUSE = 8
     PARAPHRASE = 9
     HYPERNYM = 10
-    DRAFT = 11
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """From a text to its translation: `Translator` reads it, asks a back end, and finds signs for what it says.
 
-A back end translates sentences with its model. The pointer's (`PointerBackEnd`) divides long sentences, has
-the model's hypotheses repaired, so that no word is lost and no gloss invented, and turns glosses into output
-words. The LSTM's (`LstmBackEnd`) asks its model for sentences that it knows, and looks up all others word by
-word.
+A back end translates sentences with its model. The pointer's (`PointerBackEnd`) asks its model once, puts
+back the words that it left out (`completeness` says which, and where), and turns glosses into output words.
+Other packages offer theirs by entry point, as `teo_sign_training` does for the published model.
 """

@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, lexical, number
 from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.agreement import Agreement
-from teo_sign_translator.pipeline.hypothesis_repair import Repaired
+from teo_sign_translator.pipeline.completeness import CompleteTranslation
 from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.names import is_persons_name
@@ -23,8 +23,7 @@ _CENT_DIGITS = 2
 
 def gloss_output_words(
     words: Sequence[SourceWord],
-    said: Repaired,
-    signed: Collection[str],
+    said: CompleteTranslation,
     agreement: Agreement,
     names: GlossNames,
 ) -> list[OutputWord]:
@@ -32,18 +31,17 @@ def gloss_output_words(
 
     Args:
         words: Of the sentence.
-        said: Its translation.
-        signed: Glosses that are no names whatever their words.
+        said: Its translation; the glosses of a given one are no names whatever their words.
         agreement: Gives the form of signs that agree.
         names: Of glosses, in the language.
     """
     typed = [_texts(words, sorted(gloss.sources)) for gloss in said.glosses]
     pauses = _pauses(words, said.glosses)
     result: list[OutputWord] = []
-    for place, (gloss, repaired, own) in enumerate(zip(said.glosses, said.repaired, typed, strict=True)):
+    for place, (gloss, put_back, own) in enumerate(zip(said.glosses, said.put_back, typed, strict=True)):
         # "me llamo rosa" is MI NOMBRE R-O-S-A
         named = place > 0 and said.glosses[place - 1].gloss == names.name
-        origin = Origin.DRAFT if said.drafted else Origin.REPAIRED if repaired else Origin.MODEL
+        origin = Origin.REPAIRED if put_back else Origin.MODEL
         neighbours = {each.gloss for each in said.glosses[max(0, place - 1) : place + 2]}
         if neighbours & names.currencies:  # "12,50 €" is said "doce cincuenta"
             gloss = replace(gloss, gloss=_price(gloss.gloss))
@@ -52,7 +50,7 @@ def gloss_output_words(
             replace(each, inflection=form)
             for each in _output_words(words, gloss, origin, own, names, named=named)
         ]
-        result += [replace(each, is_name=False) for each in own_words] if gloss.gloss in signed else own_words
+        result += [replace(each, is_name=False) for each in own_words] if said.given else own_words
         if place in pauses:
             result.append(PAUSE)
     claimed = {place for gloss in said.glosses for place in gloss.sources}

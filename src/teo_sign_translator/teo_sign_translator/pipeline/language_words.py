@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Words that translations are checked and inflected by: `pipeline.yaml` of a language's text folder."""
+"""Words that translations are completed and inflected by: `pipeline.yaml` of a language's text folder."""
 
 from __future__ import annotations
 
@@ -15,41 +15,14 @@ _FILE = "pipeline.yaml"
 
 
 @dataclass(frozen=True)
-class EvidenceWords:
-    """What tells an invented gloss; the section `evidence`.
+class CompletenessWords:
+    """What may go without a gloss though it is no function word; the section `completeness`.
 
     Attributes:
-        past: Gloss that says that it was.
-        denial: Gloss that denies.
-        signer: Gloss of the first person, which a shared form of a verb may be no evidence for.
-        auxiliary: Verb that forms tenses, so that it is not what is spoken of.
-        every: Word that may have the next one signed twice ("cada dos días": DÍA DÍA); empty for none.
-        persons: Glosses of subjects that a verb's ending says, with their person.
-        clitics: Pronouns at the end of a verb, with the tag that each is evidence as.
-    """
-
-    past: str
-    denial: str
-    signer: str
-    auxiliary: str
-    every: str
-    persons: dict[str, str]
-    clitics: dict[str, str]
-
-
-@dataclass(frozen=True)
-class CoverageWords:
-    """What tells a lost word; the section `coverage`.
-
-    Attributes:
-        denial: Word that is said by the gloss of a word that denies behind it ("no digo nada": NADA).
-        does: Verb that has no sign beside what is done, but has one where nothing follows; empty for none.
         goes: Verb that only says the future before an infinitive; empty for none.
         goes_to: Word between that verb and the infinitive.
     """
 
-    denial: str
-    does: str
     goes: str
     goes_to: str
 
@@ -86,13 +59,11 @@ class PipelineWords:
     """All of it.
 
     Attributes:
-        evidence: What tells an invented gloss.
-        coverage: What tells a lost word.
+        completeness: What may go without a gloss.
         persons: Who acts on whom.
     """
 
-    evidence: EvidenceWords
-    coverage: CoverageWords
+    completeness: CompletenessWords
     persons: PersonWords
 
     @classmethod
@@ -106,5 +77,5 @@ class PipelineWords:
         Raises:
             TranslationError: "invalid_data" naming file and field.
         """
-        sections = {"evidence": EvidenceWords, "coverage": CoverageWords, "persons": PersonWords}
+        sections = {"completeness": CompletenessWords, "persons": PersonWords}
         return cls(**read_sections((folder or data_file("")) / _FILE, sections))

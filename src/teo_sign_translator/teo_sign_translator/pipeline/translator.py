@@ -27,13 +27,12 @@ from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence, load_other_back_end
-from teo_sign_translator.pipeline.drafting.drafter import SET_PHRASES, Drafter
-from teo_sign_translator.pipeline.hypothesis_repair import HypothesisRepair
+from teo_sign_translator.pipeline.completeness import Completeness
+from teo_sign_translator.pipeline.given_sentences import GivenSentences
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.store import SCHEMA
-from teo_sign_translator.taught.phrasebook import Phrasebook
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.reading import Clause, WordKind, read
 from teo_sign_translator.text.rules import TextRules
@@ -135,16 +134,14 @@ class Translator:
         rules = TextRules.load(data.text)
         spelling = Spelling(data)
         lists = SubstituteLists.load(data.text)
-        taught = Phrasebook.load(data.text)
         if card_schema(name, directory) == SCHEMA:
             morphology = Morphology.load(data.text)
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
                 model,
                 morphology,
-                HypothesisRepair.load(data.text),
-                Drafter.load() if (data.text / SET_PHRASES).is_file() else None,
-                taught,
+                Completeness.load(data.text),
+                GivenSentences.load(data.text),
                 Agreement.load(data.text / "agreement.tsv", data.text),
                 beam_width=beam_width,
             )

@@ -9,13 +9,17 @@ from dataclasses import dataclass, replace
 
 from teo_sign_translator.morphology import Morphology, Reading
 from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
-from teo_sign_translator.text.names import introduces, name_readings, opening_name
+from teo_sign_translator.text.names import introduces, is_persons_name, name_readings, opening_name
 from teo_sign_translator.text.numerals import roman_value
 from teo_sign_translator.text.reading import Clause, Word, WordKind, read
 from teo_sign_translator.text.rules import SpecialWords, TextRules
 
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
+
+# Tags of words inside a name, and how many of them stand together ("de la").
+_INSIDE_NAMES = ("PREP", "DET:def")
+_MOST_INSIDE_NAMES = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +87,28 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         following = words[place + 1].readings if place + 1 < len(words) else ()
         readings = opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
-    return tuple(words)
+    return tuple(_with_whole_names(words))
+
+
+def _with_whole_names(words: Sequence[SourceWord]) -> list[SourceWord]:
+    """The words, those inside a person's name read as names: "de la" of "María de la Torre"."""
+    result = list(words)
+    for place, word in enumerate(result):
+        if not is_persons_name(word.readings[0]):
+            continue
+        last = place + 1
+        while last < len(result) and result[last].readings[0].tag.startswith(_INSIDE_NAMES):
+            last += 1
+        surname = last < len(result) and place + 1 < last <= place + 1 + _MOST_INSIDE_NAMES
+        if surname and result[last].capital and not _is_place(result[last]):
+            for inside in range(place + 1, last + 1):
+                named = Reading(result[inside].text, "NAME", exact=False)
+                result[inside] = replace(result[inside], readings=(named,))
+    return result
+
+
+def _is_place(word: SourceWord) -> bool:
+    return any(reading.tag == "NAME:place" for reading in word.readings)
 
 
 def _all_readings(word: SourceWord, morphology: Morphology) -> tuple[Reading, ...]:

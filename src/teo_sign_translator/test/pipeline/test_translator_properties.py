@@ -13,13 +13,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from word_by_word_model import translator_with
 
+from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.spelling import Spelling
 from teo_sign_translator.output.translation import Kind, Translation
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
-from teo_sign_translator.taught.gloss_list import GlossList
 from teo_sign_translator.text.cleaning import clean
 from teo_sign_translator.text.source_words import SourceWord
 

@@ -18,8 +18,8 @@ from rich.table import Table
 from teo_common.atomic_files import write_atomically
 from teo_sign_training.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
 from teo_sign_training.fitting.lstm256_fitting import Example, Training, TrainingConfig, train
+from teo_sign_training.lstm256.tokens import published_tokens
 from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
-from teo_sign_translator.taught.tokens import published_tokens
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

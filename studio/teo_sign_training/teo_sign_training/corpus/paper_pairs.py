@@ -11,11 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_training.corpus.pairs_file import Pair
-from teo_sign_translator.data_files import data_file, read_rows
-from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.taught.aligned_pairs import (
+from teo_sign_training.corpus.aligned_pairs import (
     NAME,
     NUMBER,
     SLOTS,
@@ -23,6 +19,10 @@ from teo_sign_translator.taught.aligned_pairs import (
     training_files,
     training_pairs,
 )
+from teo_sign_training.corpus.pairs_file import Pair
+from teo_sign_translator.data_files import data_file, read_rows
+from teo_sign_translator.errors import TranslationError
+from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.text.source_words import SourceWord, source_words
 
 #: Fill the slots of the pairs; common names of different lengths, and ages.

@@ -11,12 +11,11 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import Progress
 
+from teo_sign_training.corpus.aligned_pairs import training_pairs
 from teo_sign_training.corpus.paper_pairs import training_data_hash
 from teo_sign_training.fitting.lstm256_fitting import Example, TrainingConfig, train
 from teo_sign_training.lstm256.store import load_model, save_model
-from teo_sign_training.lstm256.tokens import mark_variants
-from teo_sign_translator.taught.aligned_pairs import training_pairs
-from teo_sign_translator.taught.tokens import folded_tokens
+from teo_sign_training.lstm256.tokens import folded_tokens, mark_variants
 
 #: The published model is trained with 20 % held out; what ships must know every sentence, so nothing is held
 #: out. Batches of 8 keep the training short; there are more than 200 examples where the paper has 31.

@@ -9,12 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from teo_common.text_folding import without_accents
+from teo_sign_training.corpus.aligned_pairs import training_pairs
 from teo_sign_training.corpus.pairs_file import Pair
 from teo_sign_training.corpus.paper_pairs import filled, paper_pairs
 from teo_sign_training.fitting.examples import Reader
 from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.taught.aligned_pairs import training_pairs
 
 #: What fills the slots. A few are enough: the corpus shows hundreds of names and numbers in other sentences.
 _NAMES = ("Ana", "Pedro", "Lucía", "Juan", "María", "Carlos")

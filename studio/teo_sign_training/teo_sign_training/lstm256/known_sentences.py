@@ -7,12 +7,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from teo_common.text_folding import strip_marks
+from teo_sign_training.corpus.aligned_pairs import NAME, NUMBER, SLOTS
+from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.lstm256.phrasebook import Match, Phrasebook
 from teo_sign_training.lstm256.seq2seq import LstmModel, Prediction
+from teo_sign_training.lstm256.tokens import MARKS
 from teo_sign_translator.output.output_words import OutputWord, carried, lexical, number, spelled, unclaimed
-from teo_sign_translator.taught.aligned_pairs import NAME, NUMBER, SLOTS
-from teo_sign_translator.taught.gloss_list import GlossList
-from teo_sign_translator.taught.phrasebook import Match, Phrasebook
-from teo_sign_translator.taught.tokens import MARKS
 from teo_sign_translator.text.reading import Clause, Word, WordKind
 
 #: Confidence in an answer to a sentence outside the training data, times the model's probability: a model

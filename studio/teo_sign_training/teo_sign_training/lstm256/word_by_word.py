@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import takewhile
 
+from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_translator.output.output_words import (
     SPELLED_CONFIDENCE,
     OutputWord,
@@ -16,7 +17,6 @@ from teo_sign_translator.output.output_words import (
     spelled,
 )
 from teo_sign_translator.output.translation import Origin
-from teo_sign_translator.taught.gloss_list import GlossList
 from teo_sign_translator.text.reading import Word, WordKind
 
 #: A listed word that is a clause of its own ("Hola", "Gracias"): nothing is left to order, only the sense may

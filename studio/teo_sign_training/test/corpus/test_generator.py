@@ -16,8 +16,6 @@ from teo_sign_training.corpus.paper_pairs import own_pairs, paper_pairs
 from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.morphology.nominal import unaccented as strip_accents
-from teo_sign_translator.pipeline.gloss_evidence import GlossEvidence
-from teo_sign_translator.pointer import OutputGloss
 from teo_sign_translator.text.source_words import source_words
 
 QUESTION_GLOSSES = {
@@ -173,15 +171,6 @@ def test_glosses_point_at_the_words_that_say_them(pairs, morphology):
             if len(having) == 1 and places and having[0] not in places and len(gloss) > 4:
                 wrong.append((gloss, pair.text))
     assert len(wrong) < len(pairs) / 500, wrong[:10]
-
-
-def test_no_gloss_is_one_that_a_translation_would_be_refused_for(pairs, morphology):
-    evidence = GlossEvidence.load()
-    for pair in pairs:
-        said = [
-            OutputGloss(*each, 1.0, copied=False) for each in zip(pair.glosses, pair.alignment, strict=True)
-        ]
-        assert not evidence.invented(source_words(pair.text, morphology), said), pair
 
 
 def test_articles_agree_with_their_nouns(pairs, morphology):

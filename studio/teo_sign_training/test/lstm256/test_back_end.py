@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from teo_sign_training.corpus.aligned_pairs import training_pairs
 from teo_sign_training.lstm256.back_end import LstmBackEnd
+from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.lstm256.phrasebook import Phrasebook
 from teo_sign_training.lstm256.seq2seq import Prediction
 from teo_sign_training.lstm256.tokens import Vocabulary
 from teo_sign_translator.errors import TranslationError
@@ -12,9 +15,6 @@ from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
-from teo_sign_translator.taught.aligned_pairs import training_pairs
-from teo_sign_translator.taught.gloss_list import GlossList
-from teo_sign_translator.taught.phrasebook import Phrasebook
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
 from teo_sign_translator.text.sentence_type import SentenceType
 

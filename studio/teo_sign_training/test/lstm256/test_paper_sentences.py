@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import pytest
 
+from teo_sign_training.corpus.aligned_pairs import NUMBER, read_aligned_pairs, training_pairs
 from teo_sign_training.corpus.paper_pairs import paper_pairs, paper_predictions, training_data_hash
 from teo_sign_training.fitting.lstm256_run import shipped_examples
 from teo_sign_training.lstm256.store import SCHEMA, load_model
@@ -18,7 +19,6 @@ from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.translator import Translator
-from teo_sign_translator.taught.aligned_pairs import NUMBER, read_aligned_pairs, training_pairs
 
 # The 39 pairs of arXiv:1907.04198, written here once more so that an edited data file does not go unnoticed.
 PUBLISHED = """\

@@ -14,10 +14,9 @@ from teo_sign_training.corpus.paper_pairs import paper_pairs
 from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, Training, TrainingConfig, train
 from teo_sign_training.lstm256.seq2seq import MAX_OUTPUT, LstmModel
 from teo_sign_training.lstm256.store import load_model, save_model
-from teo_sign_training.lstm256.tokens import END, START, Vocabulary
+from teo_sign_training.lstm256.tokens import END, START, Vocabulary, published_tokens
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
-from teo_sign_translator.taught.tokens import published_tokens
 
 EXAMPLES = [(published_tokens(pair.sentence), pair.glosses) for pair in paper_pairs()[:8]]
 INPUTS = Vocabulary.of_inputs(source for source, _ in EXAMPLES)

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.text_folding import strip_marks
+from teo_sign_training.corpus.aligned_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
+from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.lstm256.tokens import MARKS, folded_tokens
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.taught.aligned_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
-from teo_sign_translator.taught.gloss_list import GlossList
-from teo_sign_translator.taught.tokens import MARKS, folded_tokens
 from teo_sign_translator.text.reading import Word, WordKind, read
 from teo_sign_translator.text.sentence_type import SentenceType, sentence_type
 

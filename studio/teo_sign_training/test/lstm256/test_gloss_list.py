@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from teo_sign_training.corpus.aligned_pairs import read_aligned_pairs
 from teo_sign_training.corpus.paper_pairs import read_pairs
+from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.taught.aligned_pairs import read_aligned_pairs
-from teo_sign_translator.taught.gloss_list import GlossList
 
 
 def test_a_word_is_found_with_and_without_its_accents() -> None:

@@ -1,0 +1,268 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
+"""What becomes of words that the model leaves out of its translation: one policy.
+
+1. A word has to be signed unless it is a function word, by the list `function_words.tsv`.
+2. A gloss signs the word whose dictionary form it is, and the words that `gloss_words.tsv` lists for it.
+3. Of the model's translations the one that leaves out the fewest words is taken.
+4. What that leaves out is put back as the gloss of its dictionary form, beside the gloss of the nearest word;
+   a question word goes last, as LSE asks.
+5. A word is signed once: a dictionary form that is carried over goes if its words are signed already.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from teo_common.text_folding import fold
+from teo_sign_translator.data_files import data_file, read_listed
+from teo_sign_translator.morphology import TAGS, Reading
+from teo_sign_translator.pipeline.language_words import CompletenessWords, PipelineWords
+from teo_sign_translator.pointer import Hypothesis, OutputGloss
+from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.rules import TextRules
+from teo_sign_translator.text.source_words import SourceWord
+
+#: Of a gloss that was put back: its word is right, its place a guess. Below the translator's threshold, so
+#: that its sentence is called uncertain.
+PUT_BACK_CONFIDENCE = 0.2
+
+_ANY = "*"
+# Tags of words that LSE signs last.
+_LAST = ("WH",)
+
+
+@dataclass(frozen=True, slots=True)
+class CompleteTranslation:
+    """The glosses of a sentence, none of its words left out.
+
+    Attributes:
+        glosses: In signing order.
+        put_back: For each whether the model had left its word out.
+        given: Whether it is the known translation of a given sentence, which leaves out what it likes.
+    """
+
+    glosses: tuple[OutputGloss, ...]
+    put_back: tuple[bool, ...]
+    given: bool = False
+
+
+class FunctionWords:
+    """Tells function words from words with a meaning of their own."""
+
+    def __init__(self, lemmas: dict[str, frozenset[str]]) -> None:
+        """Take lemmas by the beginning of the tag that they must have; `*` among them stands for all."""
+        self._lemmas = dict(lemmas)
+        self._by_tag: dict[str, frozenset[str]] = {}
+
+    @classmethod
+    def load(cls, path: Path | None = None) -> FunctionWords:
+        """Read the list.
+
+        Args:
+            path: The file; by default the package's `text/function_words.tsv`, which explains its columns.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        path = path or data_file("function_words.tsv")
+        return cls(
+            read_listed(
+                path, lambda tag: any(_begins(known, tag) for known in TAGS), "the beginning of a tag"
+            )
+        )
+
+    def may_be_left_out(self, word: SourceWord) -> bool:
+        """Whether one of a word's readings is a function word, or it is a mark.
+
+        Who types accents means them: "quién" is not "quien"; "esta" may be "está". Who types a capital
+        means a name: "Me llamo Al".
+        """
+        if word.capital and any(reading.tag.startswith("NAME") for reading in word.readings):
+            return False
+        plain = word.form == fold(word.form)
+        return word.is_mark or any(self.lists(reading) for reading in word.readings if plain or reading.exact)
+
+    def lists(self, reading: Reading) -> bool:
+        """Whether this reading is that of a function word."""
+        found = self._by_tag.get(reading.tag)
+        if found is None:
+            listed = [lemmas for tag, lemmas in self._lemmas.items() if _begins(reading.tag, tag)]
+            found = self._by_tag[reading.tag] = frozenset[str]().union(*listed)
+        return _ANY in found or reading.lemma in found
+
+
+@dataclass(frozen=True, slots=True)
+class Completeness:
+    """Chooses among a model's translations and puts back what the chosen one leaves out.
+
+    Attributes:
+        function_words: What may be left out.
+        gloss_words: For each gloss the lemmas that it signs though they are not its own.
+        words: Words of the language with a rule of their own.
+        tags: Words that ask for agreement behind a sentence ("…, ¿no?"), and deny nothing there.
+    """
+
+    function_words: FunctionWords
+    gloss_words: Mapping[str, frozenset[str]]
+    words: CompletenessWords
+    tags: frozenset[str]
+
+    @classmethod
+    def load(cls, folder: Path | None = None) -> Completeness:
+        """With a language's `function_words.tsv`, `gloss_words.tsv`, `pipeline.yaml` and `reading.yaml`.
+
+        Args:
+            folder: The language's text folder; by default that of the default language.
+
+        Raises:
+            TranslationError: "invalid_data", with file and line.
+        """
+        folder = folder or data_file("")
+        return cls(
+            FunctionWords.load(folder / "function_words.tsv"),
+            read_gloss_words(folder / "gloss_words.tsv"),
+            PipelineWords.load(folder).completeness,
+            TextRules.load(folder).sentences.tags,
+        )
+
+    def complete(self, words: Sequence[SourceWord], hypotheses: Iterable[Hypothesis]) -> CompleteTranslation:
+        """The translation that leaves out the fewest words, with these put back.
+
+        A sentence of nothing but function words has each of them signed, since it would be empty otherwise.
+
+        Args:
+            words: Of the sentence; one at least is no mark.
+            hypotheses: Its translations, best first; at least one.
+        """
+        candidates = [_each_word_once(words, hypothesis.glosses) for hypothesis in hypotheses]
+        best = min(candidates, key=lambda glosses: len(self.left_out(words, glosses)))
+        missing = {place: self._meant(words[place]) for place in self.left_out(words, best)}
+        if not best and not missing:
+            missing = {place: word.readings[0] for place, word in enumerate(words) if not word.is_mark}
+        glosses = list(best)
+        put_back = [False] * len(best)
+        for place, reading in missing.items():
+            index = len(glosses)
+            if not reading.tag.startswith(_LAST):
+                index = self._beside(place, words, glosses)
+            gloss = OutputGloss(copied_gloss(reading), (place,), PUT_BACK_CONFIDENCE, copied=True)
+            glosses.insert(index, gloss)
+            put_back.insert(index, True)
+        return CompleteTranslation(tuple(glosses), tuple(put_back))
+
+    def left_out(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[int]:
+        """Places of the words that have to be signed and that no gloss signs."""
+        signed = {place for places in self._signed(words, glosses) for place in places}
+        exclaims = bool(words) and words[-1].form == "!"
+        return [
+            place
+            for place, word in enumerate(words)
+            if place not in signed
+            and not self.function_words.may_be_left_out(word)
+            and not self._says_only_the_future(words, place)
+            and not self._asks_for_agreement(words, place)
+            and not (exclaims and word.readings[0].tag.startswith("WH"))  # "¡Qué bonito!" asks nothing
+        ]
+
+    def _signed(self, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> list[list[int]]:
+        """For each gloss the places of the words that it signs.
+
+        Of each dictionary form it signs one word, if it can one that no gloss before it signs, and one that
+        the model looked at for it. What else the model looked at is not signed by it.
+        """
+        by_gloss, by_lemma = _places(words)
+        taken: set[int] = set()
+        result: list[list[int]] = []
+        for gloss in glosses:
+            lemmas = sorted(self.gloss_words.get(gloss.gloss, frozenset()))
+            choices = [by_gloss.get(gloss.gloss, []), *(by_lemma.get(lemma, []) for lemma in lemmas)]
+            result.append([_likeliest(places, gloss, taken) for places in choices if places])
+            taken.update(result[-1])
+        return result
+
+    def _says_only_the_future(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word is "voy" of "voy a comer", which a word of time may replace."""
+        following = words[place + 1 : place + 3]
+        return (
+            any(reading.lemma == self.words.goes for reading in words[place].readings)
+            and len(following) == 2
+            and following[0].form == self.words.goes_to
+            and any(reading.tag == "V:inf" for reading in following[1].readings)
+        )
+
+    def _asks_for_agreement(self, words: Sequence[SourceWord], place: int) -> bool:
+        """Whether a word is "no" of "…, ¿no?"."""
+        alone = place > 0 and words[place - 1].is_mark
+        return (
+            alone and words[place].form in self.tags and [word.form for word in words[place + 1 :]] == ["?"]
+        )
+
+    def _meant(self, word: SourceWord) -> Reading:
+        """The likeliest reading of a word that was left out: a name where a capital says so."""
+        names = (reading for reading in word.readings if word.capital and reading.tag.startswith("NAME"))
+        others = (each for each in word.readings if not self.function_words.lists(each))
+        return next(names, None) or next(others, None) or word.readings[0]
+
+    def _beside(self, word: int, words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> int:
+        """Where the gloss of a word belongs: beside that of the nearest word, of two the one before."""
+        best, index = float("inf"), len(glosses)
+        for place, signed in enumerate(self._signed(words, glosses)):
+            for source in signed:
+                distance = 2 * abs(source - word) - (source < word)
+                if distance < best or (distance == best and source < word):
+                    best, index = distance, place + (source < word)
+        return index
+
+
+def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
+    """For each gloss the lemmas that it signs though they are not its own.
+
+    Args:
+        path: The file; by default the package's `text/gloss_words.tsv`, which explains its columns.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    path = path or data_file("gloss_words.tsv")
+    return read_listed(path, lambda gloss: gloss == gloss.upper(), "a gloss in capitals")
+
+
+def _each_word_once(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> tuple[OutputGloss, ...]:
+    """Glosses without those that are carried over again, and without one said twice in a row for no word."""
+    by_gloss, _ = _places(words)
+    taken: set[int] = set()
+    result: list[OutputGloss] = []
+    for gloss in glosses:
+        own = by_gloss.get(gloss.gloss, [])
+        again = bool(result) and result[-1].gloss == gloss.gloss
+        if (gloss.copied and own and taken.issuperset(own)) or (not own and again):
+            continue
+        if own:
+            taken.add(_likeliest(own, gloss, taken))
+        result.append(gloss)
+    return tuple(result)
+
+
+def _likeliest(places: Iterable[int], gloss: OutputGloss, taken: set[int]) -> int:
+    return min(places, key=lambda place: (place in taken, place not in gloss.sources))
+
+
+def _places(words: Sequence[SourceWord]) -> tuple[dict[str, list[int]], dict[str, list[int]]]:
+    """Places of words by the glosses that they would be copied as, and by their lemmas."""
+    by_gloss: dict[str, list[int]] = defaultdict(list)
+    by_lemma: dict[str, list[int]] = defaultdict(list)
+    for place, word in enumerate(words):
+        if not word.is_mark:
+            for lemma in {reading.lemma for reading in word.readings}:
+                by_lemma[lemma].append(place)
+            for gloss in {copied_gloss(reading) for reading in word.readings}:
+                by_gloss[gloss].append(place)
+    return by_gloss, by_lemma
+
+
+def _begins(tag: str, beginning: str) -> bool:
+    return tag == beginning or tag.startswith(f"{beginning}:")
