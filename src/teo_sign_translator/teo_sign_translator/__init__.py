@@ -10,10 +10,7 @@ Each room imports only rooms above it in this list; the README says more of each
     morphology  what a Spanish word may be, and how a lemma is inflected
     text        typed text as sentences, clauses and words
     output      what is signed: glosses, letters, numbers, pauses
-    corpus      a grammar that makes sentence pairs, and the paper's pairs
     pointer     the default model
-    lstm256     the published model
-    training    from pairs to models; the only room that needs PyTorch
     pipeline    from text through a model to what is signed
     node, cli   the ROS node, the commands
 """

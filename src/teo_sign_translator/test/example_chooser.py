@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from teo_sign_training.corpus.choosers import Chooser
 from teo_sign_training.corpus.grammar import Rule, Shape
-from teo_sign_training.corpus.words import Pool, Word
+from teo_sign_training.corpus.words import ListedWord, Pool
 from teo_sign_translator.errors import TranslationError
 
 _Item = TypeVar("_Item")
@@ -34,7 +34,7 @@ class ExampleChooser(Chooser):
         wanted = self._wanted(path)
         return rules[0] if wanted is None else self._named(path, wanted, {rule.name: rule for rule in rules})
 
-    def word(self, path: str, pool: Pool) -> Word | None:
+    def word(self, path: str, pool: Pool) -> ListedWord | None:
         """The fixed word, or the first."""
         words = (*pool.known, *pool.held)
         wanted = self._wanted(path)

@@ -17,7 +17,7 @@ from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
 from teo_sign_training.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
-from teo_sign_training.fitting.lstm256_fitting import Example, Training, TrainingConfig, train
+from teo_sign_training.fitting.lstm256_fitting import Example, LstmTrainingConfig, Training, train
 from teo_sign_training.lstm256.tokens import published_tokens
 from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 
@@ -41,7 +41,7 @@ class Run:
         seconds: Time that training took [s].
     """
 
-    config: TrainingConfig
+    config: LstmTrainingConfig
     training: Training
     predictions: tuple[tuple[str, ...], ...]
     seconds: float
@@ -53,7 +53,7 @@ def split(pairs: list[PublishedPair]) -> tuple[list[PublishedPair], list[Publish
     return pairs[:count], pairs[count:]
 
 
-def reproduce(config: TrainingConfig, progress: Progress) -> Run:
+def reproduce(config: LstmTrainingConfig, progress: Progress) -> Run:
     """Train with one learning rate on the published pairs."""
     pairs = paper_pairs()
     examples: list[Example] = [(published_tokens(pair.sentence), pair.glosses) for pair in pairs]
@@ -73,14 +73,17 @@ def run(
     out: Annotated[Path, typer.Option(help="Folder for curves and tables; made if it is missing.")],
     epochs: Annotated[int, typer.Option(min=1, help="Passes over the pairs; the paper's are 100.")] = 100,
     batch_size: Annotated[int, typer.Option(min=1, help="Pairs per step; the paper states none.")] = 1,
-    seed: Annotated[int, typer.Option(help="Of initial weights and order of pairs.")] = TrainingConfig().seed,
+    seed: Annotated[
+        int, typer.Option(help="Of initial weights and order of pairs.")
+    ] = LstmTrainingConfig().seed,
 ) -> None:
     """Train the published LSTM at both learning rates; write loss curves and the table of predictions."""
     console = Console()
     with Progress(console=console) as progress:
         runs = [
             reproduce(
-                TrainingConfig(learning_rate=rate, epochs=epochs, batch_size=batch_size, seed=seed), progress
+                LstmTrainingConfig(learning_rate=rate, epochs=epochs, batch_size=batch_size, seed=seed),
+                progress,
             )
             for rate in LEARNING_RATES
         ]

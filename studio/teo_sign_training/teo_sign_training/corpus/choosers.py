@@ -11,7 +11,7 @@ from random import Random
 from typing import TypeVar
 
 from teo_sign_training.corpus.grammar import Rule, Shape
-from teo_sign_training.corpus.words import Pool, Word
+from teo_sign_training.corpus.words import ListedWord, Pool
 
 _Weighted = TypeVar("_Weighted", Rule, Shape)
 
@@ -41,7 +41,7 @@ class Chooser:
         del path
         return self._by_weight(rules)
 
-    def word(self, path: str, pool: Pool) -> Word | None:
+    def word(self, path: str, pool: Pool) -> ListedWord | None:
         """A word, by weight."""
         del path
         return pool.draw(self.random, self.held and self.random.random() < _HELD_SHARE)

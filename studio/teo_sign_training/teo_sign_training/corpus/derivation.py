@@ -23,7 +23,7 @@ from teo_sign_translator.errors import TranslationError
 _INHERITED = ("mood", "shapes", "who", "time", "pol", "says", "self")
 
 
-class Sentence(NamedTuple):
+class GeneratedSentence(NamedTuple):
     """A sentence in both languages.
 
     Attributes:
@@ -59,7 +59,7 @@ class Derivation:
     def __post_init__(self) -> None:
         self._tenses = Tenses(self.grammar.shapes, self.grammar.word_lists)
 
-    def sentence(self, rule: Rule, spread: Mapping[str, str]) -> Sentence:
+    def sentence(self, rule: Rule, spread: Mapping[str, str]) -> GeneratedSentence:
         """Make a sentence of a rule.
 
         Args:
@@ -81,7 +81,7 @@ class Derivation:
                 "invalid_grammar",
                 f"{rule.where}: expected the words of {lost} in '{text}': they are not said",
             )
-        return Sentence(
+        return GeneratedSentence(
             text,
             tuple(sign.gloss for sign in signs),
             tuple(tuple(sorted({places[id(token)] for token in sign.sources})) for sign in signs),

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from teo_sign_training.corpus.tokens import Phrase, Sign, Token
-from teo_sign_training.corpus.words import Word, WordLists
+from teo_sign_training.corpus.tokens import Phrase, SaidWord, Sign
+from teo_sign_training.corpus.words import ListedWord, WordLists
 from teo_sign_translator.morphology import gloss_name
 from teo_sign_translator.text.numerals import Numerals
 
@@ -21,7 +21,7 @@ class NoFillerError(Exception):
     """Nothing fits a slot this time; another try may succeed."""
 
 
-def word_phrase(words: WordLists, category: str, word: Word, arguments: Mapping[str, str]) -> Phrase:
+def word_phrase(words: WordLists, category: str, word: ListedWord, arguments: Mapping[str, str]) -> Phrase:
     """A noun in its number, an adjective that agrees, a name or an adverb.
 
     Raises:
@@ -34,7 +34,7 @@ def word_phrase(words: WordLists, category: str, word: Word, arguments: Mapping[
         number = arguments.get("number", "s")
         tags = {"m+f": f"A:{arguments.get('gender', 'm')}{number}", "mf": f"A:c{number}", "-": "A"}
         form = words.inflect(word.lemma, tags.get(word.features["gender"], "A:cn"))
-    token = Token(form)
+    token = SaidWord(form)
     gloss = gloss_name(word.lemma)
     return Phrase({**word.features, "lemma": word.lemma}, [token], [Sign(gloss, [token])], token)
 
@@ -47,6 +47,6 @@ def can_be_in_words(value: int, gender: str) -> bool:
 
 def number_phrase(value: int, gender: str, numbers: Numerals, *, in_words: bool) -> Phrase:
     """A number, in words or digits; one gloss of digits."""
-    token = Token(numbers.in_words(value) if in_words else str(value))
+    token = SaidWord(numbers.in_words(value) if in_words else str(value))
     features = {"number": "s" if value == 1 else "p", "gender": gender or "m", "person": "3"}
     return Phrase(features, [token], [Sign(str(value), [token])], token)

@@ -15,7 +15,7 @@ from random import Random
 
 from teo_common.text_folding import folded
 from teo_sign_training.corpus.choosers import Chooser
-from teo_sign_training.corpus.derivation import Derivation, Sentence
+from teo_sign_training.corpus.derivation import Derivation, GeneratedSentence
 from teo_sign_training.corpus.fillers import NoFillerError
 from teo_sign_training.corpus.grammar import LEXICAL, Grammar
 from teo_sign_training.corpus.grammar_file import load_grammar
@@ -145,7 +145,7 @@ class Generator:
 
     def _new(
         self, derivation: Derivation, template: Template, seen: _Seen, split: str, *, held: bool
-    ) -> Sentence | None:
+    ) -> GeneratedSentence | None:
         for _ in range(_EXHAUSTED_AFTER):
             try:
                 sentence = derivation.sentence(template.rule, template.spread)

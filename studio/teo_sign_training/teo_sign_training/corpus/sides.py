@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from teo_sign_training.corpus.fillers import NoFillerError
 from teo_sign_training.corpus.grammar import Grammar, Rule
 from teo_sign_training.corpus.patterns import CLITIC, VERB, GlossItem, TextItem
-from teo_sign_training.corpus.tokens import Phrase, SaidVerb, Sign, Token
+from teo_sign_training.corpus.tokens import Phrase, SaidVerb, SaidWord, Sign
 from teo_sign_training.corpus.verb_phrase import say_verb, verb_signs
 from teo_sign_training.corpus.words import WordLists
 from teo_sign_translator.errors import TranslationError
@@ -36,9 +36,9 @@ class Sides:
     handed: Mapping[str, str]
     words: WordLists
     grammar: Grammar
-    _literals: dict[str, Token] = field(default_factory=dict)
+    _literals: dict[str, SaidWord] = field(default_factory=dict)
 
-    def said(self) -> tuple[list[Token], list[Sign]]:
+    def said(self) -> tuple[list[SaidWord], list[Sign]]:
         """The words, then the glosses.
 
         Raises:
@@ -52,7 +52,7 @@ class Sides:
             sign.leads = False
         return tokens, signs
 
-    def _tokens(self, item: TextItem) -> list[Token]:
+    def _tokens(self, item: TextItem) -> list[SaidWord]:
         if item.word:
             return [self._literal(item)]
         phrase = self.slots[item.slot]
@@ -63,12 +63,12 @@ class Sides:
             subject.say(VERB, phrase.verb.said.finite)
         return phrase.tokens
 
-    def _literal(self, item: TextItem) -> Token:
-        token = Token(item.word)
+    def _literal(self, item: TextItem) -> SaidWord:
+        token = SaidWord(item.word)
         if item.agree:
             features = self.slots[item.agree].features
             column = _COLUMNS.index(features.get("gender", "m")[0] + features.get("number", "s"))
-            token = Token(self.grammar.paradigms[item.word][column], _COLUMNS[column] == "fs")
+            token = SaidWord(self.grammar.paradigms[item.word][column], _COLUMNS[column] == "fs")
         key, again = item.word, 2
         while key in self._literals:
             key, again = f"{item.word}#{again}", again + 1

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from teo_sign_training.corpus.grammar import Shape
-from teo_sign_training.corpus.words import Word
+from teo_sign_training.corpus.words import ListedWord
 
 
 @dataclass(slots=True, eq=False)
-class Token:
+class SaidWord:
     """A word or mark.
 
     Attributes:
@@ -37,7 +37,7 @@ class Sign:
     """
 
     gloss: str
-    sources: list[Token] = field(default_factory=list)
+    sources: list[SaidWord] = field(default_factory=list)
     pending: str = ""
     leads: bool = False
 
@@ -53,11 +53,11 @@ class VerbPhrase(NamedTuple):
         parts: Words of auxiliaries and literals by lemma.
     """
 
-    tokens: list[Token]
-    finite: Token
-    main: Token
-    clitics: list[Token]
-    parts: dict[str, Token]
+    tokens: list[SaidWord]
+    finite: SaidWord
+    main: SaidWord
+    clitics: list[SaidWord]
+    parts: dict[str, SaidWord]
 
 
 @dataclass(slots=True, eq=False)
@@ -73,12 +73,12 @@ class Phrase:
     """
 
     features: dict[str, str]
-    tokens: list[Token]
+    tokens: list[SaidWord]
     signs: list[Sign]
-    head: Token | None = None
+    head: SaidWord | None = None
     verb: SaidVerb | None = None
 
-    def say(self, pending: str, token: Token) -> None:
+    def say(self, pending: str, token: SaidWord) -> None:
         """Make a word a source of the signs that are pending for it."""
         for sign in self.signs:
             if sign.pending == pending:
@@ -100,7 +100,7 @@ class SaidVerb:
         said: What it has become.
     """
 
-    word: Word
+    word: ListedWord
     shape: Shape
     said: VerbPhrase | None = None
 

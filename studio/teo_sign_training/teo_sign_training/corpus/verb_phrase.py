@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from teo_sign_training.corpus.grammar import Shape
-from teo_sign_training.corpus.tokens import Sign, Token, VerbPhrase
+from teo_sign_training.corpus.tokens import SaidWord, Sign, VerbPhrase
 from teo_sign_training.corpus.words import WordLists
 from teo_sign_training.corpus.writing import Clitics
 from teo_sign_translator.morphology.enclitics import attach_pronouns
@@ -35,24 +35,24 @@ def say_verb(
     rules = words.clitics
     pronouns = [*([rules.reflexive[person]] if pronominal else []), *clitics]
     ordered = in_order(pronouns, rules)
-    tokens: list[Token] = []
-    parts: dict[str, Token] = {}
-    carriers: list[Token] = []
-    finite: Token | None = None
-    main: Token | None = None
+    tokens: list[SaidWord] = []
+    parts: dict[str, SaidWord] = {}
+    carriers: list[SaidWord] = []
+    finite: SaidWord | None = None
+    main: SaidWord | None = None
     for part in shape.parts:
         if part.literal == "^":
-            carriers = [Token(clitic) for clitic in ordered]
+            carriers = [SaidWord(clitic) for clitic in ordered]
             tokens += carriers
             continue
         if part.literal:
-            token = Token(part.literal)
+            token = SaidWord(part.literal)
         else:
             tag = f"V:{part.tag}"
             if part.tag.startswith(_FINITE):
                 tag += f":{person}"
             form = words.inflect(part.lemma or lemma, tag)
-            token = Token(attach_pronouns(form, ordered) if part.enclitic and ordered else form)
+            token = SaidWord(attach_pronouns(form, ordered) if part.enclitic and ordered else form)
             if part.enclitic:
                 carriers = [token] * len(ordered)
             if not part.lemma:
@@ -153,13 +153,13 @@ def denied_once(signs: Sequence[Sign], lists: Mapping[str, tuple[str, ...]]) -> 
 def _carriers(
     pronouns: Sequence[str],
     ordered: Sequence[str],
-    carriers: Sequence[Token],
+    carriers: Sequence[SaidWord],
     clitics: Sequence[str],
     rules: Clitics,
-) -> list[Token]:
+) -> list[SaidWord]:
     """The word that says each of the clitics; "le" may have become "se"."""
     own = len(pronouns) - len(clitics)
-    found: list[Token] = []
+    found: list[SaidWord] = []
     for clitic in clitics:
         written = clitic if clitic in ordered[own:] or clitic in ordered else rules.beside_accusative
         places = [place for place, each in enumerate(ordered) if each == written]

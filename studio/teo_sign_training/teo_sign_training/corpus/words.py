@@ -31,7 +31,7 @@ _GENDERS = {"m": "m", "f": "f", "mf": "mf", "m+f": "mf", "mp": "m", "fp": "f", "
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Word:
+class ListedWord:
     """A word that may fill a slot.
 
     Attributes:
@@ -47,13 +47,13 @@ class Word:
 class Pool:
     """Words with their weights; the held-out ones apart."""
 
-    known: tuple[Word, ...]
+    known: tuple[ListedWord, ...]
     known_weights: tuple[float, ...]
-    held: tuple[Word, ...]
+    held: tuple[ListedWord, ...]
     held_weights: tuple[float, ...]
 
     @classmethod
-    def of(cls, weighted: Iterable[tuple[Word, float]], held_out: frozenset[str]) -> Pool:
+    def of(cls, weighted: Iterable[tuple[ListedWord, float]], held_out: frozenset[str]) -> Pool:
         """A pool of words and weights."""
         known = [(word, weight) for word, weight in weighted if word.lemma not in held_out]
         held = [(word, weight) for word, weight in weighted if word.lemma in held_out]
@@ -64,7 +64,7 @@ class Pool:
             tuple(accumulate(weight for _, weight in held)),
         )
 
-    def draw(self, random: Random, held: bool) -> Word | None:
+    def draw(self, random: Random, held: bool) -> ListedWord | None:
         """A word, or None if there is none."""
         words, weights = (
             (self.held, self.held_weights) if held and self.held else (self.known, self.known_weights)
@@ -96,11 +96,11 @@ class WordLists:
 
     morphology: Morphology
     rules: TextRules
-    nouns: list[Word]
-    adjectives: list[Word]
-    adverbs: list[Word]
-    names: list[Word]
-    verbs: list[Word]
+    nouns: list[ListedWord]
+    adjectives: list[ListedWord]
+    adverbs: list[ListedWord]
+    names: list[ListedWord]
+    verbs: list[ListedWord]
     lists: Mapping[str, tuple[str, ...]]
     clitics: Clitics
     held_out: frozenset[str] = frozenset()
@@ -158,7 +158,7 @@ class WordLists:
             pool = self._pools[key] = Pool.of(list(build(arguments)), self.held_out)
         return pool
 
-    def _nouns(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
+    def _nouns(self, arguments: Mapping[str, str]) -> Iterable[tuple[ListedWord, float]]:
         number = arguments.get("num", "s")
         for word, weight in self._chosen(self.nouns, arguments.get("class", ""), "noun"):
             if not word.lemma.isalpha():
@@ -190,9 +190,9 @@ class WordLists:
                 }
                 if only_plural:
                     features["plural_only"] = "yes"
-                yield Word(word.lemma, features), weight / len(_GENDERS[gender])
+                yield ListedWord(word.lemma, features), weight / len(_GENDERS[gender])
 
-    def _adjectives(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
+    def _adjectives(self, arguments: Mapping[str, str]) -> Iterable[tuple[ListedWord, float]]:
         use = arguments.get("use", "")
         classes = arguments.get("class", "")
         fits = arguments.get("fits", "")
@@ -203,11 +203,11 @@ class WordLists:
                 continue
             yield word, weight
 
-    def _verbs(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
+    def _verbs(self, arguments: Mapping[str, str]) -> Iterable[tuple[ListedWord, float]]:
         if "lemma" in arguments:
             for lemma in arguments["lemma"].split(","):
                 bare, pronominal = self.clitics.bare(lemma)
-                yield Word(bare, {"pronominal": "yes" if pronominal else "", "kind": "state"}), 1.0
+                yield ListedWord(bare, {"pronominal": "yes" if pronominal else "", "kind": "state"}), 1.0
             return
         entries = [verb for verb in self.verbs if verb.features["frame"] == arguments["frame"]]
         if not entries:
@@ -222,17 +222,17 @@ class WordLists:
             if "det" in features:
                 features["det"] = ",".join(features["det"])
             features["kind"] = "event" if verb.features["kind"] == "e" else "state"
-            yield Word(bare, features), 1 / (rank + 40)
+            yield ListedWord(bare, features), 1 / (rank + 40)
 
-    def _names(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
+    def _names(self, arguments: Mapping[str, str]) -> Iterable[tuple[ListedWord, float]]:
         for word, weight in self._chosen(self.names, arguments["class"], "name"):
             gender = "f" if "f" in word.features["classes"].split(",") else "m"
-            yield Word(word.lemma, {"gender": gender, "number": "s", "person": "3"}), weight
+            yield ListedWord(word.lemma, {"gender": gender, "number": "s", "person": "3"}), weight
 
-    def _adverbs(self, arguments: Mapping[str, str]) -> Iterable[tuple[Word, float]]:
+    def _adverbs(self, arguments: Mapping[str, str]) -> Iterable[tuple[ListedWord, float]]:
         yield from self._chosen(self.adverbs, arguments["class"], "adverb")
 
-    def _chosen(self, words: list[Word], classes: str, what: str) -> Iterable[tuple[Word, float]]:
+    def _chosen(self, words: list[ListedWord], classes: str, what: str) -> Iterable[tuple[ListedWord, float]]:
         """Words of classes, of the grammar's lists or named; each class has the same weight."""
         by_lemma = {word.lemma: word for word in words}
         known = {each for word in words for each in word.features["classes"].split(",")}
@@ -261,22 +261,22 @@ class WordLists:
                 yield word, scale * weight / total
 
 
-def _listed(path: Path, columns: tuple[str, ...]) -> list[Word]:
+def _listed(path: Path, columns: tuple[str, ...]) -> list[ListedWord]:
     return [
-        Word(fields[0], dict(zip(columns, fields[1:], strict=True)))
+        ListedWord(fields[0], dict(zip(columns, fields[1:], strict=True)))
         for _, fields in read_rows(path, columns=len(columns) + 1)
     ]
 
 
-def _merged(words: list[Word]) -> list[Word]:
+def _merged(words: list[ListedWord]) -> list[ListedWord]:
     """One entry a lemma, its classes joined; the first line's other columns count."""
-    merged: dict[str, Word] = {}
+    merged: dict[str, ListedWord] = {}
     for word in words:
         before = merged.get(word.lemma)
         if before:
             classes = dict.fromkeys(
                 [*before.features["classes"].split(","), *word.features["classes"].split(",")]
             )
-            word = Word(word.lemma, {**before.features, "classes": ",".join(classes)})
+            word = ListedWord(word.lemma, {**before.features, "classes": ",".join(classes)})
         merged[word.lemma] = word
     return list(merged.values())

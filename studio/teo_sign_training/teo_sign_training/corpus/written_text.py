@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from teo_sign_training.corpus.tokens import Token
+from teo_sign_training.corpus.tokens import SaidWord
 from teo_sign_training.corpus.writing import Writing
 from teo_sign_translator.morphology.accents import unaccented
 
@@ -17,7 +17,7 @@ _HANGING = "'"
 
 
 def write(
-    tokens: Sequence[Token], writing: Writing, contracts: Callable[[str], bool | None]
+    tokens: Sequence[SaidWord], writing: Writing, contracts: Callable[[str], bool | None]
 ) -> tuple[str, dict[int, int]]:
     """Write a sentence.
 
@@ -34,7 +34,7 @@ def write(
     pieces: list[str] = []
     places: dict[int, int] = {}
     words = 0
-    previous: Token | None = None
+    previous: SaidWord | None = None
     glued = True
     for position, token in enumerate(tokens):
         text = token.text
@@ -66,7 +66,7 @@ def write(
     return _capitalised("".join(pieces)), places
 
 
-def _meeting(token: Token, following: str, writing: Writing) -> str:
+def _meeting(token: SaidWord, following: str, writing: Writing) -> str:
     sound = unaccented(following.lower())
     for meeting in writing.meetings.get(token.text, ()):
         if meeting.before is not None and meeting.before.fullmatch(sound):

@@ -17,7 +17,7 @@ from torch.nn.utils.rnn import pack_padded_sequence, pad_sequence
 
 from teo_sign_training.fitting.devices import one_thread, seeded
 from teo_sign_training.lstm256.seq2seq import LstmModel
-from teo_sign_training.lstm256.tokens import END, START, Vocabulary
+from teo_sign_training.lstm256.tokens import END, START, TokenList
 from teo_sign_translator.errors import TranslationError
 
 #: One input sequence and its output sequence.
@@ -28,7 +28,7 @@ _PADDING = -100
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
-class TrainingConfig:
+class LstmTrainingConfig:
     """How a model is trained; the defaults are the paper's (arXiv:1907.04198) where it states them.
 
     Attributes:
@@ -83,7 +83,7 @@ class Training:
 def train(
     examples: Sequence[Example],
     held_out: Sequence[Example],
-    config: TrainingConfig,
+    config: LstmTrainingConfig,
     on_epoch: Callable[[int], None] | None = None,
 ) -> Training:
     """Train from nothing. The same arguments give the same weights on the same machine.
@@ -91,7 +91,7 @@ def train(
     Args:
         examples: To learn from; at least one.
         held_out: To measure the validation loss on; may be empty.
-        config: See `TrainingConfig`.
+        config: See `LstmTrainingConfig`.
         on_epoch: Called after each epoch with its number from 1.
 
     Raises:
@@ -99,8 +99,8 @@ def train(
     """
     if not examples:
         raise TranslationError("invalid_config", "expected at least one training example, got none")
-    inputs = Vocabulary.of_inputs(source for source, _ in (*examples, *held_out))
-    outputs = Vocabulary.of_outputs(target for _, target in (*examples, *held_out))
+    inputs = TokenList.of_inputs(source for source, _ in (*examples, *held_out))
+    outputs = TokenList.of_outputs(target for _, target in (*examples, *held_out))
     with _deterministic(config.seed):
         network = EncoderDecoder(len(inputs), len(outputs), config.hidden)
         # 1e-7 keeps the division finite, as in the Keras library of the paper's time.
@@ -206,7 +206,7 @@ class _Encoded:
     target: torch.Tensor
 
 
-def _encode(example: Example, inputs: Vocabulary, outputs: Vocabulary) -> _Encoded:
+def _encode(example: Example, inputs: TokenList, outputs: TokenList) -> _Encoded:
     source, target = example
     return _Encoded(
         torch.tensor(inputs.indices(source)),

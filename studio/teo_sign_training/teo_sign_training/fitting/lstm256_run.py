@@ -13,13 +13,13 @@ from rich.progress import Progress
 
 from teo_sign_training.corpus.aligned_pairs import training_pairs
 from teo_sign_training.corpus.paper_pairs import training_data_hash
-from teo_sign_training.fitting.lstm256_fitting import Example, TrainingConfig, train
+from teo_sign_training.fitting.lstm256_fitting import Example, LstmTrainingConfig, train
 from teo_sign_training.lstm256.store import load_model, save_model
 from teo_sign_training.lstm256.tokens import folded_tokens, mark_variants
 
 #: The published model is trained with 20 % held out; what ships must know every sentence, so nothing is held
 #: out. Batches of 8 keep the training short; there are more than 200 examples where the paper has 31.
-SHIPPED_CONFIG = TrainingConfig(learning_rate=0.001, epochs=100, batch_size=8)
+SHIPPED_CONFIG = LstmTrainingConfig(learning_rate=0.001, epochs=100, batch_size=8)
 
 
 _DESCRIPTION = (
@@ -40,7 +40,7 @@ def shipped_examples() -> list[Example]:
 
 
 def train_published(
-    name: str, directory: Path, config: TrainingConfig, command: str, console: Console
+    name: str, directory: Path, config: LstmTrainingConfig, command: str, console: Console
 ) -> bool:
     """Train and write the model with a card that says how.
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_training.lstm256.tokens import END, START, Vocabulary
+from teo_sign_training.lstm256.tokens import END, START, TokenList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pointer.array_cells import Array, LstmLayer
 from teo_sign_translator.pointer.array_model import softmax
@@ -42,7 +42,7 @@ class LstmModel:
     """
 
     def __init__(
-        self, inputs: Vocabulary, outputs: Vocabulary, weights: Mapping[str, NDArray[np.floating]]
+        self, inputs: TokenList, outputs: TokenList, weights: Mapping[str, NDArray[np.floating]]
     ) -> None:
         """Take over the weights.
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from teo_sign_training.lstm256.seq2seq import LstmModel
-from teo_sign_training.lstm256.tokens import Vocabulary
+from teo_sign_training.lstm256.tokens import TokenList
 from teo_sign_translator.model_files import Weights, read_model, write_model
 
 #: Of the cards of this kind of model.
@@ -23,15 +23,15 @@ def load_model(name: str, directory: Path | None = None) -> LstmModel:
 
 def _built(card: dict[str, Any], weights: Weights) -> LstmModel:
     lists = card["vocabulary"]
-    return LstmModel(Vocabulary(lists["input"]), Vocabulary(lists["output"]), weights)
+    return LstmModel(TokenList(lists["input"]), TokenList(lists["output"]), weights)
 
 
 def save_model(
     name: str,
     directory: Path,
     *,
-    inputs: Vocabulary,
-    outputs: Vocabulary,
+    inputs: TokenList,
+    outputs: TokenList,
     weights: Weights,
     card: Mapping[str, Any],
 ) -> None:

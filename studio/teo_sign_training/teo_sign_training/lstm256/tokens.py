@@ -43,7 +43,7 @@ def mark_variants(tokens: tuple[str, ...]) -> list[tuple[str, ...]]:
     )
 
 
-class Vocabulary:
+class TokenList:
     """An ordered set of tokens."""
 
     def __init__(self, tokens: Sequence[str]) -> None:
@@ -58,12 +58,12 @@ class Vocabulary:
             raise TranslationError("invalid_model", "expected a vocabulary of one or more tokens, each once")
 
     @classmethod
-    def of_inputs(cls, sequences: Iterable[Sequence[str]]) -> Vocabulary:
+    def of_inputs(cls, sequences: Iterable[Sequence[str]]) -> TokenList:
         """The vocabulary of input sequences, sorted."""
         return cls(sorted({token for sequence in sequences for token in sequence}))
 
     @classmethod
-    def of_outputs(cls, sequences: Iterable[Sequence[str]]) -> Vocabulary:
+    def of_outputs(cls, sequences: Iterable[Sequence[str]]) -> TokenList:
         """The vocabulary of output sequences: END, START, then the tokens sorted."""
         return cls([END, START, *sorted({token for sequence in sequences for token in sequence})])
 

@@ -9,7 +9,7 @@ from example_chooser import ExampleChooser
 
 from teo_sign_training.corpus.derivation import Derivation
 from teo_sign_training.corpus.generator import Generator
-from teo_sign_training.corpus.tokens import Sign, Token
+from teo_sign_training.corpus.tokens import SaidWord, Sign
 from teo_sign_training.corpus.verb_phrase import without_addressee
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
@@ -101,7 +101,7 @@ LISTS = {"asking_glosses": ("PODER",), "addressee_glosses": ("TÚ",)}
 
 
 def test_the_addressee_of_a_request_is_left_out_unless_a_word_says_it():
-    you, can, say_you = Token("puedes"), Sign("PODER"), Token("tú")
+    you, can, say_you = SaidWord("puedes"), Sign("PODER"), SaidWord("tú")
     can.sources = [you]
     silent = [Sign("TÚ", [you]), Sign("VENIR"), can]
     said = [Sign("TÚ", [say_you]), Sign("VENIR"), can]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from teo_common.text_folding import fold
 from teo_sign_training.corpus.fillers import LIMIT
 from teo_sign_training.corpus.grammar_file import load_grammar
-from teo_sign_training.corpus.tokens import Token
+from teo_sign_training.corpus.tokens import SaidWord
 from teo_sign_training.corpus.verb_phrase import in_order
 from teo_sign_training.corpus.written_text import write
 from teo_sign_translator.data_files import data_file
@@ -45,16 +45,22 @@ def one_word(contraction):
     ],
 )
 def test_words_are_joined_as_they_are_written(words, written):
-    assert write([Token(word) for word in words.split()], GRAMMAR.writing, one_word)[0] == written
+    assert write([SaidWord(word) for word in words.split()], GRAMMAR.writing, one_word)[0] == written
 
 
 def test_feminine_nouns_with_a_stressed_a_take_the_masculine_article():
-    tokens = [Token("la", article=True), Token("agua"), Token("y"), Token("la", article=True), Token("leche")]
+    tokens = [
+        SaidWord("la", article=True),
+        SaidWord("agua"),
+        SaidWord("y"),
+        SaidWord("la", article=True),
+        SaidWord("leche"),
+    ]
     assert write(tokens, GRAMMAR.writing, one_word)[0] == "El agua y la leche"
 
 
 def test_the_words_of_a_contraction_have_one_place():
-    tokens = [Token(word) for word in ["¿", "vas", "a", "el", "cine", ",", "Ana", "?"]]
+    tokens = [SaidWord(word) for word in ["¿", "vas", "a", "el", "cine", ",", "Ana", "?"]]
     text, places = write(tokens, GRAMMAR.writing, one_word)
     assert text == "¿Vas al cine, Ana?"
     assert [places.get(id(token)) for token in tokens] == [None, 0, 1, 1, 2, 3, 4, 5]

@@ -9,7 +9,7 @@ from teo_sign_training.lstm256.back_end import LstmBackEnd
 from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_training.lstm256.phrasebook import Phrasebook
 from teo_sign_training.lstm256.seq2seq import Prediction
-from teo_sign_training.lstm256.tokens import Vocabulary
+from teo_sign_training.lstm256.tokens import TokenList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
@@ -150,7 +150,7 @@ class _Parrot:
 
     def __init__(self, *says: str, sure: float = 1.0, complete: bool = True) -> None:
         self._answer = Prediction(says, (sure,) * len(says), complete)
-        self.inputs = Vocabulary.of_inputs(
+        self.inputs = TokenList.of_inputs(
             [["vamos", "a", "la", "calle", "que", "tal", "?", "!", "{nombre}", "{número}"]]
         )
 

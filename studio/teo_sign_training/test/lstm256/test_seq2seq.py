@@ -11,20 +11,22 @@ import torch
 
 from teo_sign_training.cli.reproduce_paper import split
 from teo_sign_training.corpus.paper_pairs import paper_pairs
-from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, Training, TrainingConfig, train
+from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, LstmTrainingConfig, Training, train
 from teo_sign_training.lstm256.seq2seq import MAX_OUTPUT, LstmModel
 from teo_sign_training.lstm256.store import load_model, save_model
-from teo_sign_training.lstm256.tokens import END, START, Vocabulary, published_tokens
+from teo_sign_training.lstm256.tokens import END, START, TokenList, published_tokens
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 
 EXAMPLES = [(published_tokens(pair.sentence), pair.glosses) for pair in paper_pairs()[:8]]
-INPUTS = Vocabulary.of_inputs(source for source, _ in EXAMPLES)
-OUTPUTS = Vocabulary.of_outputs(target for _, target in EXAMPLES)
+INPUTS = TokenList.of_inputs(source for source, _ in EXAMPLES)
+OUTPUTS = TokenList.of_outputs(target for _, target in EXAMPLES)
 
 
 def _train(seed: int = 1, batch_size: int = 3, epochs: int = 25) -> Training:
-    config = TrainingConfig(hidden=32, learning_rate=0.01, epochs=epochs, batch_size=batch_size, seed=seed)
+    config = LstmTrainingConfig(
+        hidden=32, learning_rate=0.01, epochs=epochs, batch_size=batch_size, seed=seed
+    )
     return train(EXAMPLES[:6], EXAMPLES[6:], config)
 
 
@@ -59,9 +61,10 @@ def test_training_leaves_the_callers_settings_alone() -> None:
 
 def test_the_loss_of_a_batch_is_that_of_its_examples_one_by_one() -> None:
     # One step from the same weights: a batch pads its shorter sequences, which must not count.
-    whole = train(EXAMPLES, EXAMPLES, TrainingConfig(hidden=8, epochs=1, batch_size=8))
+    whole = train(EXAMPLES, EXAMPLES, LstmTrainingConfig(hidden=8, epochs=1, batch_size=8))
     parts = [
-        train(EXAMPLES, [example], TrainingConfig(hidden=8, epochs=1, batch_size=8)) for example in EXAMPLES
+        train(EXAMPLES, [example], LstmTrainingConfig(hidden=8, epochs=1, batch_size=8))
+        for example in EXAMPLES
     ]
     lengths = [len(target) + 1 for _, target in EXAMPLES]
     one_by_one = np.average([part.validation_losses[0] for part in parts], weights=lengths)
@@ -118,13 +121,13 @@ def test_no_tokens_and_unknown_tokens_are_refused() -> None:
 )
 def test_a_configuration_that_cannot_train_is_refused(change: dict[str, float]) -> None:
     with pytest.raises(TranslationError) as error:
-        TrainingConfig(**change)  # type: ignore[arg-type]
+        LstmTrainingConfig(**change)  # type: ignore[arg-type]
     assert error.value.code == "invalid_config"
 
 
 def test_training_without_examples_is_refused() -> None:
     with pytest.raises(TranslationError) as error:
-        train([], [], TrainingConfig())
+        train([], [], LstmTrainingConfig())
     assert error.value.code == "invalid_config"
 
 
