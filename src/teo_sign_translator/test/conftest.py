@@ -11,16 +11,9 @@ from teo_sign_training.corpus import Pair
 from teo_sign_training.corpus.generator import Generator
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pipeline.translator import Translator
 
 # What several tests here need stands beside them.
 sys.path.insert(0, str(Path(__file__).parent))
-
-
-@pytest.fixture(scope="session")
-def translator() -> Translator:
-    """The published model with the shipped data; it keeps nothing between texts."""
-    return Translator.load("lstm256")
 
 
 @pytest.fixture(scope="session")
