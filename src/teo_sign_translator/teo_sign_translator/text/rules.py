@@ -29,7 +29,6 @@ class SentenceWords:
         leading: Words that may stand before the question word ("¿Y tú de dónde eres?").
         negatives: Words that negate a sentence.
         not_negative: Pairs whose second word does not negate it ("de nada").
-        joints: Words that join two clauses which can be signed one after the other.
         tags: Words that are no negation where they alone are asked behind a sentence ("…, ¿no?").
     """
 
@@ -39,7 +38,6 @@ class SentenceWords:
     leading: frozenset[str]
     negatives: frozenset[str]
     not_negative: frozenset[tuple[str, str]]
-    joints: frozenset[str]
     tags: frozenset[str]
 
     @cached_property
