@@ -12,8 +12,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_signs import small_table
-from queue_world import World
 
+from queue_world import World
 from teo_lut_executor.execution.events import (
     Begun,
     DriverMode,
