@@ -86,7 +86,7 @@ def set_driver(node: Node, **values: float) -> None:
 
 
 def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
-    new_page: NewPage, pictures: Path, film: Film
+    new_page: NewPage, pictures: Path
 ) -> None:
     poses = Poses()
     page = new_page(poses=poses)
@@ -94,8 +94,7 @@ def test_a_typed_sentence_is_signed_its_captions_in_order_while_the_joints_move(
     page.wait_for_selector(".captions", state="attached")
     page.evaluate(NOTE_LIT)
     page.wait_for_selector(".stage .empty", state="hidden")
-    with film.scene(page):
-        sign_and_watch(page, pictures)
+    sign_and_watch(page, pictures)
     assert page.evaluate("window.lit") == ["TÚ", "E", "V", "A"]
     assert poses.farthest() > 0.5
     expect(page.locator(".history li").filter(has_text="¿Eres Eva?")).to_have_count(1)
@@ -119,12 +118,11 @@ def sign_and_watch(page: Page, pictures: Path) -> None:
     wait_until_ready(page)
 
 
-def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage, film: Film) -> None:
+def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage) -> None:
     poses = Poses()
     page = new_page(poses=poses)
     wait_until_ready(page)
-    with film.scene(page):
-        stop_and_rearm(page, poses)
+    stop_and_rearm(page, poses)
 
 
 def stop_and_rearm(page: Page, poses: Poses) -> None:
@@ -142,6 +140,17 @@ def stop_and_rearm(page: Page, poses: Poses) -> None:
     expect(page.locator("#queue-title ~ ol li")).to_have_count(0)
     page.click("#rearm")
     wait_until_ready(page)
+
+
+@pytest.mark.slow
+def test_a_sentence_and_a_stop_are_filmed(new_page: NewPage, pictures: Path, film: Film) -> None:
+    poses = Poses()
+    page = new_page(poses=poses)
+    wait_until_ready(page)
+    page.wait_for_selector(".stage .empty", state="hidden")
+    with film.scene(page):
+        sign_and_watch(page, pictures)
+        stop_and_rearm(page, poses)
 
 
 def test_a_robot_that_is_rearmed_while_it_brakes_is_armed_when_it_is_at_rest(
