@@ -15,8 +15,8 @@ from aiohttp import web
 
 from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench
-from teo_console.protocol.to_page import Answer
-from teo_console.review.series import NewItem, Shown
+from teo_console.protocol.to_page import Answer, Motion
+from teo_console.review.series import NewItem
 from teo_console.server.access import Access
 from teo_console.server.app import make_app
 from teo_console.server.hub import Hub
@@ -63,7 +63,7 @@ class Api:
             choices: What is offered to choose from.
             hashes: Of the motions that the table has, by gloss; of others a made one.
         """
-        motion = Shown(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
+        motion = Motion(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
         items = [
             NewItem(
                 kind="sign" if meaning.isupper() else "sentence",

@@ -23,8 +23,7 @@ from teo_console.protocol.to_page import Answer
 from teo_console.server.access import Access
 from teo_console.server.app import make_app
 from teo_console.server.drawable_urdf import drawable_urdf
-from teo_console.server.hub import Hub
-from teo_console.server.rate_limit import RateLimit
+from teo_console.server.hub import Hub, RateLimit
 from teo_console.server.thread import ServerThread
 
 WEB = Path(__file__).parents[1] / "web"

@@ -12,7 +12,7 @@ import pytest
 from aiohttp import web
 from playwright.sync_api import APIRequestContext, Browser, Page, expect, sync_playwright
 
-from teo_console.api import sign_writing
+from teo_console.api.dictionary import sign_writing_routes
 from teo_console.protocol.from_page import FromPage
 from teo_console.protocol.to_page import Answer
 from teo_console.server.access import Access
@@ -57,7 +57,7 @@ def server(folder: Path) -> Iterator[str]:
             access=Access.for_address("127.0.0.1", frozenset()),
             hub=Hub(refuse, lambda _: None),
             urdf=lambda: "<robot/>",
-            routes=[web.get("/api/signs", signs), *sign_writing.routes(folder)],
+            routes=[web.get("/api/signs", signs), *sign_writing_routes(folder)],
         )
 
     thread = ServerThread(app, "127.0.0.1", 0)

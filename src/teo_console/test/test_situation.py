@@ -12,8 +12,7 @@ from msgspec.structs import replace
 from teo_common.diagnostics import Level
 from teo_console.errors import ConsoleError
 from teo_console.protocol.to_page import Caption, ExecutorState, Refusal, Sentence, Situation
-from teo_console.situation.progress import PathReport
-from teo_console.situation.sentences import HISTORY, SigningReport
+from teo_console.situation.sentences import HISTORY, PathReport, SigningReport
 from teo_console.situation.shared_situation import SharedSituation
 
 HELLO = Caption(

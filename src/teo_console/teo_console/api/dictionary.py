@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The dictionary: the list of signs, films of them, and what of a text has signs."""
+"""The dictionary: the list of signs, films and SignWriting of them, and what of a text has signs."""
 
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Annotated, Any
 
 from aiohttp import web
@@ -18,6 +19,7 @@ from teo_console.protocol.from_page import Gloss
 
 # A page of a book [characters]: it is translated sentence by sentence, some 50 ms each.
 _TEXT_LENGTH = 5000
+_SIGN_WRITING = ("signs.json", "drawings.svg")
 _FILM_NAME = re.compile(r"[0-9a-f]{64}\.mp4")
 
 
@@ -30,7 +32,7 @@ class _WantCoverage(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def routes(workbench: Workbench) -> list[web.RouteDef]:
-    """GET /api/signs; POST /api/films, GET /api/films/HASH.mp4; POST /api/coverage."""
+    """GET /api/signs; POST /api/films, GET /api/films/HASH.mp4; POST /api/coverage; signs in SignWriting."""
     films = workbench.folders.cache / "films"
 
     async def signs(_: web.Request) -> Any:
@@ -63,4 +65,21 @@ def routes(workbench: Workbench) -> list[web.RouteDef]:
         web.post("/api/films", answering(want_film)),
         web.get("/api/films/{name}", answering(film)),
         web.post("/api/coverage", answering(coverage)),
+        *sign_writing_routes(workbench.folders.signwriting),
     ]
+
+
+def sign_writing_routes(folder: Path) -> list[web.RouteDef]:
+    """GET /signwriting/signs.json and /signwriting/drawings.svg; without a body where nothing was drawn.
+
+    A user draws them from the community's dictionary with `draw_signwriting`. Having none is no error, which
+    a browser would report: most users have not drawn any.
+    """
+
+    def route(path: Path) -> web.RouteDef:
+        async def give(_: web.Request) -> web.StreamResponse:
+            return web.FileResponse(path) if path.is_file() else web.Response(status=204)
+
+        return web.get(f"/signwriting/{path.name}", give)
+
+    return [route(folder / name) for name in _SIGN_WRITING]

@@ -19,9 +19,10 @@ from teo_console.api.workbench import Preparation, Workbench
 from teo_console.errors import ConsoleError
 from teo_console.jobs import project_commands
 from teo_console.protocol.from_page import Gloss
+from teo_console.protocol.to_page import Motion
 from teo_console.review.export import as_csv, as_json
 from teo_console.review.report import report
-from teo_console.review.series import CHOICES, Flag, NewItem, Rating, SeriesKind, Shown, offered
+from teo_console.review.series import CHOICES, Flag, NewItem, Rating, SeriesKind, offered
 from teo_console.review.store import ANSWER_LENGTH, COMMENT_LENGTH, NAME_LENGTH
 
 # Rows of a planned motion that are kept: every fourth of 100 a second, as films have them.
@@ -162,7 +163,7 @@ async def _enter_series(workbench: Workbench, wanted: _NewSeries, told: Preparat
     return workbench.reviews.add_series(wanted.kind, wanted.title, items, seed)
 
 
-async def _planned(workbench: Workbench, glosses: str) -> Shown:
+async def _planned(workbench: Workbench, glosses: str) -> Motion:
     """The motion of a sentence in the printed form, as the robot would make it."""
     with tempfile.TemporaryDirectory(prefix="teo-plan-") as folder:
         path = Path(folder) / "plan.csv"
@@ -172,7 +173,7 @@ async def _planned(workbench: Workbench, glosses: str) -> Shown:
     kept = [tuple(map(float, row)) for row in (*rows[::_EVERY], rows[-1])]
     if kept[-1][0] <= kept[-2][0]:
         kept.pop()
-    return Shown(
+    return Motion(
         joints=tuple(header[1:]),
         times=tuple(row[0] for row in kept),
         positions=tuple(tuple(round(value, 4) for value in row[1:]) for row in kept),

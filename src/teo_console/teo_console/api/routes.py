@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""All of /api beside the robot's description: the routes of every tab, of written signs, and of jobs."""
+"""All of /api beside the robot's description: the routes of every tab, and of jobs."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from aiohttp import web
 
-from teo_console.api import dictionary, reviewing, sign_writing, teaching
+from teo_console.api import dictionary, reviewing, teaching
 from teo_console.api.requests import answering
 from teo_console.api.workbench import Workbench
 
@@ -26,6 +26,5 @@ def all_routes(workbench: Workbench) -> list[web.RouteDef]:
     return [
         web.get("/api/jobs/{id}", answering(look)),
         web.delete("/api/jobs/{id}", answering(cancel)),
-        *sign_writing.routes(workbench.folders.signwriting),
         *(route for tab in (dictionary, teaching, reviewing) for route in tab.routes(workbench)),
     ]

@@ -21,7 +21,7 @@ from teo_console.jobs.recordings import Recording
 from teo_console.protocol.from_page import Gloss
 
 # Terms that a person can give a movement; the last keeps it in the house.
-Licence = Literal["CC0-1.0", "CC-BY-4.0", "CC-BY-SA-4.0", "for this laboratory alone"]
+_Licence = Literal["CC0-1.0", "CC-BY-4.0", "CC-BY-SA-4.0", "for this laboratory alone"]
 
 
 class _Try(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -31,7 +31,7 @@ class _Try(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
 class _Accept(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     gloss: Gloss
-    licence: Licence
+    licence: _Licence
     consent: bool
     """Whether the person in the film agrees that the movement is kept under these terms."""
     person: Annotated[str, Meta(max_length=60)] = ""

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-State = Literal["waiting", "running", "done", "failed", "cancelled"]
+_State = Literal["waiting", "running", "done", "failed", "cancelled"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +73,7 @@ class Job:
         self.command = command
         self.number = number
         self.then = then
-        self.state: State = "waiting"
+        self.state: _State = "waiting"
         self.progress = Progress()
         self.result: Any = None
         """The last JSON value that the command printed."""
@@ -95,13 +95,12 @@ class Job:
         Args:
             ahead: Jobs that come before it.
         """
-        progress = {"what": self.progress.what, "done": self.progress.done, "total": self.progress.total}
         return {
             "id": self.id,
             "name": self.command.name,
             "state": self.state,
             "ahead": ahead,
-            "progress": progress,
+            "progress": vars(self.progress),
             "result": self.result,
             "code": self.code,
             "message": self.message,

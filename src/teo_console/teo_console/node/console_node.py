@@ -27,8 +27,7 @@ from teo_console.node.bridge import Bridge
 from teo_console.node.observer import Observer
 from teo_console.node.parameters import PARAMETERS
 from teo_console.node.robot_client import RobotClient
-from teo_console.protocol.poses import encode_pose
-from teo_console.protocol.to_page import Situation, Welcome, encode
+from teo_console.protocol.to_page import Situation, Welcome, encode, encode_pose
 from teo_console.server.access import LOOPBACK_NAMES, Access
 from teo_console.server.app import make_app
 from teo_console.server.hub import Hub

@@ -32,8 +32,7 @@ from teo_console.protocol.to_page import (
     Sign,
     TokenKind,
 )
-from teo_console.situation.progress import PathReport
-from teo_console.situation.sentences import SigningReport
+from teo_console.situation.sentences import PathReport, SigningReport
 
 _KINDS: dict[int, TokenKind] = {
     SignToken.KIND_LEXICAL: "sign",

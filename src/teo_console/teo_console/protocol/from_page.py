@@ -15,13 +15,13 @@ from teo_console.errors import ConsoleError
 # Characters of a text: a page of a book. The translator has a limit of its own, and a reason to refuse by.
 TEXT_LENGTH = 2000
 # Of a gloss in SignToken.
-GLOSS_LENGTH = 64
+_GLOSS_LENGTH = 64
 # Bytes of a message: the longest text in four-byte characters, escaped, and the words around it.
 MESSAGE_BYTES = 32 * 1024
 
 Number = Annotated[int, Meta(ge=0, le=2**31 - 1)]
 Text = Annotated[str, Meta(min_length=1, max_length=TEXT_LENGTH)]
-Gloss = Annotated[str, Meta(min_length=1, max_length=GLOSS_LENGTH)]
+Gloss = Annotated[str, Meta(min_length=1, max_length=_GLOSS_LENGTH)]
 Name = Annotated[str, Meta(min_length=1, max_length=64)]
 
 

@@ -22,7 +22,7 @@ class Anchor(Struct, frozen=True, kw_only=True):
     source: str
 
 
-ANCHORS = (
+_ANCHORS = (
     Anchor(
         name="letters",
         what="94.7 % of 26 letters recognised (American manual alphabet on the TATUM hand)",
@@ -68,7 +68,7 @@ class Report(Struct, frozen=True, kw_only=True):
     agreement_understood: float | None
     """The same of what was understood."""
     items: tuple[ItemReport, ...]
-    anchors: tuple[Anchor, ...] = ANCHORS
+    anchors: tuple[Anchor, ...] = _ANCHORS
 
 
 def report(meanings: Sequence[str], answers: Sequence[Answer]) -> Report:

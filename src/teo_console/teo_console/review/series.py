@@ -6,43 +6,34 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Sequence
-from typing import Any, Literal, get_args
+from typing import Literal
 
 from msgspec import Struct
+
+from teo_console.protocol.to_page import Motion
 
 SeriesKind = Literal["review", "comprehension"]
 ItemKind = Literal["sign", "sentence"]
 Rating = Literal["right", "understandable", "wrong"]
-RATINGS: tuple[Rating, ...] = get_args(Rating)
 Flag = Literal["handshape", "place", "palm", "movement", "speed", "face"]
-FLAGS: tuple[Flag, ...] = get_args(Flag)
 
 # What a reviewer chooses from: who guesses gets one in fifteen right, and as many words fit a telephone.
 CHOICES = 15
-
-
-class Shown(Struct, frozen=True, kw_only=True):
-    """A motion that a reviewer sees, as the robot would make it from rest to rest."""
-
-    joints: tuple[str, ...]
-    times: tuple[float, ...]
-    """[s], from 0."""
-    positions: tuple[tuple[float, ...], ...]
-    """[rad]"""
 
 
 class NewItem(Struct, frozen=True, kw_only=True):
     """Something to be understood.
 
     A sign by its gloss, or a sentence by its text; `motion_hash` says which motion of the sign it is ("" of a
-    sentence); `choices` hold the right one, and are empty where the answer is free.
+    sentence); `motion` runs from rest to rest; `choices` hold the right one, and are empty where the answer
+    is free.
     """
 
     kind: ItemKind
     meaning: str
     language: str
     motion_hash: str
-    motion: Shown
+    motion: Motion
     choices: tuple[str, ...] = ()
 
 
@@ -92,11 +83,6 @@ def offered(meaning: str, near: Sequence[str], others: Sequence[str], seed: int)
     """
     distractors = list(dict.fromkeys(gloss for gloss in (*near, *others) if gloss != meaning))[: CHOICES - 1]
     return tuple(sorted((meaning, *distractors), key=lambda gloss: _digest(seed, meaning, gloss)))
-
-
-def told(shown: Shown) -> dict[str, Any]:
-    """A motion as pages play it."""
-    return {"joints": shown.joints, "times": shown.times, "positions": shown.positions}
 
 
 def _digest(*parts: object) -> bytes:

@@ -15,6 +15,7 @@ import msgspec
 
 from teo_common.text_folding import folded
 from teo_console.errors import ConsoleError
+from teo_console.protocol.to_page import Motion
 from teo_console.review.series import (
     Answer,
     Flag,
@@ -22,16 +23,15 @@ from teo_console.review.series import (
     NewItem,
     Rating,
     SeriesKind,
-    Shown,
     blind_order,
 )
 
 # Version of the tables below; a file of a later one is not touched.
-SCHEMA_VERSION = 1
+_SCHEMA_VERSION = 1
 # Longest name, answer and comment [characters]: a line, a sentence, a paragraph.
 NAME_LENGTH, ANSWER_LENGTH, COMMENT_LENGTH = 60, 200, 2000
 # Most items of a series: an afternoon.
-MOST_ITEMS = 200
+_MOST_ITEMS = 200
 # How long to wait for another program that writes the file [s].
 _BUSY = 5.0
 
@@ -79,7 +79,7 @@ class Question(msgspec.Struct, frozen=True, kw_only=True):
     """From 1."""
     items: int
     kind: ItemKind
-    motion: Shown
+    motion: Motion
     choices: tuple[str, ...]
     understood: str | None = None
     """What the reviewer has said; None before that."""
@@ -103,14 +103,16 @@ class ReviewStore:
             self._database.execute("PRAGMA foreign_keys = ON")
             (version,) = self._database.execute("PRAGMA user_version").fetchone()
             if version == 0:
-                self._database.executescript(f"BEGIN;{_TABLES}PRAGMA user_version = {SCHEMA_VERSION};COMMIT;")
+                self._database.executescript(
+                    f"BEGIN;{_TABLES}PRAGMA user_version = {_SCHEMA_VERSION};COMMIT;"
+                )
         except sqlite3.Error as error:
             raise ConsoleError("bad_reviews", f"{path}: expected a file of reviews, got: {error}") from error
-        if version > SCHEMA_VERSION:
+        if version > _SCHEMA_VERSION:
             self._database.close()
             raise ConsoleError(
                 "bad_reviews",
-                f"{path}: expected reviews of version {SCHEMA_VERSION}, got {version}: use a newer console",
+                f"{path}: expected reviews of version {_SCHEMA_VERSION}, got {version}: use a newer console",
             )
 
     def close(self) -> None:
@@ -138,8 +140,8 @@ class ReviewStore:
         Raises:
             ConsoleError: "bad_series": no items, or too many.
         """
-        if not 1 <= len(items) <= MOST_ITEMS:
-            raise ConsoleError("bad_series", f"expected 1 to {MOST_ITEMS} items, got {len(items)}")
+        if not 1 <= len(items) <= _MOST_ITEMS:
+            raise ConsoleError("bad_series", f"expected 1 to {_MOST_ITEMS} items, got {len(items)}")
         series = secrets.token_urlsafe(9)
         rows = [
             (
@@ -310,7 +312,7 @@ class ReviewStore:
             place=place,
             items=items,
             kind=kind,
-            motion=msgspec.msgpack.decode(motion, type=Shown),
+            motion=msgspec.msgpack.decode(motion, type=Motion),
             choices=tuple(msgspec.json.decode(choices)),
             understood=understood,
             meaning=None if understood is None else meaning,

@@ -15,10 +15,9 @@ from teo_console.errors import ConsoleError
 from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage, decode
 from teo_console.protocol.to_page import Answer, encode
 from teo_console.server.access import refusal
-from teo_console.server.rate_limit import RateLimit
 
 # A class of thirty, each with a telephone and a computer, and some to spare.
-MOST_PAGES = 64
+_MOST_PAGES = 64
 # Requests of one page: a person's clicks and keys, not a flood.
 _RATE = 10.0
 _BURST = 30
@@ -66,9 +65,9 @@ class Hub:
 
     async def handle(self, request: web.Request) -> web.StreamResponse:
         """Serve one page, until it goes."""
-        if len(self._pages) >= MOST_PAGES:
+        if len(self._pages) >= _MOST_PAGES:
             return refusal(
-                ConsoleError("too_many_pages", f"expected at most {MOST_PAGES} open pages: close one"), 503
+                ConsoleError("too_many_pages", f"expected at most {_MOST_PAGES} open pages: close one"), 503
             )
         socket = web.WebSocketResponse(heartbeat=_HEARTBEAT, max_msg_size=MESSAGE_BYTES)
         await socket.prepare(request)
@@ -167,3 +166,29 @@ class _Page:
                     await self.socket.send_bytes(pose)
         except ConnectionError:
             pass  # it went while it was sent to; `handle` notices
+
+
+class RateLimit:
+    """A token bucket: a burst, then a steady rate. Times are from a clock that nobody sets [s]."""
+
+    def __init__(self, *, rate: float, burst: int) -> None:
+        """Begin with a whole burst to spend.
+
+        Args:
+            rate: Requests a second in the long run [Hz].
+            burst: Requests at once.
+        """
+        self._rate = rate
+        self._burst = burst
+        self._left = float(burst)
+        self._at: float | None = None
+
+    def take(self, now: float) -> bool:
+        """Whether one more request may pass at this time."""
+        if self._at is not None:
+            self._left = min(self._left + (now - self._at) * self._rate, self._burst)
+        self._at = now
+        if self._left < 1.0:
+            return False
+        self._left -= 1.0
+        return True

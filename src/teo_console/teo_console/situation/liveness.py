@@ -14,7 +14,7 @@ ROLES: tuple[NodeRole, ...] = get_args(NodeRole)
 
 # Silence after which a node counts as silent [s]. Diagnostics come once a second: two may be missed, half a
 # second is for a loaded machine. Joint states come a hundred times a second; the executor waits as long.
-SILENCE: dict[NodeRole, float] = {
+_SILENCE: dict[NodeRole, float] = {
     "translator": 2.5 * DIAGNOSTICS_PERIOD,
     "executor": 2.5 * DIAGNOSTICS_PERIOD,
     "driver": 0.5,
@@ -60,7 +60,7 @@ class Liveness:
         state: NodeState
         if not node.present:
             state = "missing"
-        elif node.at is None or quiet > SILENCE[role]:
+        elif node.at is None or quiet > _SILENCE[role]:
             state = "silent"
         elif node.level is not Level.OK:
             state = "unwell"

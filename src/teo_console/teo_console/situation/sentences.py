@@ -9,15 +9,18 @@ from dataclasses import dataclass
 
 from msgspec.structs import replace
 
-from teo_console.protocol.to_page import Caption, ExecutorState, Sentence
-from teo_console.situation.progress import PathReport, SentenceProgress
+from teo_console.protocol.to_page import Caption, ExecutorState, Progress, Sentence
 
 # Sentences that can be looked back at: a lesson's worth, and few enough to be sent whole.
 HISTORY = 30
 # Sentences that the translator announced and that nobody has taken up: a text's worth of them.
-ANNOUNCED = 200
+_ANNOUNCED = 200
+# A path whose end is farther than this from the sentence's is another one's [s]: the arms' first rise while
+# the sentence is planned, or one that the next sentence is already part of. Clock and speed are never so far
+# off: the driver tells each change of speed within a tenth of a second.
+_SAME_END = 1.0
 
-Key = tuple[str, int]
+_Key = tuple[str, int]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +29,7 @@ class SigningReport:
 
     stamp: float
     state: ExecutorState
-    key: Key | None
+    key: _Key | None
     """Utterance and index of the sentence that it is about; None if none."""
     duration: float
     captions: tuple[Caption, ...]
@@ -35,12 +38,59 @@ class SigningReport:
     message: str
 
 
+@dataclass(frozen=True, kw_only=True)
+class PathReport:
+    """What the driver says of the trajectory that it executes."""
+
+    stamp: float
+    """When it was true [s]."""
+    speed: float
+    """Trajectory's seconds a second, 0 to 1."""
+    remaining: float | None
+    """Of the trajectory [s]; None while there is none."""
+
+
+class SentenceProgress:
+    """Follows a sentence's motion: by the driver's word where there is one, else by clock and speed."""
+
+    def __init__(self, duration: float, began: float, speed: float) -> None:
+        """Begin a sentence.
+
+        Args:
+            duration: Of its whole motion [s].
+            began: When it began [s].
+            speed: In force then, 0 to 1.
+        """
+        self._duration = duration
+        self._progress = Progress(stamp=began, elapsed=0.0, speed=speed)
+
+    def path(self, report: PathReport) -> None:
+        """Take what the driver says."""
+        elapsed = self.elapsed(report.stamp)
+        # A trajectory ends with the sentence's motion: what remains of both is the same.
+        if report.remaining is not None:
+            told = self._duration - report.remaining
+            if abs(told - elapsed) <= _SAME_END:
+                elapsed = max(told, 0.0)
+        self._progress = Progress(stamp=report.stamp, elapsed=elapsed, speed=report.speed)
+
+    def elapsed(self, now: float) -> float:
+        """Time since the motion began, in the motion's own seconds [s]."""
+        progress = self._progress
+        passed = progress.elapsed + progress.speed * max(now - progress.stamp, 0.0)
+        return min(passed, self._duration)
+
+    def report(self) -> Progress:
+        """As pages get it."""
+        return self._progress
+
+
 class Sentences:
     """What is announced, what is signed now, and what was before."""
 
     def __init__(self) -> None:
         """Begin without a sentence."""
-        self._announced: dict[Key, Sentence] = {}
+        self._announced: dict[_Key, Sentence] = {}
         self._current: Sentence | None = None
         self._progress: SentenceProgress | None = None
         self._history: deque[Sentence] = deque(maxlen=HISTORY)
@@ -64,7 +114,7 @@ class Sentences:
     def announce(self, sentence: Sentence) -> None:
         """Take a sentence of the translator's."""
         self._announced[_key(sentence)] = sentence
-        while len(self._announced) > ANNOUNCED:
+        while len(self._announced) > _ANNOUNCED:
             del self._announced[next(iter(self._announced))]
 
     def report(self, report: SigningReport) -> None:
@@ -99,14 +149,14 @@ class Sentences:
             known, state="signing", captions=report.captions, duration=report.duration, code="", message=""
         )
 
-    def _refuse(self, report: SigningReport, key: Key) -> None:
+    def _refuse(self, report: SigningReport, key: _Key) -> None:
         if self._current is not None and _key(self._current) == key:
             sentence, self._current, self._progress = self._current, None, None
         else:
             sentence = self._take(key)
         self._history.appendleft(replace(sentence, state="refused", code=report.code, message=report.message))
 
-    def _take(self, key: Key) -> Sentence:
+    def _take(self, key: _Key) -> Sentence:
         return self._announced.pop(key) if key in self._announced else _unannounced(key)
 
     def _end_current(self) -> None:
@@ -115,11 +165,11 @@ class Sentences:
         self._current = self._progress = None
 
 
-def _key(sentence: Sentence) -> Key:
+def _key(sentence: Sentence) -> _Key:
     return sentence.utterance, sentence.index
 
 
-def _unannounced(key: Key) -> Sentence:
+def _unannounced(key: _Key) -> Sentence:
     """A sentence that was announced before the console listened, or that came as a goal of the action."""
     return Sentence(
         utterance=key[0],

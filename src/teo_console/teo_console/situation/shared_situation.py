@@ -17,8 +17,7 @@ from teo_console.protocol.to_page import (
     Situation,
 )
 from teo_console.situation.liveness import Liveness
-from teo_console.situation.progress import PathReport
-from teo_console.situation.sentences import Sentences, SigningReport
+from teo_console.situation.sentences import PathReport, Sentences, SigningReport
 from teo_console.situation.spoken import SpokenTexts
 
 # Tasks under which nodes report their health on `diagnostics`: "<node>: <task>", whatever the node is called.

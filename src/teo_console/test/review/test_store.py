@@ -16,12 +16,13 @@ import msgspec
 import pytest
 
 from teo_console.errors import ConsoleError
+from teo_console.protocol.to_page import Motion
 from teo_console.review.export import as_csv, as_json
 from teo_console.review.report import report
-from teo_console.review.series import CHOICES, NewItem, Shown, offered
+from teo_console.review.series import CHOICES, NewItem, offered
 from teo_console.review.store import ReviewStore
 
-MOTION = Shown(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
+MOTION = Motion(joints=("FrontalRightElbow",), times=(0.0, 1.0), positions=((0.0,), (-1.0,)))
 WORDS = ("CASA", "MADRE", "SÍ", "POR_FAVOR")
 
 
