@@ -122,15 +122,16 @@ def test_stop_holds_the_robot_until_it_is_rearmed(new_page: NewPage) -> None:
     poses = Poses()
     page = new_page(poses=poses)
     wait_until_ready(page)
-    stop_and_rearm(page, poses)
+    stop_and_rearm(page, poses, "Me llamo Ana.")
 
 
-def stop_and_rearm(page: Page, poses: Poses) -> None:
-    sign(page, "Me llamo Ana.")
+def stop_and_rearm(page: Page, poses: Poses, text: str) -> None:
+    """Stop the robot while it signs a text that is not in the history yet, and re-arm it."""
+    sign(page, text)
     expect(page.locator(".token.lit")).to_be_visible()
     page.click("#stop")
     expect(page.locator("#status")).to_have_text("Parado: no se mueve hasta rearmarlo.")
-    expect(page.locator(".history li").filter(has_text="Me llamo Ana.")).to_contain_text("Se paró el robot")
+    expect(page.locator(".history li").filter(has_text=text)).to_contain_text("Se paró el robot")
     sign(page, "Adiós.")  # waits
     expect(page.locator("#queue-title ~ ol li")).to_have_text("Adiós.")
     stopped = poses.heard[-1][0] + BRAKED
@@ -150,7 +151,7 @@ def test_a_sentence_and_a_stop_are_filmed(new_page: NewPage, pictures: Path, fil
     page.wait_for_selector(".stage .empty", state="hidden")
     with film.scene(page):
         sign_and_watch(page, pictures)
-        stop_and_rearm(page, poses)
+        stop_and_rearm(page, poses, "Me llamo Eva.")
 
 
 def test_a_robot_that_is_rearmed_while_it_brakes_is_armed_when_it_is_at_rest(
