@@ -40,15 +40,22 @@ os.environ["XDG_DATA_HOME"] = _data_homes.name
 _DOMAINS = range(20, 102)
 
 
+_STUDIO = Path(__file__).parent / "studio"
+
 # Signs and tables that tests of several packages use.
 pytest_plugins = ["made_signs"]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what meets others over DDS, as `make test` runs it alone: others' load would make it late."""
+    """Mark what meets others over DDS, which runs alone, and the studio's tests, which take a third of the time.
+
+    Others' load would make it late. The studio makes signs and models, and changes seldom.
+    """
     for item in items:
         if {"domain_id", "module_domain_id"} & set(getattr(item, "fixturenames", ())):
             item.add_marker("dds")
+        if item.path.is_relative_to(_STUDIO):
+            item.add_marker("slow")
 
 
 @pytest.fixture(autouse=True)
