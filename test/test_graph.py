@@ -147,6 +147,7 @@ def test_a_typed_sentence_moves_the_robot_and_brings_it_back_to_rest_in_either_l
     check_motion(witness, teo)
 
 
+@pytest.mark.slow
 def test_another_robot_signs_by_its_own_table_in_either_language(witness: Witness, tmp_path: Path) -> None:
     gr1t2 = load_humanoid("gr1t2")
     with Graph(tmp_path) as graph:

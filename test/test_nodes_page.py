@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import pytest
 import rclpy
 from nodes_page import FILE, nodes_page
 from rclpy.context import Context
@@ -77,6 +78,7 @@ def uses_in_the_graph(visitor: Node) -> Iterator[Use]:
                     yield Use(node, end, LIMB.sub("LIMB/", name), plain)
 
 
+@pytest.mark.slow
 def test_the_running_nodes_have_open_what_the_page_says(domain_id: int, tmp_path: Path) -> None:
     context = Context()
     rclpy.init(context=context, domain_id=domain_id)

@@ -210,6 +210,7 @@ def wait_until_ready(systemd: socket.socket, process: subprocess.Popen[str]) -> 
 
 
 @pytest.mark.usefixtures("domain_id")
+@pytest.mark.slow
 def test_up_keeps_every_node_up_until_it_is_told_to_end(tmp_path: Path) -> None:
     """As systemd starts it: told when all can serve; one is killed, returns, and all end without a word."""
     said: list[str] = []

@@ -20,7 +20,7 @@ from typed_page import blocks_of
 from teo_bringup.network.access import read_table
 
 REASON = missing(*PROGRAMS)
-pytestmark = pytest.mark.skipif(bool(REASON), reason=REASON)
+pytestmark = [pytest.mark.skipif(bool(REASON), reason=REASON), pytest.mark.slow]
 
 PATIENCE = 300.0  # [s] for the robot to come to rest on a loaded machine
 CUT = 5.0  # [s]

@@ -72,6 +72,7 @@ def tls(folder: Path) -> list[str]:
 
 
 @pytest.mark.usefixtures("domain_id")
+@pytest.mark.slow
 def test_nodes_that_meet_by_a_server_over_tls_have_no_udp_port(certificates: Path, tmp_path: Path) -> None:
     endpoint = f"127.0.0.1:{15000 + int(os.environ['ROS_DOMAIN_ID'])}"
     made = {

@@ -208,6 +208,7 @@ def slide_speed(page: Page, percent: int) -> None:
     )
 
 
+@pytest.mark.slow
 def test_what_is_heard_on_speech_is_signed_only_when_it_is_confirmed(
     new_page: NewPage, module_domain_id: int
 ) -> None:
@@ -342,6 +343,7 @@ def test_a_sentence_is_signed_stopped_and_the_tabs_are_seen_by_keyboard_alone(
     wait_until_ready(page)
 
 
+@pytest.mark.slow
 def test_the_robot_is_seen_from_three_places_as_in_a_mirror_and_slower(new_page: NewPage) -> None:
     page = new_page()
     wait_until_ready(page)

@@ -148,6 +148,7 @@ def test_a_newer_text_replaces_the_one_that_is_signed_and_those_that_wait(lab: L
     assert list(dict.fromkeys(lab.of(REFUSED))) == replaced
 
 
+@pytest.mark.slow
 def test_two_robots_in_namespaces_sign_side_by_side_in_simulated_time_and_stand_while_it_does(
     new_lab: NewLab,
 ) -> None:

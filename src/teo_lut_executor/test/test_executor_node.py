@@ -231,6 +231,7 @@ def test_a_canceled_goal_brings_the_robot_back_to_rest(graph: Graph) -> None:
     client.destroy()
 
 
+@pytest.mark.slow
 def test_type_and_negation_are_shown_with_the_head_unless_it_is_to_be_still(graph: Graph) -> None:
     def most(head_motion: float) -> list[float]:
         """The most that yaw and pitch are away from rest in a negated question [rad]."""
@@ -388,6 +389,7 @@ def test_what_is_said_while_no_executor_is_there_is_signed_once_by_the_next_or_n
         third.destroy_node()
 
 
+@pytest.mark.slow
 def test_each_sentence_is_signed_in_its_own_language_or_refused_while_languages_change(
     domain_id: int, data_home: Path, make_sign: Callable[..., Any]
 ) -> None:

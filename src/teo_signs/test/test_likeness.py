@@ -56,6 +56,7 @@ def test_the_left_hand_counts_as_much_as_the_right(robot: Robot, lut: Lut) -> No
     assert pair.seen > 1.0
 
 
+@pytest.mark.slow
 def test_no_two_words_of_the_table_look_alike(robot: Robot, lut: Lut) -> None:
     words = [sign for sign in lut.values() if sign.kind == "lexical"]
     nearest = nearest_pairs(robot, words)[0]

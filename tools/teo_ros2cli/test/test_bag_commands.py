@@ -183,6 +183,7 @@ def test_a_recorded_bag_plays_as_it_was(graph: Any, start: Any, tmp_path: Path) 
     assert played == {"/played": "volatile", "/robot_description": "transient_local"}
 
 
+@pytest.mark.slow
 def test_playing_is_faster_partial_and_repeated_on_request(
     graph: Any, start: Any, ros2: Command, tmp_path: Path
 ) -> None:
@@ -210,6 +211,7 @@ def test_playing_is_faster_partial_and_repeated_on_request(
     assert loop.stop() == 0
 
 
+@pytest.mark.slow
 def test_keys_pause_and_step(graph: Any, start: Any, tmp_path: Path) -> None:
     make_text_bag(tmp_path / "bag", 5, step=1000)
     came: list[str] = []
@@ -307,6 +309,7 @@ def make_text_bag(directory: Path, count: int, step: int, kind: str = "std_msgs/
     writer.close()
 
 
+@pytest.mark.slow
 def test_unknown_types_and_damage_are_told_and_the_rest_is_played(
     graph: Any, ros2: Command, tmp_path: Path
 ) -> None:
@@ -350,6 +353,7 @@ def test_a_killed_recorder_leaves_what_came_before_the_last_second(
     assert not (tmp_path / "bag" / "metadata.yaml").exists()
 
 
+@pytest.mark.slow
 def test_topics_that_appear_and_publishers_that_differ_are_recorded(
     graph: Any, start: Any, tmp_path: Path
 ) -> None:
@@ -410,6 +414,7 @@ def test_topics_that_appear_and_publishers_that_differ_are_recorded(
         assert source["/waiting"][0].offered_qos == ()
 
 
+@pytest.mark.slow
 def test_a_recording_is_split_and_takes_qualities_from_a_file(graph: Any, start: Any, tmp_path: Path) -> None:
     overrides = tmp_path / "overrides.yaml"
     overrides.write_text(yaml.safe_dump({"/text": {"reliability": "best_effort", "depth": 7}}))

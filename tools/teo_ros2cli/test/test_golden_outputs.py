@@ -32,6 +32,7 @@ def same(printed: str, golden: str) -> bool:
     )
 
 
+@pytest.mark.slow
 def test_outputs_have_the_shape_of_the_transcript(
     graph: Any, ros2_here: Callable[..., subprocess.CompletedProcess[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:

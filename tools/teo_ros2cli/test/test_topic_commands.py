@@ -67,6 +67,7 @@ rclpy.spin(node)
 """
 
 
+@pytest.mark.slow
 def test_pub_once_reaches_each_of_three_processes_with_each_text(
     domain_id: int,  # noqa: ARG001
     prompt_discovery: None,  # noqa: ARG001
@@ -89,6 +90,7 @@ def test_pub_once_reaches_each_of_three_processes_with_each_text(
         assert listener.lines == ["listening", *(f"got text {number} ." for number in range(texts))]
 
 
+@pytest.mark.slow
 def test_pub_waits_for_the_acknowledgement_of_a_process_that_is_held_up(
     domain_id: int,  # noqa: ARG001
     prompt_discovery: None,  # noqa: ARG001
@@ -108,6 +110,7 @@ def test_pub_waits_for_the_acknowledgement_of_a_process_that_is_held_up(
     assert "Not every subscription" not in pub.text
 
 
+@pytest.mark.slow
 def test_pub_so_many_times_with_its_own_name_and_stamp(graph: Any, ros2: Command) -> None:
     came: list[JointState] = []
     graph.node.create_subscription(JointState, "state", came.append, 10)

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from teo_sign_training.corpus.paper_pairs import paper_pairs, paper_predictions
 from teo_sign_training.cli import reproduce_paper
+from teo_sign_training.corpus.paper_pairs import paper_pairs, paper_predictions
 
 
 def test_curves_and_tables_are_written_and_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
