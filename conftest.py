@@ -47,9 +47,10 @@ pytest_plugins = ["made_signs"]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what meets others over DDS, which runs alone, and the studio's tests, which take a third of the time.
+    """Mark tests by what they take.
 
-    Others' load would make it late. The studio makes signs and models, and changes seldom.
+    What meets others over DDS runs alone: others' load would make it late. The studio, which makes signs and
+    models, changes seldom, and its tests take a third of the time.
     """
     for item in items:
         if {"domain_id", "module_domain_id"} & set(getattr(item, "fixturenames", ())):
