@@ -16,7 +16,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 ROOT = Path(__file__).parents[1]
-pytestmark = pytest.mark.dds
+pytestmark = [pytest.mark.dds, pytest.mark.slow]
 TIMEOUT = 180.0  # [s] for a short text on a loaded machine
 
 
