@@ -41,7 +41,7 @@ SCRIPTS: tuple[tuple[str, Handedness], ...] = (
 )
 # [Hz] The errors do not depend on it; the bench takes half the time.
 _RATE = 15.0
-_BAG = Path(__file__).resolve().parent.parent / "bags" / "signer_d435"
+_BAG = Path(__file__).parents[2] / "bags" / "signer_d435"
 
 
 _FIELDS = {

@@ -38,7 +38,7 @@ from teo_skeleton_retriever.layouts.person_2d import Person2D
 from teo_skeleton_retriever.node.latest_frame_pipeline import tune_interpreter
 from teo_skeleton_retriever.node.retriever_node import RetrieverNode
 
-TAKE = Path(__file__).parents[1] / "bags" / "signer_d435"
+TAKE = Path(__file__).parents[2] / "bags" / "signer_d435"
 RATE = 30.0  # [Hz] of the camera
 WATCHED = 20.0  # [s] of images that count
 WARM_UP = 3.0  # [s] before: models load, filters fill

@@ -22,7 +22,7 @@ from playwright.sync_api import Page, sync_playwright
 
 from report import Figure
 
-_ROOT = Path(__file__).parents[2]
+_ROOT = Path(__file__).parents[3]
 _DOMAIN = "18"
 _PATIENCE = 1800.0  # [s] for what has no bound of its own: half an hour for an index far away
 _WANTED = 300.0  # [s]: the five minutes that a visitor stays
