@@ -19,7 +19,7 @@ from teo_console.jobs.queue import MOST_WAITING, JobQueue
 
 MEGABYTE = 1024**2
 # Time for what takes a tenth of a second on an idle machine [s].
-SOON = 20.0
+SOON = 60.0
 
 
 def python(program: str, *arguments: str, **limits: float) -> Command:
