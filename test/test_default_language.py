@@ -13,7 +13,7 @@ from pathlib import Path
 
 from teo_sign_translator import Translator
 from teo_signs.look_up_table import Lut, default_lut_directory
-from teo_signs.motion_hash import motion_hash
+from teo_signs.sign import motion_hash
 
 TOKENS = Path(__file__).parent / "data" / "ssp_tokens.tsv"
 MOTIONS = "29b3c93ee855ce68c9e12ca4e649252510dfe88f4ab2681b3c2aa9dc16315503"

@@ -28,8 +28,8 @@ setup(
     entry_points={
         "console_scripts": [
             "up = teo_bringup.up:main",
-            "network = teo_bringup.network.command:main",
-            "discovery_server = teo_bringup.network.discovery_server:main",
+            "network = teo_bringup.network:main",
+            "discovery_server = teo_bringup.network:run_discovery_server",
         ]
     },
 )

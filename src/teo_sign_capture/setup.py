@@ -37,14 +37,14 @@ setup(
     extras_require={"test": ["pytest"]},
     entry_points={
         "console_scripts": [
-            "capture_demonstration = teo_common.offered_commands:main",
-            "capture_letters = teo_common.offered_commands:main",
+            "capture_demonstration = teo_common.installed_packages:main",
+            "capture_letters = teo_common.installed_packages:main",
             "capture_node = teo_sign_capture.node.capture_node:main",
-            "capture_numbers = teo_common.offered_commands:main",
-            "capture_scores = teo_common.offered_commands:main",
-            "draw_signwriting = teo_common.offered_commands:main",
-            "ease_letters = teo_common.offered_commands:main",
-            "perform_scores = teo_common.offered_commands:main",
+            "capture_numbers = teo_common.installed_packages:main",
+            "capture_scores = teo_common.installed_packages:main",
+            "draw_signwriting = teo_common.installed_packages:main",
+            "ease_letters = teo_common.installed_packages:main",
+            "perform_scores = teo_common.installed_packages:main",
         ],
         "teo_lut_executor.lut_commands": [
             "capture = teo_sign_capture.cli.capture:capture",

@@ -40,8 +40,8 @@ setup(
     entry_points={
         "console_scripts": [
             "retrieve = teo_skeleton_retriever.cli.retrieve_cli:main",
-            "synthesize = teo_common.offered_commands:main",
-            "sensor_study = teo_common.offered_commands:main",
+            "synthesize = teo_common.installed_packages:main",
+            "sensor_study = teo_common.installed_packages:main",
             "retriever_node = teo_skeleton_retriever.node.retriever_node:main",
         ],
         "teo_skeleton_retriever.detectors": [

@@ -5,7 +5,7 @@
 from launch import LaunchDescription
 
 from teo_bringup.graph import NODES
-from teo_bringup.launch_description import launch_description
+from teo_bringup.up import launch_description
 
 
 def generate_launch_description() -> LaunchDescription:

@@ -13,8 +13,7 @@ from types import TracebackType
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 
-from teo_bringup.keeper import Event, Keeper
-from teo_bringup.supervised_process import SupervisedProcess
+from teo_bringup.supervised_process import Event, Keeper, SupervisedProcess
 
 # Package and executable of each node.
 NODES = {

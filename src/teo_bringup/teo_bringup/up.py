@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`up`: nodes of the project on this machine, kept up until they are told to end."""
+"""Starting the nodes of the project on this machine: `up`, which keeps them up, and the launch files."""
 
 from __future__ import annotations
 
@@ -11,17 +11,30 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
-from typing import Annotated, Literal, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple, NoReturn
 
 import typer
 from ament_index_python.packages import get_package_share_directory
 
 from teo_bringup.graph import NODES, SIGNING, Graph, GraphError
 from teo_common.node_process import tell_supervisor
+from teo_common.parameters import ROBOT
+
+if TYPE_CHECKING:
+    from launch import LaunchDescription
 
 # What is no option of ours is taken for a node, so that the refusal can name --ros-args.
 _app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 _SETTINGS = {"ignore_unknown_options": True}
+
+# Arguments that `up` and the launch files have in common, and what they mean.
+_MEANINGS = {
+    "params_file": "Parameters of the nodes.",
+    "namespace": "Before every topic, service and node: one for each robot.",
+    "robot": "Name of the robot, whatever the parameter file says.",
+    "language": "Sign language by its ISO 639-3 code, whatever the parameter file says.",
+    "use_sim_time": "Take the time from the topic clock.",
+}
 
 
 class _ToldToEndError(Exception):
@@ -88,18 +101,12 @@ def _up(
     ] = None,
     params_file: Annotated[
         Path,
-        typer.Option(exists=True, dir_okay=False, help="Parameters of the nodes.", show_default=False),
+        typer.Option(exists=True, dir_okay=False, help=_MEANINGS["params_file"], show_default=False),
     ] = _shipped_parameters(),  # noqa: B008 - where the installed file is does not change
-    namespace: Annotated[
-        str, typer.Option(help="Before every topic, service and node: one for each robot.")
-    ] = "",
-    robot: Annotated[str, typer.Option(help="Name of the robot, whatever the parameter file says.")] = "",
-    language: Annotated[
-        str, typer.Option(help="Sign language by its ISO 639-3 code, whatever the parameter file says.")
-    ] = "",
-    use_sim_time: Annotated[
-        bool, typer.Option("--use-sim-time", help="Take the time from the topic clock.")
-    ] = False,
+    namespace: Annotated[str, typer.Option(help=_MEANINGS["namespace"])] = "",
+    robot: Annotated[str, typer.Option(help=_MEANINGS["robot"])] = "",
+    language: Annotated[str, typer.Option(help=_MEANINGS["language"])] = "",
+    use_sim_time: Annotated[bool, typer.Option("--use-sim-time", help=_MEANINGS["use_sim_time"])] = False,
     restart: Annotated[
         Literal["on-failure", "no"],
         typer.Option(help="When a node that was ready ends is started again, five times a minute at most."),
@@ -164,3 +171,54 @@ def _say_ready() -> None:
 
 def _raise_told_to_end(number: int, _: FrameType | None) -> NoReturn:
     raise _ToldToEndError(number)
+
+
+def launch_description(*nodes: tuple[str, str]) -> LaunchDescription:
+    """Describe nodes that start together, all in one namespace, and end together.
+
+    The arguments `params_file`, `namespace`, `robot`, `language` and `use_sim_time` are declared for
+    `ros2 launch`.
+
+    Args:
+        nodes: Package and executable of each.
+    """
+    # Here, as this package is installed where there is no `launch` too: `up` does without it.
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument, Shutdown
+    from launch.substitutions import LaunchConfiguration
+    from launch_ros.actions import Node
+
+    from teo_sign_languages import DEFAULT_LANGUAGE
+
+    return LaunchDescription(
+        [
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=_MEANINGS[name])
+                for name, default in (
+                    ("params_file", str(_shipped_parameters())),
+                    ("namespace", ""),
+                    ("robot", str(ROBOT.default)),
+                    ("language", DEFAULT_LANGUAGE),
+                    ("use_sim_time", "false"),
+                )
+            ),
+            *(
+                Node(
+                    package=package,
+                    executable=executable,
+                    namespace=LaunchConfiguration("namespace"),
+                    parameters=[
+                        LaunchConfiguration("params_file"),
+                        {
+                            "robot": LaunchConfiguration("robot"),
+                            "language": LaunchConfiguration("language"),
+                            "use_sim_time": LaunchConfiguration("use_sim_time"),
+                        },
+                    ],
+                    output="screen",
+                    on_exit=Shutdown(reason=f"{executable} ended"),
+                )
+                for package, executable in nodes
+            ),
+        ]
+    )

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from teo_bringup.network.access import write_access_files
+from teo_bringup.access import write_access_files
 
 NOW = datetime(2026, 11, 23, 8, 0, 0, tzinfo=UTC)
 

@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from teo_bringup.graph import NODES, Graph, GraphError, executable_of
-from teo_bringup.keeper import MOST_RESTARTS
+from teo_bringup.supervised_process import MOST_RESTARTS
 from teo_bringup.up import Asked, main
 from teo_common.node_process import tell_supervisor
 
@@ -135,7 +135,7 @@ def test_a_process_is_ready_when_it_says_so_and_not_before(tmp_path: Path) -> No
 def test_what_was_ready_and_fails_is_started_again_until_it_fails_too_often(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("teo_bringup.keeper.RESTART_DELAY", 0.01)
+    monkeypatch.setattr("teo_bringup.supervised_process.RESTART_DELAY", 0.01)
     with Graph(tmp_path, printed=True) as graph:
         graph.start("feeble", *python(f"{READY}; print('alive', flush=True); raise SystemExit(3)"))
         assert graph.keep_up(restarts=True, when_ready=lambda: None) == ("feeble", 3)

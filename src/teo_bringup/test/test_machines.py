@@ -17,7 +17,7 @@ from intruder import TURN
 from laboratory import PAGE, PROGRAMS, ROOT, Laboratory
 from typed_page import blocks_of
 
-from teo_bringup.network.access import read_table
+from teo_bringup.access import read_table
 
 REASON = missing(*PROGRAMS)
 pytestmark = [pytest.mark.skipif(bool(REASON), reason=REASON), pytest.mark.slow]

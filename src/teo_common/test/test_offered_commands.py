@@ -19,7 +19,7 @@ COMMANDS = {
 WITHOUT = """
 import importlib.metadata, sys
 importlib.metadata.entry_points = lambda **_: ()
-from teo_common.offered_commands import main
+from teo_common.installed_packages import main
 sys.argv = [sys.argv[1]]
 main()
 """

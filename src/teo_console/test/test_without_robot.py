@@ -18,7 +18,7 @@ from watched_page import accessible, photograph
 
 from teo_lut_executor.execution.situation import BLOCKED
 from teo_signs.look_up_table import Lut
-from teo_signs.motion_hash import motion_hash
+from teo_signs.sign import motion_hash
 
 SOURCES = Path(__file__).parents[2]
 LONG = 120_000  # [ms] for a command of the project's on a loaded machine

@@ -3,7 +3,6 @@
 """Humanoids as data: URDF, joint groups, limits, self-collision and a renderer without a display."""
 
 from teo_description.errors import DescriptionError
-from teo_description.humanoid import Humanoid, available_robots, load_humanoid
-from teo_description.joint_limits import JointLimits
+from teo_description.humanoid import Humanoid, JointLimits, available_robots, load_humanoid
 
 __all__ = ["DescriptionError", "Humanoid", "JointLimits", "available_robots", "load_humanoid"]

@@ -14,7 +14,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 from teo_description.humanoid import SIDES, Humanoid, Side
-from teo_description.schema.body import ArmLinks
+from teo_description.robot_schema import ArmLinks
 
 
 class Clearance(NamedTuple):

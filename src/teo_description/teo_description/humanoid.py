@@ -8,11 +8,11 @@ first. Nothing outside such a folder knows a joint by its name.
 
 from __future__ import annotations
 
-import hashlib
 import math
 import os
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -21,13 +21,35 @@ from typing import Literal
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_common.package_files import package_path
-from teo_description.completed_urdf import Urdf, completed_urdf, with_speeds
+from teo_common.installed_packages import installed_path, package_path
+from teo_description.completed_urdf import (
+    Urdf,
+    completed_urdf,
+    joint_directions,
+    mirrored_name,
+    urdf_hash,
+    with_speeds,
+)
 from teo_description.errors import DescriptionError
-from teo_description.joint_limits import JointLimits
-from teo_description.other_side import mirrored_name
 from teo_description.robot_file import RobotFile, read_robot_file
-from teo_description.schema.hand import AXES
+from teo_description.robot_schema import AXES
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class JointLimits:
+    """Limits of some joints, in the order of `names`; the arrays are read-only.
+
+    Attributes:
+        names: Joint names.
+        lower, upper: Position limits [rad]. Shape (n,).
+        velocity: Greatest speed [rad/s]. Shape (n,).
+    """
+
+    names: tuple[str, ...]
+    lower: Array
+    upper: Array
+    velocity: Array
+
 
 Side = Literal["left", "right"]
 SIDES: tuple[Side, Side] = ("left", "right")
@@ -376,60 +398,6 @@ class Humanoid:
             if any(len(posture) != count for posture in postures):
                 message = f"{self._path}: {field}: expected an angle for each of the arm's {count} joints"
                 raise DescriptionError("bad_robot", message)
-
-
-def installed_path(package: str, path: str) -> Path | None:
-    """A file or folder that an installed Python package brings; None without the package.
-
-    Args:
-        package: As ``pip`` knows it.
-        path: Below the folder that packages are installed in.
-    """
-    from importlib import metadata  # here: its parser of mail is a twentieth of a driver's start
-
-    try:
-        return Path(str(metadata.distribution(package).locate_file(path)))
-    except metadata.PackageNotFoundError:
-        return None
-
-
-def urdf_hash(urdf: str) -> str:
-    """SHA-256, in hexadecimal, of what joint angles are made for.
-
-    It is that of the canonical URDF (C14N 2.0, UTF-8) without comments, white space and limits of velocity
-    and effort: a sign looks the same on a robot that is faster or stronger.
-    """
-    text = ET.canonicalize(urdf, strip_text=True, exclude_attrs=["velocity", "effort"])
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
-
-
-def joint_directions(urdf: ET.Element) -> Mapping[str, Array]:
-    """The unit vectors along which joints' axes point with all joints at zero, in the root's frame."""
-    from scipy.spatial.transform import (
-        Rotation,
-    )  # here: half a second that who reads names alone does without
-
-    tree = {joint.find("child").attrib["link"]: joint for joint in urdf.iter("joint")}  # type: ignore[union-attr]
-    turned: dict[str, Rotation] = {}
-
-    def rotation(link: str) -> Rotation:
-        if link not in tree:
-            return Rotation.identity()
-        if link not in turned:
-            joint = tree[link]
-            origin = joint.find("origin")
-            rpy = "0 0 0" if origin is None else origin.get("rpy", "0 0 0")
-            own = Rotation.from_euler("xyz", [float(angle) for angle in rpy.split()])
-            turned[link] = rotation(joint.find("parent").attrib["link"]) * own  # type: ignore[union-attr]
-        return turned[link]
-
-    found = {}
-    for link, joint in tree.items():
-        axis = joint.find("axis")
-        if joint.attrib["type"] != "fixed":
-            values = [1.0, 0.0, 0.0] if axis is None else [float(x) for x in axis.attrib["xyz"].split()]
-            found[joint.attrib["name"]] = rotation(link).apply(values)
-    return found
 
 
 def robot_folders() -> tuple[Path, ...]:

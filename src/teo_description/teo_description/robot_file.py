@@ -11,20 +11,26 @@ import msgspec
 
 from teo_common.checked_yaml import YamlError, read_checked_yaml
 from teo_description.errors import DescriptionError
-from teo_description.schema.body import (
+from teo_description.robot_schema import (
     CameraView,
     Collision,
+    Controllers,
     Detour,
+    Follow,
+    Frame,
     Groups,
+    Hand,
+    HandDrives,
+    Limit,
+    MeshSource,
     NaturalArm,
+    Origin,
     PlaceOnBody,
     Postures,
     Reach,
     SigningArms,
+    UrdfSource,
 )
-from teo_description.schema.controllers import Controllers
-from teo_description.schema.hand import Hand, HandDrives
-from teo_description.schema.urdf import Follow, Frame, Limit, MeshSource, Origin, UrdfSource
 
 # Places that scores name; where a robot has none, the nearest on its body or in its air.
 PLACES = (

@@ -4,21 +4,27 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import numpy as np
 import typer
 from rich.console import Console
 from rich.table import Table
 
-from teo_description.checking.finding import Finding
-from teo_description.checking.kinematic_checks import frame_checks, hand_checks, limit_checks, symmetry_checks
-from teo_description.checking.space_checks import collision_checks, reach_checks
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import available_robots, load_humanoid, robot_folders
+from teo_description.kinematic_checks import Finding, frame_checks, hand_checks, limit_checks, symmetry_checks
 from teo_description.robot import Robot
+from teo_description.space_checks import collision_checks, reach_checks
+
+if TYPE_CHECKING:
+    from teo_description.pictures.rendering import Image, Renderer
+
+# How far the camera of the hand map is from the palm, and what it leaves out before it [m]: the own trunk.
+_HAND_DISTANCE, _HAND_NEAR = 0.6, 0.4
 
 _console, _errors = Console(), Console(stderr=True)
 _app = typer.Typer(
@@ -96,8 +102,11 @@ def _findings(robot: Robot) -> Iterator[Finding]:
 
 
 def _draw(robot: Robot, folder: Path) -> None:
-    from teo_description.pictures.hand_sheet import hand_sheet  # here: what signs does without OpenCV
-    from teo_description.pictures.rendering import Renderer, film_strip, save_png
+    from teo_description.pictures.rendering import (  # here: listing needs no OpenCV
+        Renderer,
+        film_strip,
+        save_png,
+    )
 
     renderer, humanoid = Renderer(robot), robot.humanoid
     folder.mkdir(parents=True, exist_ok=True)
@@ -105,8 +114,43 @@ def _draw(robot: Robot, folder: Path) -> None:
     views = [({}, "front"), (ready, "front"), (ready, "full"), (ready, "hand")]
     frames = [renderer.render(positions, camera) for positions, camera in views]
     save_png(folder / "postures.png", film_strip(frames, ["home", *("ready",) * 3], 4))
-    save_png(folder / "hand.png", hand_sheet(robot, renderer))
+    save_png(folder / "hand.png", _hand_sheet(robot, renderer))
     _console.print(f"wrote postures.png and hand.png in {folder}", highlight=False, soft_wrap=True)
+
+
+def _hand_sheet(robot: Robot, renderer: Renderer) -> Image:
+    """The hand map: a row for each axis of the right hand, from its lower limit to its upper one.
+
+    The others are at their lower limits, the arms away from the body; the hand is seen from before its palm
+    and from the thumb's side.
+    """
+    from teo_description.pictures.rendering import Camera, film_strip
+
+    humanoid = robot.humanoid
+    names = humanoid.hand("right")
+    limits = humanoid.limits(names)
+    apart = humanoid.with_both_arms(humanoid.hanging, humanoid.file.detour.apart_deg)
+    away = dict(zip(humanoid.commanded_joints, apart.tolist(), strict=True))
+    palm = robot.placement(robot.configuration(away), humanoid.file.hand.palm)
+    towards = palm[:3, 2] - 0.5 * palm[:3, 1]
+    middle = palm[:3, :3] @ np.array([0.04, 0.0, 0.0])
+    eye = middle + _HAND_DISTANCE * towards / np.linalg.norm(towards)
+    camera = Camera(
+        position=(float(eye[0]), float(eye[1]), float(eye[2])),
+        target=(float(middle[0]), float(middle[1]), float(middle[2])),
+        field_of_view=math.radians(26.0),
+        size=(260, 260),
+        near=_HAND_NEAR,
+        follows=humanoid.file.hand.palm,
+    )
+    straight = away | dict(zip(names, limits.lower.tolist(), strict=True))
+    frames, captions = [], []
+    for name, low, high in zip(names, limits.lower.tolist(), limits.upper.tolist(), strict=True):
+        for share in (0.0, 0.5, 1.0):
+            value = low + share * (high - low)
+            frames.append(renderer.render({**straight, name: value}, camera))
+            captions.append(f"{name} {math.degrees(value):.0f}°")
+    return film_strip(frames, captions, 6)
 
 
 def _fail(error: DescriptionError) -> NoReturn:

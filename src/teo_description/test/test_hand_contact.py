@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from thumb_capsules import thumb_gap
 
-from teo_description.hand_contact import TOUCH, thumb_gaps, with_clear_thumb
-from teo_description.hand_geometry import hand_table
+from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps, with_clear_thumb
 from teo_names import RIGHT_HAND, joint_limits
 
 

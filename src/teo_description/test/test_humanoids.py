@@ -11,11 +11,10 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from teo_description.checking.kinematic_checks import hand_frames
 from teo_description.errors import DescriptionError
-from teo_description.hand_contact import thumb_gaps
-from teo_description.hand_geometry import HandGeometry, hand_table
+from teo_description.hand_geometry import HandGeometry, hand_table, thumb_gaps
 from teo_description.humanoid import Humanoid, load_humanoid
+from teo_description.kinematic_checks import hand_frames
 from teo_description.robot import Robot
 
 MIRROR = np.array([1.0, -1.0, 1.0])

@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from teo_description.pictures import mesh
+from teo_description.pictures import visual_parts as mesh
 
 SOLIDS = {
     "box": (mesh.box(np.array([0.1, 0.2, 0.3])), 8 * 0.1 * 0.2 * 0.3),

@@ -9,8 +9,7 @@ import pytest
 
 from teo_description import DescriptionError
 from teo_description.humanoid import load_humanoid
-from teo_description.motion_csv import read_motion
-from teo_description.pictures.pose_arguments import read_pose
+from teo_description.motion_files import read_motion, read_pose
 
 GOOD = "time,AxialNeck,FrontalRightElbow\n0.0,0.0,-0.5\n0.5,0.2,-1.0\n1.0,0.4,-1.0\n"
 

@@ -12,7 +12,6 @@ import pytest
 
 from teo_description import DescriptionError
 from teo_description.humanoid import Humanoid, load_humanoid
-from teo_description.pictures.mesh import from_file
 from teo_description.pictures.rendering import (
     Camera,
     Renderer,
@@ -21,6 +20,7 @@ from teo_description.pictures.rendering import (
     render_pose,
     save_png,
 )
+from teo_description.pictures.visual_parts import from_file
 from teo_description.robot import Robot
 from teo_names import HOME, LEFT_ARM, RIGHT_ARM
 

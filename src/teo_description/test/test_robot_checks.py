@@ -10,11 +10,10 @@ import pytest
 import yaml
 
 from teo_description import robots_cli
-from teo_description.checking.arm_reach import ArmReach
-from teo_description.checking.kinematic_checks import frame_checks, hand_checks, limit_checks, symmetry_checks
-from teo_description.checking.space_checks import collision_checks
 from teo_description.humanoid import Humanoid, robot_folders
+from teo_description.kinematic_checks import frame_checks, hand_checks, limit_checks, symmetry_checks
 from teo_description.robot import Robot
+from teo_description.space_checks import ArmReach, collision_checks
 
 SECOND = robot_folders()[1] / "gr1t2"
 

@@ -28,9 +28,13 @@ from teo_motion.planner import Planner
 from teo_motion.sentence.rest_posture import RestPosture
 from teo_names import COMMANDED_JOINTS, HOME, RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_signs.errors import LutError
-from teo_signs.export.play_motion2 import play_motion2_parameters
-from teo_signs.export.playback_thread import playback_mask, playback_table, save_playback_tables
-from teo_signs.export.sign_motion import SignMotion
+from teo_signs.export import (
+    SignMotion,
+    play_motion2_parameters,
+    playback_mask,
+    playback_table,
+    save_playback_tables,
+)
 from teo_signs.sign import Sign
 
 MAXIMUM_VELOCITY = math.radians(50.0)

@@ -12,7 +12,7 @@ from teo_common.arrays import Array
 from teo_motion.planner import DEFAULT_PERIOD, Planner
 from teo_motion.sentence.plan import sample_at
 from teo_signs.errors import LutError
-from teo_signs.export.sign_motion import SignMotion
+from teo_signs.export import SignMotion
 from teo_signs.sign import Sign
 from teo_signs.tokens import Kind, Token
 

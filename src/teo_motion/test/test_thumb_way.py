@@ -10,8 +10,7 @@ import numpy as np
 from thumb_capsules import thumb_gap
 
 from teo_common.arrays import Array
-from teo_description.hand_contact import TOUCH
-from teo_description.hand_geometry import hand_table
+from teo_description.hand_geometry import TOUCH, hand_table
 from teo_description.humanoid import load_humanoid
 from teo_description.robot import Robot
 from teo_motion.collision.thumb_way import with_clear_thumbs

@@ -6,7 +6,6 @@
 """
 
 from teo_sign_languages.errors import LanguageError
-from teo_sign_languages.head_grammar import HeadGrammar, HeadMove
 from teo_sign_languages.language import (
     DEFAULT_LANGUAGE,
     Language,
@@ -14,7 +13,7 @@ from teo_sign_languages.language import (
     load_language,
     user_languages_directory,
 )
-from teo_sign_languages.language_file import Alphabet, LetterClips, Numbers
+from teo_sign_languages.language_file import Alphabet, HeadGrammar, HeadMove, LetterClips, Numbers
 
 __all__ = [
     "DEFAULT_LANGUAGE",

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import msgspec
 
-from teo_common.package_files import package_path
+from teo_common.installed_packages import package_path
 from teo_sign_languages.errors import LanguageError
 from teo_sign_languages.language_file import FILE, LanguageFile, read_language_file
 

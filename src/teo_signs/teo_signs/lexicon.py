@@ -1,21 +1,68 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From tokens to signs: look a token up, and spell what the table lacks."""
+"""From tokens to signs: look a token up, spell what the table lacks, and put numbers together."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
 from teo_common.text_folding import without_accents
 from teo_sign_languages import DEFAULT_LANGUAGE, Numbers, load_language
 from teo_signs.errors import LutError, PlanError
-from teo_signs.numbers import number_glosses
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_schema import STANDINGS, Standing
 from teo_signs.tokens import Kind, Token, check_tokens
+
+#: Digits of the largest number that has a name: 999,999.
+LONGEST = 6
+
+_HUNDRED, _THOUSAND = 100, 1000
+
+
+def number_glosses(digits: str, numbers: Numbers, has: Callable[[str], bool]) -> tuple[str, ...]:
+    """The signs of a number, in order.
+
+    Args:
+        digits: The number, 0 to 9 only.
+        numbers: How the language puts numbers together.
+        has: Whether a gloss has a sign of its own that may be used; not asked for single digits, which
+            nothing could stand for.
+
+    Returns:
+        Glosses of the signs. The digits of the number if it is too long, begins with a zero, or there is no
+        sign for a hundred or a thousand in it: half a number would be read as another one.
+    """
+    if len(digits) == 1 or has(digits):
+        return (digits,)
+    spelled = tuple(digits)
+    if len(digits) > LONGEST or digits.startswith("0"):
+        return spelled
+    thousands, rest = divmod(int(digits), _THOUSAND)
+    made = (*_how_many(thousands, numbers, has), numbers.thousand) if thousands else ()
+    made += _below_thousand(rest, numbers, has)
+    operators = {numbers.hundred, numbers.thousand} & set(made)
+    return made if all(gloss and has(gloss) for gloss in operators) else spelled
+
+
+def _how_many(count: int, numbers: Numbers, has: Callable[[str], bool]) -> tuple[str, ...]:
+    """The signs before a hundred or a thousand."""
+    return _below_thousand(count, numbers, has) if count > 1 or numbers.one_before else ()
+
+
+def _below_thousand(value: int, numbers: Numbers, has: Callable[[str], bool]) -> tuple[str, ...]:
+    """The signs of a part below a thousand; none for 0."""
+    if value == 0:
+        return ()
+    if has(str(value)):
+        return (str(value),)
+    hundreds, rest = divmod(value, _HUNDRED)
+    if hundreds:
+        return (*_how_many(hundreds, numbers, has), numbers.hundred, *_below_thousand(rest, numbers, has))
+    return tuple(str(rest))
+
 
 _SIGN_KIND = {Kind.LEXICAL: "lexical", Kind.LETTER: "letter", Kind.NUMBER: "number"}
 _TOKEN_KIND = {sign: token for token, sign in _SIGN_KIND.items()}

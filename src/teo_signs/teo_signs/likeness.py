@@ -4,7 +4,8 @@
 
 Each is measured on both hands at moments spread over the sign, in units of its just noticeable difference at
 conversation distance: the thickness of a finger, 15 deg, or two neighbouring places on the face. Signs are
-told apart by any one of them on either hand, so that the largest is the difference of the pair.
+told apart by any one of them on either hand, so that the largest is the difference of the pair. People seek a
+handshape by the letter that it looks like: `Handshapes` names it so.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description.humanoid import SIDES, Side
+from teo_description.humanoid import SIDES, Side, load_humanoid
 from teo_description.robot import Robot
 from teo_signs.sign import Sign
 
@@ -131,3 +133,50 @@ def _difference(first: Sign, second: Sign, hands: Iterable[tuple[_Appearance, _A
         movement=movement,
         place=0.0 if spelled else place,
     )
+
+
+# A finger bent by this much less or more [rad] is still seen in the same handshape: a third of the way from
+# straight to folded.
+_SAME_HANDSHAPE = 0.5
+# Of a hand's six axes, the thumb's abduction first: handshapes are told by the fingers, and by the thumb half
+# as much. Where the thumb lies beside a flat hand or a fist makes no other handshape of it.
+_WEIGHTS = (0.0, 0.5, 1.0, 1.0, 1.0, 1.0)
+
+
+class Handshapes:
+    """Names handshapes by the letters that have them."""
+
+    def __init__(self, signs: Iterable[Sign]) -> None:
+        """Take the letters among signs, each as its hand begins."""
+        self._letters = {
+            sign.gloss: hand[0]
+            for sign in signs
+            if sign.kind == "letter" and (hand := _hand(sign)) is not None
+        }
+
+    def of(self, sign: Sign) -> list[str]:
+        """The letters that the leading hand looks like, at each knot the nearest; sorted."""
+        hand = _hand(sign)
+        if hand is None or not self._letters:
+            return []
+        names = list(self._letters)
+        letters = np.array(list(self._letters.values()))
+        weights = [weight for weight, axis in zip(_WEIGHTS, _axes(sign), strict=True) if axis]
+        apart = (weights * np.abs(hand[:, None, :] - letters[None, :, :])).max(axis=2)
+        nearest = apart.argmin(axis=1)
+        near = {names[letter] for knot, letter in enumerate(nearest) if apart[knot, letter] < _SAME_HANDSHAPE}
+        return sorted(near)
+
+
+def _hand(sign: Sign) -> NDArray[np.float64] | None:
+    """Angles of the leading hand's axes [rad], shape (knots, axes); None if not all of them move."""
+    joints = [axis for axis in _axes(sign) if axis]
+    if not set(joints) <= set(sign.joints):
+        return None
+    return sign.knots[:, [sign.joints.index(joint) for joint in joints]]
+
+
+def _axes(sign: Sign) -> tuple[str | None, ...]:
+    """The six axes of the leading hand, None for those that it lacks."""
+    side: Side = "left" if sign.handedness == "left" else "right"
+    return load_humanoid(sign.robot).hand_axes(side)

@@ -15,7 +15,6 @@ from pathlib import Path
 
 from teo_sign_languages import DEFAULT_LANGUAGE, Language, LanguageError, load_language
 from teo_signs.errors import LutError
-from teo_signs.made_for import refuse_another
 from teo_signs.sign import Sign, gloss_key
 from teo_signs.sign_file import read_sign, save_sign
 from teo_signs.sign_schema import DEFAULT_ROBOT
@@ -218,7 +217,7 @@ class Lut(Mapping[str, Sign]):
         sign = self._signs.get(key)
         if sign is None:
             sign = read_sign(self.path(gloss))
-            refuse_another(sign, self.path(gloss), self._language, self._robot)
+            _refuse_another(sign, self.path(gloss), self._language, self._robot)
             self._signs[key] = sign
         return sign
 
@@ -280,3 +279,32 @@ def _listed(directory: Path) -> dict[str, Path]:
 
 def _unlisted(directory: Path, error: OSError) -> LutError:
     return LutError("no_directory", f"{directory}: expected a directory of signs, got: {error.strerror}")
+
+
+def _refuse_another(sign: Sign, entry: Path, language: Language, robot: str) -> None:
+    """Refuse an entry that is not of the language or for the robot in use.
+
+    Args:
+        sign: The entry as read.
+        entry: Its file, for the message.
+        language: The language in use.
+        robot: Name of the robot in use.
+
+    Raises:
+        LutError: "other_language" or "other_robot", with what to do.
+    """
+    code = language.code
+    if sign.language not in (code, *language.formerly):
+        raise LutError(
+            "other_language",
+            f"{entry}: language: expected {code}, the language in use, got {sign.language}; use this "
+            f"table with language {sign.language} (`--language {sign.language}`), or a table of {code}: "
+            "no command turns signs of one language into another's",
+        )
+    if sign.robot != robot:
+        raise LutError(
+            "other_robot",
+            f"{entry}: robot: expected {robot}, the robot in use, got {sign.robot}; use this table "
+            f"with robot {sign.robot} (`--robot {sign.robot}`), or make one for {robot}: `ros2 run "
+            f"teo_lut_executor lut retarget --language {code} --robot {robot}`",
+        )

@@ -22,8 +22,7 @@ from scipy.optimize import least_squares
 from teo_common.arrays import Array
 from teo_description.humanoid import SIDES, Side
 from teo_description.robot import Robot
-from teo_signs.motion_hash import with_alternatives
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, with_alternatives
 from teo_signs.sign_file import LIMIT_TOLERANCE
 from teo_signs.sign_schema import Handedness
 

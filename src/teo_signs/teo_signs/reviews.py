@@ -17,8 +17,7 @@ from typing import Annotated, Literal, NamedTuple, get_args
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from teo_signs.errors import LutError
-from teo_signs.motion_hash import motion_hash
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, motion_hash
 from teo_signs.sign_schema import Gloss, Provenance, Review
 
 #: What a reviewer finds a motion to be.

@@ -18,11 +18,10 @@ from pydantic_core import ErrorDetails
 from teo_common.atomic_files import write_atomically
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid, load_humanoid
+from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_signs.errors import LutError
-from teo_signs.made_for import refuse_mixed
-from teo_signs.motion_hash import with_alternatives_in_force, with_standing_in_force
-from teo_signs.sign import Form, Sign, gloss_key
-from teo_signs.sign_schema import SCHEMA_VERSION, FormFile, Provenance, SignFile
+from teo_signs.sign import Form, Sign, gloss_key, with_alternatives_in_force, with_standing_in_force
+from teo_signs.sign_schema import DEFAULT_ROBOT, SCHEMA_VERSION, FormFile, Provenance, SignFile
 
 # 28 joints at 25 frames a second for a minute are 0.8 MB of text; no sign is longer than that.
 MAX_FILE_BYTES = 1_000_000
@@ -138,7 +137,7 @@ def save_sign(directory: Path, sign: Sign, *, replace: bool = False) -> Path:
     if not replace and path.exists():
         message = f"{path.name}: expected a gloss that {directory} does not hold, got {sign.gloss!r}"
         raise LutError("exists", message)
-    refuse_mixed(sign, path)
+    _refuse_mixed(sign, path)
     directory.mkdir(parents=True, exist_ok=True)
     write_atomically(path, text.encode("utf-8"))
     return path
@@ -267,6 +266,41 @@ class _Reader:
             expected = f"{joints[column]} within {lower[column]:.6f} .. {upper[column]:.6f} rad"
             got = f"{knots[row_index, column]:.6f} rad"
             self._refuse("outside_limits", f"{field}[{row_index}][{column}]", expected, got)
+
+
+def _refuse_mixed(sign: Sign, path: Path) -> None:
+    """Refuse to write a sign beside those of another language or robot: one of them tells for all.
+
+    Args:
+        sign: The sign.
+        path: Its file, which need not be there.
+
+    Raises:
+        LutError: "other_language" or "other_robot".
+    """
+    beside = next((other for other in sorted(path.parent.glob("[!.]*.json")) if other != path), None)
+    if beside is None:
+        return
+    try:
+        entry = json.loads(beside.read_bytes())
+        language, robot = entry.get("language", DEFAULT_LANGUAGE), entry.get("robot", DEFAULT_ROBOT)
+    except (OSError, ValueError, AttributeError):  # a broken entry is named when it is asked for
+        return
+    if robot == sign.robot and _language_code(language) == _language_code(sign.language):
+        return
+    raise LutError(
+        "other_language" if robot == sign.robot else "other_robot",
+        f"{path}: expected a sign of {language} for {robot}, as those in {path.parent}, got one of "
+        f"{sign.language} for {sign.robot}; give it a directory of its own",
+    )
+
+
+def _language_code(language: str) -> str:
+    """The code of a language that may be named as it was formerly."""
+    try:
+        return load_language(language).code
+    except LanguageError:  # one that is not installed here is like itself alone
+        return language
 
 
 def _humanoid(name: str, where: str) -> Humanoid:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from teo_sign_languages import Numbers, load_language
-from teo_signs.numbers import number_glosses
+from teo_signs.lexicon import number_glosses
 
 SPANISH = load_language("ssp").numbers
 AMERICAN = load_language("ase").numbers

@@ -15,9 +15,8 @@ import pytest
 
 from teo_signs.errors import LutError
 from teo_signs.lexicon import Lexicon
-from teo_signs.motion_hash import motion_hash
 from teo_signs.reviews import Rule, SignRating, Verdict, judge, read_ratings
-from teo_signs.sign import Sign, sign_warnings
+from teo_signs.sign import Sign, motion_hash, sign_warnings
 from teo_signs.sign_file import format_sign, parse_sign, read_sign, save_sign
 from teo_signs.tokens import Token
 

@@ -17,8 +17,7 @@ from hypothesis import strategies as st
 
 from teo_names import COMMANDED_JOINTS, description_hash, joint_limits
 from teo_signs.errors import LutError
-from teo_signs.motion_hash import with_alternatives
-from teo_signs.sign import Sign, sign_warnings
+from teo_signs.sign import Sign, sign_warnings, with_alternatives
 from teo_signs.sign_file import MAX_FILE_BYTES, format_sign, parse_sign, read_sign, save_sign
 from teo_signs.sign_schema import Provenance, sign_json_schema
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from teo_description.hand_contact import TOUCH, thumb_gaps
-from teo_description.hand_geometry import hand_table
+from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps
 from teo_description.robot import Robot
 from teo_names import LEFT_HAND, RIGHT_HAND
 from teo_signs.look_up_table import Lut, default_lut_directory

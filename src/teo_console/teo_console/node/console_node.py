@@ -16,8 +16,8 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from teo_common.installed_packages import package_path
 from teo_common.node_process import run_node
-from teo_common.package_files import package_path
 from teo_common.parameters import declare_parameters
 from teo_console.api.routes import all_routes
 from teo_console.api.workbench import Folders, Workbench

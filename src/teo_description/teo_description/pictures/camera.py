@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid
-from teo_description.schema.urdf import Vector
+from teo_description.robot_schema import Vector
 
 
 @dataclass(frozen=True, kw_only=True)

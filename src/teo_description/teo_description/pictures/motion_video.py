@@ -15,8 +15,7 @@ import av
 
 from teo_common.atomic_files import atomic_path
 from teo_description.errors import DescriptionError
-from teo_description.pictures.captions import captioned
-from teo_description.pictures.renderer import Image
+from teo_description.pictures.picture import Image, captioned
 
 
 class MotionVideo:

@@ -15,9 +15,8 @@ from rich.progress import track
 
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import Humanoid
-from teo_description.motion_csv import Motion, read_motion
+from teo_description.motion_files import Motion, read_motion, read_pose
 from teo_description.pictures.camera import Camera, camera_named
-from teo_description.pictures.pose_arguments import read_pose
 from teo_description.pictures.rendering import MotionVideo, Renderer, film_strip, save_png
 from teo_description.robot import Robot
 

@@ -50,8 +50,7 @@ def export(
     from teo_motion.lone_sign import sign_motion
     from teo_motion.planner import Planner
     from teo_motion.sentence.rest_posture import RestPosture
-    from teo_signs.export.play_motion2 import play_motion2_parameters
-    from teo_signs.export.playback_thread import playback_mask, save_playback_tables
+    from teo_signs.export import play_motion2_parameters, playback_mask, save_playback_tables
     from teo_signs.look_up_table import Lut
 
     try:

@@ -16,7 +16,7 @@ from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
-from teo_common.self_starting_node import SelfStartingNode, run_self_starting
+from teo_common.node_process import SelfStartingNode, run_self_starting
 from teo_description.errors import DescriptionError
 from teo_lut_executor.execution.events import (
     Activity,

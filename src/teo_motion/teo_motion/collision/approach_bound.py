@@ -22,7 +22,7 @@ from teo_common.arrays import Array
 from teo_description.errors import DescriptionError
 from teo_description.humanoid import SIDES, Humanoid, Side
 from teo_description.robot import Robot
-from teo_description.schema.body import Reach
+from teo_description.robot_schema import Reach
 
 _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from teo_common.offered_commands import NotOfferedError, offered_command
+from teo_common.installed_packages import NotOfferedError, offered_command
 from teo_sign_capture.cli.options import (
     Accept,
     Draw,

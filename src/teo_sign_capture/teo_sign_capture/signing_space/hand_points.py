@@ -8,7 +8,7 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry, HandTable
-from teo_description.schema.hand import FINGERS
+from teo_description.robot_schema import FINGERS
 
 WRIST, KNUCKLES = 0, (5, 9, 13, 17)
 _MIDDLES, _TIPS = (6, 10, 14, 18), (8, 12, 16, 20)

@@ -21,7 +21,7 @@ from teo_sign_msgs.msg import SignSentence, TranslationStatus
 from teo_sign_msgs.srv import Translate
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
-from teo_common.self_starting_node import SelfStartingNode, run_self_starting
+from teo_common.node_process import SelfStartingNode, run_self_starting
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.node.diagnostics import Statistics, diagnose, quoted, short
 from teo_sign_translator.node.messages import to_messages

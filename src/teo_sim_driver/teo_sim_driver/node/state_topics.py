@@ -19,7 +19,7 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 
 from teo_description.hand_setpoints import hand_setpoints, setpoint_axes
 from teo_description.humanoid import SIDES, Humanoid
-from teo_description.schema.hand import AXES
+from teo_description.robot_schema import AXES
 from teo_sim_driver.follower_report import FollowerReport, Mode, Source
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.path_time import SECOND

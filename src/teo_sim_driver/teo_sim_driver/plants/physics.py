@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from teo_description.humanoid import Humanoid
-from teo_description.schema.controllers import Servo
+from teo_description.robot_schema import Servo
 from teo_sim_driver.motion.bezier import FloatArray
 from teo_sim_driver.motion.trajectory import MotionState
 

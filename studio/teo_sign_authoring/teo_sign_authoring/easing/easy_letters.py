@@ -22,8 +22,7 @@ from teo_sign_authoring.easing.linear_program import BEYOND, LinearProgram
 from teo_sign_languages import Alphabet
 from teo_signs.errors import LutError
 from teo_signs.likeness import SEEN_LENGTH, nearest_pairs
-from teo_signs.motion_hash import with_alternatives
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, with_alternatives
 
 # [rad] Most by which a joint's offset changes in each program.
 _STEPS = np.radians([15.0, 15.0, 10.0, 7.0, 5.0, 3.0, 2.0, 1.0])

@@ -24,8 +24,7 @@ from teo_sign_authoring.easing.word_tolerance import WordTolerance
 from teo_sign_capture.recognition.appearance import sign_appearance
 from teo_sign_capture.recognition.sign_index import SignIndex, distance_between
 from teo_signs.errors import PlanError
-from teo_signs.motion_hash import with_alternatives
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, with_alternatives
 from teo_signs.tokens import Token
 
 # A word is made smaller if it takes so many times as long as asked for [1]: halfway to three times, which is

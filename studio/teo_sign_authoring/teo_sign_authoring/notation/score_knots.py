@@ -7,8 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.hand_contact import TOUCH, thumb_gaps, with_clear_thumb
-from teo_description.hand_geometry import hand_table
+from teo_description.hand_geometry import TOUCH, hand_table, thumb_gaps, with_clear_thumb
 from teo_description.humanoid import Side
 from teo_description.robot import Robot
 from teo_sign_authoring.notation.arm_solver import ArmCandidate

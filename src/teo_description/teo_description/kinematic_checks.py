@@ -1,19 +1,39 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Axes, limits and the likeness of left and right."""
+"""Checks of ``robot.yaml`` by kinematics: axes, limits, and the likeness of left and right."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_description.checking.finding import Finding
 from teo_description.humanoid import Humanoid
 from teo_description.robot import Robot
-from teo_description.schema.hand import AXES
+from teo_description.robot_schema import AXES
+
+
+class Finding(NamedTuple):
+    """One thing that was looked at."""
+
+    ok: bool
+    what: str
+    """What should be so."""
+    measured: str
+    """What is so, with units."""
+    field: str
+    """The field of ``robot.yaml`` to look at where it is not."""
+    needed: bool = True
+    """Whether a robot that fails here is not fit to sign; else it is only told."""
+
+    @property
+    def mark(self) -> str:
+        """``ok``, ``note`` or ``FAIL``."""
+        return "ok" if self.ok else "FAIL" if self.needed else "note"
+
 
 # Random postures that left and right are compared in.
 _POSTURES = 200

@@ -1,28 +1,104 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Signs as tables for TEO's PlaybackThread (roboticslab-uc3m/tools, libraries/Playback and YarpPlugins).
-
-One file for each control board that moves. No header; a row for each moment, numbers by spaces: the time [s],
-then the board's axes in its order and units: degrees, and for the fingers of a Dextra hand millimetres
-of tendon. PlaybackThread plays it with `timeIdx 0`, `timeScale 1` and the mask of `playback_mask`. `SIGN.txt`
-beside them says of which language the sign is and for which robot, for which a table has no place.
-"""
+"""Signs as motions in the formats of programs that play motions: play_motion2 and PlaybackThread."""
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import tempfile
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from teo_common.arrays import Array
 from teo_description.hand_setpoints import setpoint_axes
 from teo_description.humanoid import SIDES, load_humanoid
-from teo_description.schema.controllers import Controllers
+from teo_description.robot_schema import Controllers
 from teo_signs.errors import LutError
-from teo_signs.export.sign_motion import SignMotion
+from teo_signs.sign import Sign
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class SignMotion:
+    """A sign from rest to rest. Arrays are read-only.
+
+    Attributes:
+        sign: The entry.
+        limbs: Joints of each of the robot's limbs that moves, in its order; the others stay at rest.
+        times: [s] from 0, evenly spaced. Shape (n,).
+        positions: [rad], a column for each of `joints`. Shape (n, m).
+        start: When the sign itself begins [s].
+        duration: How long the sign itself lasts [s].
+        stretch: Duration over the duration in the table [1].
+    """
+
+    sign: Sign
+    limbs: Mapping[str, tuple[str, ...]]
+    times: Array
+    positions: Array
+    start: float
+    duration: float
+    stretch: float
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Joints of the moving limbs."""
+        return tuple(joint for joints in self.limbs.values() for joint in joints)
+
+    @property
+    def description(self) -> str:
+        """What it is of and what it was made for, in a sentence."""
+        sign = self.sign
+        return (
+            f"{sign.kind} of {sign.language} for {sign.robot}, {sign.provenance.standing}; from rest to "
+            f"rest, the sign from {self.start:.2f} s for {self.duration:.2f} s "
+            f"({self.stretch:.2f} times its time)"
+        )
+
+    def limb(self, name: str) -> Array:
+        """Positions of one moving limb [rad]. Shape (n, joints of the limb)."""
+        columns = [self.joints.index(joint) for joint in self.limbs[name]]
+        return self.positions[:, columns]
+
+
+# A nanoradian: what is written stays within the limits that it stands on.
+_DECIMALS = 9
+
+
+def play_motion2_parameters(motions: Iterable[SignMotion]) -> str:
+    """The text of a parameter file: motions by gloss, joints in radians."""
+    lines = ["play_motion2:", "  ros__parameters:", "    motions:"]
+    for motion in motions:
+        sign = motion.sign
+        rows = [", ".join(map(_number, row)) for row in motion.positions.tolist()]
+        lines += [
+            f"      {_text(sign.gloss)}:",
+            f"        joints: [{', '.join(map(_text, motion.joints))}]",
+            "        positions: [",
+            *(f"          {row}," for row in rows[:-1]),
+            f"          {rows[-1]}]",
+            f"        times_from_start: [{', '.join(map(_number, motion.times.tolist()))}]",
+            "        meta:",
+            f"          name: {_text(sign.gloss)}",
+            f"          usage: {_text('sign')}",
+            f"          description: {_text(motion.description)}",
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def _number(value: float) -> str:
+    return f"{round(value, _DECIMALS) + 0.0:.{_DECIMALS}f}"
+
+
+def _text(value: str) -> str:
+    """A JSON string is a double-quoted YAML scalar."""
+    return json.dumps(value, ensure_ascii=False)
+
 
 # Finer than what TEO's drives count in, 5e-4 deg, and than a tick of a Dextra's encoder.
 _DECIMALS = 4

@@ -1,3 +1,0 @@
-# SPDX-FileCopyrightText: 2026 TEO signing project
-# SPDX-License-Identifier: Apache-2.0
-"""Signs as motions in the formats of programs that play motions."""
