@@ -11,7 +11,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Annotated, Literal, NoReturn
 
 import typer
 from ament_index_python.packages import get_package_share_directory
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 # What is no option of ours is taken for a node, so that the refusal can name --ros-args.
 _app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
 _SETTINGS = {"ignore_unknown_options": True}
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 # Arguments that `up` and the launch files have in common, and what they mean.
 _MEANINGS = {
@@ -50,19 +52,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
     ours = list(sys.argv[1:] if arguments is None else arguments)
     start = ours.index("--ros-args") if "--ros-args" in ours else len(ours)
     _app(ours[:start], prog_name="up", obj=ours[start:])
-
-
-class Asked(NamedTuple):
-    """What the command line asks for."""
-
-    nodes: list[str]
-    """Names of nodes."""
-    for_nodes: list[str]
-    """Arguments that every node gets."""
-    restarts: bool
-    """Whether a node that fails is started again."""
-    log_folder: Path
-    """Where each node's output is kept."""
 
 
 def _known(nodes: list[str] | None) -> list[str]:
@@ -126,42 +115,44 @@ def _up(
         for_nodes += ["-p", f"language:={language}"]
     if use_sim_time:
         for_nodes += ["-p", "use_sim_time:=true"]
-    asked = Asked(
+    status = _run(
         nodes=nodes or [],
         for_nodes=[*for_nodes, *context.obj],
         restarts=restart == "on-failure",
         log_folder=log_folder or _log_folder(),
     )
-    raise typer.Exit(run(asked))
+    raise typer.Exit(status)
 
 
-def run(asked: Asked) -> int:
+def _run(*, nodes: list[str], for_nodes: list[str], restarts: bool, log_folder: Path) -> int:
     """Run nodes until told to end (0) or one ends for good (its status)."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in _SIGNALS:
         signal.signal(number, _raise_told_to_end)
     try:
-        return _keep_up(asked)
+        with Graph(log_folder, printed=True) as graph:
+            return _keep_up(graph, log_folder, nodes, for_nodes, restarts=restarts)
     except GraphError as error:
         sys.exit(f"up: {error}")
     except OSError as error:  # of the log folder
-        sys.exit(f"up: expected to write logs in {asked.log_folder}: {error.strerror}; choose a --log-folder")
+        sys.exit(f"up: expected to write logs in {log_folder}: {error.strerror}; choose a --log-folder")
 
 
-def _keep_up(asked: Asked) -> int:
-    with Graph(asked.log_folder, printed=True) as graph:
-        try:
-            print(f"[up] each node's log is in {asked.log_folder}/", file=sys.stderr, flush=True)
-            graph.start_nodes(asked.nodes, asked.for_nodes)
-            name, status = graph.keep_up(restarts=asked.restarts, when_ready=_say_ready)
-        except _ToldToEndError as told:
-            graph.tell_to_end(signal.SIGTERM if told.number == signal.SIGHUP else told.number)
-            return 0
-        finally:
-            # A second Ctrl-C must not keep us from stopping everything.
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-                signal.signal(number, signal.SIG_IGN)
-        print(f"[up] {name} ended with status {status}; stopping the others", file=sys.stderr, flush=True)
-        return status if status >= 0 else 128 - status  # as a shell tells the death by a signal
+def _keep_up(
+    graph: Graph, log_folder: Path, nodes: list[str], for_nodes: list[str], *, restarts: bool
+) -> int:
+    try:
+        print(f"[up] each node's log is in {log_folder}/", file=sys.stderr, flush=True)
+        graph.start_nodes(nodes, for_nodes)
+        name, status = graph.keep_up(restarts=restarts, when_ready=_say_ready)
+    except _ToldToEndError as told:
+        graph.tell_to_end(signal.SIGTERM if told.number == signal.SIGHUP else told.number)
+        return 0
+    finally:
+        # A second Ctrl-C must not keep us from stopping everything.
+        for number in _SIGNALS:
+            signal.signal(number, signal.SIG_IGN)
+    print(f"[up] {name} ended with status {status}; stopping the others", file=sys.stderr, flush=True)
+    return status if status >= 0 else 128 - status  # as a shell tells the death by a signal
 
 
 def _say_ready() -> None:

@@ -15,12 +15,13 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from teo_bringup.graph import NODES, Graph, GraphError, executable_of
+from teo_bringup.graph import Graph, GraphError, executable_of
 from teo_bringup.supervised_process import MOST_RESTARTS
-from teo_bringup.up import Asked, main
+from teo_bringup.up import main
 from teo_common.node_process import tell_supervisor
 
 PATIENCE = 120.0  # [s] for a Python process to start on a loaded machine
@@ -56,11 +57,6 @@ def wait_for(text: str, path: Path) -> None:
         time.sleep(0.02)
 
 
-def test_every_node_that_signs_is_installed() -> None:
-    for package, executable in NODES.values():
-        assert executable_of(package, executable).is_file()
-
-
 def test_a_package_or_executable_that_is_not_there_is_named() -> None:
     with pytest.raises(GraphError, match="teo_nowhere"):
         executable_of("teo_nowhere", "node")
@@ -68,56 +64,38 @@ def test_a_package_or_executable_that_is_not_there_is_named() -> None:
         executable_of("teo_bringup", "no_such_node")
 
 
-def test_the_block_ends_with_one_sigint_for_each_process(tmp_path: Path) -> None:
+@pytest.mark.parametrize("number", [None, signal.SIGTERM], ids=["at the block's end", "passed on"])
+def test_every_process_gets_one_signal_to_end_and_no_other(
+    number: signal.Signals | None, tmp_path: Path
+) -> None:
+    names = ("one", "other")
     with Graph(tmp_path) as graph:
-        graph.start("one", *python(LISTENER))
-        graph.start("other", *python(LISTENER))
-        for name in ("one", "other"):
+        for name in names:
+            graph.start(name, *python(LISTENER))
+        for name in names:
             wait_for("ready", tmp_path / f"{name}.log")
-    for name in ("one", "other"):
-        assert (tmp_path / f"{name}.log").read_text().split() == ["ready", "got", "SIGINT"]
+        if number is not None:
+            graph.tell_to_end(number)
+            assert graph.stop("one") == 7
+    for name in names:
+        said = (tmp_path / f"{name}.log").read_text().split()
+        assert said == ["ready", "got", (number or signal.SIGINT).name]
 
 
-def test_a_signal_that_was_passed_on_is_not_followed_by_another(tmp_path: Path) -> None:
-    with Graph(tmp_path) as graph:
-        graph.start("one", *python(LISTENER))
-        wait_for("ready", tmp_path / "one.log")
-        graph.tell_to_end(signal.SIGTERM)
-        assert graph.stop("one") == 7
-    assert (tmp_path / "one.log").read_text().split() == ["ready", "got", "SIGTERM"]
-
-
-def test_it_waits_for_the_first_that_ends_and_gives_its_status(tmp_path: Path) -> None:
-    with Graph(tmp_path) as graph:
-        graph.start("patient", *python(LISTENER))
-        graph.start("hasty", *python("import sys; sys.exit(3)"))
-        assert graph.wait() == ("hasty", 3)
-
-
-def test_checking_tells_what_an_ended_process_said(tmp_path: Path) -> None:
-    with Graph(tmp_path) as graph:
-        graph.start("hasty", *python("import sys; sys.exit('no look-up table')"))
-        graph.wait()
-        with pytest.raises(GraphError, match=r"hasty .* status 1(.|\n)*no look-up table"):
-            graph.check()
-
-
-def test_each_line_is_printed_with_its_process_and_kept_in_its_log(
+def test_the_first_that_ends_is_named_with_its_status_and_what_it_said(
     capfd: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
+    (tmp_path / "hasty.log").write_text("of an earlier run\n")
     with Graph(tmp_path, printed=True) as graph:
-        graph.start("one", *python("print('first\\nsecond')"))
-        graph.wait()
-    assert capfd.readouterr().out.splitlines() == ["[one] first", "[one] second"]
-    assert (tmp_path / "one.log").read_text() == "first\nsecond\n"
-
-
-def test_a_log_of_an_earlier_run_is_not_added_to(tmp_path: Path) -> None:
-    (tmp_path / "one.log").write_text("long ago\n")
-    with Graph(tmp_path) as graph:
-        graph.start("one", *python("print('now')"))
-        graph.wait()
-        assert graph.tail("one") == "now"
+        graph.start("patient", *python(LISTENER))
+        graph.start("hasty", *python("import sys; print('first', flush=True); sys.exit('no look-up table')"))
+        assert graph.wait() == ("hasty", 1)
+        with pytest.raises(GraphError, match=r"hasty .* status 1(.|\n)*no look-up table"):
+            graph.check()
+        assert graph.tail("hasty", 1) == "no look-up table"
+    assert (tmp_path / "hasty.log").read_text() == "first\nno look-up table\n"
+    printed = [line for line in capfd.readouterr().out.splitlines() if "hasty" in line]
+    assert printed == ["[hasty] first", "[hasty] no look-up table"]
 
 
 def test_a_process_is_ready_when_it_says_so_and_not_before(tmp_path: Path) -> None:
@@ -254,12 +232,12 @@ def test_up_ends_with_the_status_of_the_first_node_that_fails(tmp_path: Path) ->
 
 
 @pytest.fixture
-def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Asked]:
-    """What `up` would do for a command line."""
-    kept: list[Asked] = []
-    monkeypatch.setattr("teo_bringup.up.run", kept.append)
+def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[str, Any]]:
+    """What `up` would run for a command line."""
+    kept: list[dict[str, Any]] = []
+    monkeypatch.setattr("teo_bringup.up._run", lambda **asked: kept.append(asked))
 
-    def ask(*arguments: str) -> Asked:
+    def ask(*arguments: str) -> dict[str, Any]:
         with pytest.raises(SystemExit):
             main(arguments)
         return kept[-1]
@@ -267,28 +245,24 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Asked]:
     return ask
 
 
-def test_up_hands_namespace_clock_and_what_follows_on_to_every_node(asked: Callable[..., Asked]) -> None:
-    given = asked("--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256").for_nodes
-    assert given[:2] == ["--ros-args", "--params-file"]
-    ours, theirs = given[3:7], given[7:]
-    assert ours == ["-r", "__ns:=/left", "-p", "use_sim_time:=true"]
-    assert theirs == ["--ros-args", "-p", "model:=lstm256"]
-    assert asked().for_nodes[3:] == []
-
-
-def test_up_starts_what_is_named_each_once_and_what_signs_if_nothing_is(asked: Callable[..., Asked]) -> None:
-    assert asked().nodes == ["translator", "executor", "driver"]
-    assert asked("driver", "console", "driver").nodes == ["driver", "console"]
-
-
-def test_up_keeps_logs_where_ros_does(
-    asked: Callable[..., Asked], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+def test_up_starts_each_node_once_with_all_that_is_for_every_node(
+    asked: Callable[..., dict[str, Any]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "logs"))
-    assert asked().log_folder.parent == tmp_path / "logs"
+    shared = ("--namespace", "/left/", "--use-sim-time", "--ros-args", "-p", "model:=lstm256")
+    given = asked("driver", "console", "driver", *shared)
+    assert given["nodes"] == ["driver", "console"]
+    assert given["log_folder"].parent == tmp_path / "logs"
+    assert given["for_nodes"][:2] == ["--ros-args", "--params-file"]
+    ours, theirs = given["for_nodes"][3:7], given["for_nodes"][7:]
+    assert ours == ["-r", "__ns:=/left", "-p", "use_sim_time:=true"]
+    assert theirs == ["--ros-args", "-p", "model:=lstm256"]
     monkeypatch.delenv("ROS_LOG_DIR")
     monkeypatch.setenv("ROS_HOME", str(tmp_path))
-    assert asked().log_folder.parent == tmp_path / "log"
+    usual = asked()
+    assert usual["nodes"] == ["translator", "executor", "driver"]
+    assert usual["for_nodes"][3:] == []
+    assert usual["log_folder"].parent == tmp_path / "log"
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import ast
 import runpy
 import sys
 from pathlib import Path
@@ -13,8 +12,9 @@ from typing import Any
 
 import pytest
 
-SOURCES = Path(__file__).parents[2]
-LAUNCH_FILES = sorted((SOURCES / "teo_bringup" / "launch").glob("*.launch.py"))
+from teo_bringup.graph import executable_of
+
+LAUNCH_FILES = sorted((Path(__file__).parents[1] / "launch").glob("*.launch.py"))
 
 
 class Recorded:
@@ -69,52 +69,22 @@ def actions(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> 
     return list(entities)
 
 
-def executables_of(package: str) -> set[str]:
-    """Names of the console scripts in a package's setup.py."""
-    tree = ast.parse((SOURCES / package / "setup.py").read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Dict):
-            for key, value in zip(node.keys, node.values, strict=True):
-                if isinstance(key, ast.Constant) and key.value == "console_scripts":
-                    return {script.split("=")[0].strip() for script in ast.literal_eval(value)}
-    raise AssertionError(f"no console_scripts in setup.py of {package}")
-
-
-def test_every_node_is_an_executable_of_its_package(actions: list[Recorded]) -> None:
-    nodes = [action for action in actions if isinstance(action, Node)]
-    assert nodes
-    for node in nodes:
-        assert node.keywords["executable"] in executables_of(node.keywords["package"])
-
-
-def test_one_node_that_ends_ends_all(actions: list[Recorded]) -> None:
-    for node in actions:
-        if isinstance(node, Node):
-            assert isinstance(node.keywords["on_exit"], Shutdown)
-
-
-def test_every_configuration_is_declared_and_the_parameter_file_is_there(actions: list[Recorded]) -> None:
+def test_every_node_is_installed_takes_what_is_declared_and_ends_all_with_it(actions: list[Recorded]) -> None:
     declared = {
         action.arguments[0]: action.keywords["default_value"]
         for action in actions
         if isinstance(action, DeclareLaunchArgument)
     }
     assert Path(declared["params_file"]).is_file()
-    nodes = [node for node in actions if isinstance(node, Node)]
-    used = {
-        value.arguments[0]
-        for node in nodes
-        for given in (node.keywords["namespace"], *node.keywords["parameters"])
-        for value in (given.values() if isinstance(given, dict) else [given])
-        if isinstance(value, LaunchConfiguration)
-    }
-    assert used == set(declared)
+    nodes = [action.keywords for action in actions if isinstance(action, Node)]
+    assert nodes
+    for node in nodes:
+        assert executable_of(node["package"], node["executable"]).is_file()
+        assert isinstance(node["on_exit"], Shutdown)
+        given = [node["namespace"], node["parameters"][0], *node["parameters"][1].values()]
+        assert {value.arguments[0] for value in given} == set(declared)
 
 
 def test_there_is_one_for_signing_seeing_learning_and_showing() -> None:
-    assert [path.name for path in LAUNCH_FILES] == [
-        "capture.launch.py",
-        "console.launch.py",
-        "retriever.launch.py",
-        "signing.launch.py",
-    ]
+    names = [path.name.removesuffix(".launch.py") for path in LAUNCH_FILES]
+    assert names == ["capture", "console", "retriever", "signing"]

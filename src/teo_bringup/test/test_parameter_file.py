@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator
+from itertools import cycle
 from pathlib import Path
 
 import pytest
@@ -18,11 +19,8 @@ from rclpy.node import Node
 from teo_common.parameters import declare_parameters
 
 
-def test_it_is_what_the_tables_give() -> None:
+def test_it_is_what_the_script_writes_and_holds_every_parameter_with_its_default() -> None:
     assert FILE.read_text(encoding="utf-8") == parameter_file(), "run python scripts/parameter_file.py"
-
-
-def test_it_holds_every_parameter_with_its_default() -> None:
     values = yaml.safe_load(FILE.read_text(encoding="utf-8"))
     for node, (module, attribute) in TABLES.items():
         rows = getattr(importlib.import_module(module), attribute)
@@ -40,8 +38,7 @@ def context(domain_id: int) -> Iterator[Context]:
     rclpy.shutdown(context=context)
 
 
-@pytest.mark.parametrize("node", TABLES)
-@pytest.mark.parametrize("namespace", ["", "/lab/teo"])
+@pytest.mark.parametrize(("node", "namespace"), zip(TABLES, cycle(["", "/lab/teo"]), strict=False))
 def test_a_node_takes_a_changed_value_from_it_in_any_namespace(
     context: Context, tmp_path: Path, node: str, namespace: str
 ) -> None:

@@ -6,8 +6,11 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from importlib.metadata import entry_points
+from importlib.util import find_spec
+from pathlib import Path
 
-import pytest
+from ament_index_python.packages import get_package_prefix
 from package_folders import FOLDERS
 
 COMMANDS = {
@@ -25,10 +28,18 @@ main()
 """
 
 
-@pytest.mark.parametrize(("package", "name"), [(p, name) for p, names in COMMANDS.items() for name in names])
-def test_a_command_of_the_studio_runs_under_the_name_of_a_package_that_runs(package: str, name: str) -> None:
-    assert FOLDERS[package].parent.name == "src"
-    command = ["ros2", "run", package, name, "--help"]
+def test_every_command_of_the_studio_is_offered_under_the_name_of_a_package_that_runs() -> None:
+    for package, names in COMMANDS.items():
+        assert FOLDERS[package].parent.name == "src"
+        for name in names:
+            assert (Path(get_package_prefix(package)) / "lib" / package / name).is_file()
+            (point,) = entry_points(group="teo.commands", name=name)
+            assert FOLDERS[point.module.partition(".")[0]].parent.name == "studio"
+            assert find_spec(point.module) is not None
+
+
+def test_a_command_of_the_studio_runs() -> None:
+    command = ["ros2", "run", "teo_sign_translator", "generate_corpus", "--help"]
     said = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert said.returncode == 0, said.stderr
     assert "usage" in said.stdout.lower()

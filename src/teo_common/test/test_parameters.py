@@ -34,10 +34,10 @@ BEYOND = [
 ]
 
 
-@pytest.fixture
-def node(domain_id: int) -> Iterator[Node]:
+@pytest.fixture(scope="module")
+def node(module_domain_id: int) -> Iterator[Node]:
     context = Context()
-    rclpy.init(context=context, domain_id=domain_id)
+    rclpy.init(context=context, domain_id=module_domain_id)
     node = Node("parameters", context=context)
     declare_parameters(node, ROWS)
     yield node

@@ -57,15 +57,6 @@ def test_hands_that_meet_are_a_collision_of_both(robot):
     assert "Right" in found.second
 
 
-def test_clearance_shrinks_to_nothing_as_the_hand_nears_the_chest(robot):
-    distances = [
-        robot.clearance(robot.configuration(arms(REST, (shoulder, 0, 57.0, -99.6, 0, 0)))).distance
-        for shoulder in np.linspace(-60, 10, 15)
-    ]
-    assert distances[0] > 0.03
-    assert min(distances) < 0.0
-
-
 @pytest.mark.parametrize("head_alone", [False, True])
 def test_clearance_is_the_smallest_over_all_pairs(robot, random_positions, head_alone):
     """The short cut by bounding spheres against every pair measured one by one."""

@@ -115,15 +115,3 @@ def test_shoulders_and_soles_are_where_the_published_lengths_put_them_at_home(ro
     # The Lacquey tool point of the configuration files, 97.5 mm beyond the plate, is at z = -0.2333.
     assert robot.placement(q, "right_sensor_plate")[2, 3] - 0.0975 == pytest.approx(-0.2333, abs=1e-4)
     assert robot.placement(q, "left_sole")[2, 3] == pytest.approx(-0.845, abs=1e-4)
-
-
-def test_negative_elbow_brings_the_forearm_forward_and_up(robot):
-    for side in ("Left", "Right"):
-        q = robot.configuration({f"Frontal{side}Elbow": -np.pi / 2})
-        forward = robot.placement(q, f"Frontal{side}Wrist_link")[:3, 3]
-        assert forward == pytest.approx([0.215, 0.34692 * (1 if side == "Left" else -1), 0.4982 - 0.32901])
-
-
-def test_positive_trunk_bows_forward(robot):
-    q = robot.configuration({"FrontalTrunk": 0.5})
-    assert robot.placement(q, "FrontalNeck_link")[0, 3] > 0.2

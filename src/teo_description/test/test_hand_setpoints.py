@@ -29,11 +29,6 @@ def test_the_joint_limits_are_the_ends_of_the_devices_ranges():
     np.testing.assert_allclose(hand_setpoints(TEO, limits.upper), [90.0, 10.0, *[20.0] * 4] * 2, atol=1e-9)
 
 
-def test_at_home_the_fingers_tendons_are_slack_and_the_thumbs_wound_by_a_third():
-    home = np.array([HOME[name] for name in HANDS])
-    np.testing.assert_allclose(hand_setpoints(TEO, home), HOME_SETPOINTS * 2, atol=1e-9)
-
-
 @pytest.mark.parametrize("degrees", [6.9, 85.1, math.nan, math.inf])
 def test_an_angle_outside_the_range_is_refused(degrees):
     positions = np.array([HOME[name] for name in HANDS])

@@ -37,12 +37,3 @@ def test_normals_are_unit_and_point_outwards(name):
     made, _ = SOLIDS[name]
     assert np.linalg.norm(made.normals, axis=1) == pytest.approx(1.0)
     assert (np.einsum("ij,ij->i", made.normals, made.vertices) > 0).all()
-
-
-def test_joined_and_moved_meshes_keep_their_triangles():
-    one, other = SOLIDS["box"][0], SOLIDS["sphere"][0]
-    both = mesh.joined(one, mesh.moved(other, np.eye(3), np.array([1.0, 0.0, 0.0])))
-    assert len(both.triangles) == len(one.triangles) + len(other.triangles)
-    assert both.vertices[both.triangles[-1]] == pytest.approx(
-        other.vertices[other.triangles[-1]] + [1.0, 0.0, 0.0]
-    )

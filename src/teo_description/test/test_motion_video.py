@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
+
 import av
 import numpy as np
 import pytest
@@ -15,30 +17,20 @@ def frames(count, height=48, width=64):
         yield np.full((height, width, 3), 20 * index % 256, np.uint8)
 
 
-def test_film_plays_with_every_frame_in_order(tmp_path):
+def test_film_plays_with_every_frame_in_order_for_as_long_as_they_last(tmp_path):
     path = tmp_path / "motion.mp4"
-    assert write_video(path, frames(10), frames_per_second=25.0) == 10
+    with MotionVideo(path, frames_per_second=12.5) as video:
+        for frame in frames(10):
+            video.add(frame)
+        assert not path.exists(), "it appears when it is whole"
+    assert [file.name for file in tmp_path.iterdir()] == ["motion.mp4"]
     with av.open(str(path)) as container:
         stream = container.streams.video[0]
         assert (stream.codec_context.name, stream.pix_fmt) == ("h264", "yuv420p")
-        assert (stream.width, stream.height, float(stream.average_rate)) == (64, 48, 25.0)
+        assert (stream.width, stream.height, float(stream.average_rate)) == (64, 48, 12.5)
+        assert container.duration / av.time_base == pytest.approx(10 / 12.5, abs=0.05)
         decoded = [frame.to_ndarray(format="rgb24").mean() for frame in container.decode(stream)]
     assert decoded == pytest.approx([20 * index for index in range(10)], abs=4)
-
-
-def test_film_lasts_as_long_as_its_frames(tmp_path):
-    write_video(tmp_path / "motion.mp4", frames(30), frames_per_second=12.5)
-    with av.open(str(tmp_path / "motion.mp4")) as container:
-        assert container.duration / av.time_base == pytest.approx(30 / 12.5, abs=0.05)
-
-
-def test_film_appears_only_when_it_is_whole(tmp_path):
-    path = tmp_path / "motion.mp4"
-    with MotionVideo(path) as video:
-        for frame in frames(3):
-            video.add(frame)
-        assert not path.exists()
-    assert [file.name for file in tmp_path.iterdir()] == ["motion.mp4"]
 
 
 def test_a_failure_leaves_no_file_and_keeps_an_older_one(tmp_path):
@@ -51,37 +43,32 @@ def test_a_failure_leaves_no_file_and_keeps_an_older_one(tmp_path):
     assert len(list(tmp_path.iterdir())) == 1
 
 
-def test_a_film_without_frames_is_refused_and_not_written(tmp_path):
+@pytest.mark.parametrize(
+    ("shapes", "code"),
+    [
+        ([], "empty_motion"),
+        *(([shape], "wrong_shape") for shape in ((47, 64, 3), (48, 63, 3), (48, 64), (48, 64, 4))),
+        ([(48, 64, 3), (96, 64, 3)], "wrong_shape"),
+    ],
+)
+def test_frames_that_video_cannot_hold_are_refused_and_leave_no_file(tmp_path, shapes, code):
     with pytest.raises(DescriptionError) as caught:
-        write_video(tmp_path / "motion.mp4", [])
-    assert caught.value.code == "empty_motion"
+        write_video(tmp_path / "motion.mp4", [np.zeros(shape, np.uint8) for shape in shapes])
+    assert caught.value.code == code
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("shape", [(47, 64, 3), (48, 63, 3), (48, 64), (48, 64, 4)])
-def test_frames_that_video_cannot_hold_are_refused(tmp_path, shape):
+@pytest.mark.parametrize(
+    ("path", "rate", "code"),
+    [
+        *(("m.mp4", rate, "bad_rate") for rate in (0.0, -25.0, math.nan, 1e9)),
+        ("no/m.mp4", 25.0, "missing_folder"),
+    ],
+)
+def test_impossible_rates_and_folders_are_refused(tmp_path, path, rate, code):
     with pytest.raises(DescriptionError) as caught:
-        write_video(tmp_path / "motion.mp4", [np.zeros(shape, np.uint8)])
-    assert caught.value.code == "wrong_shape"
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_frame_of_another_size_is_refused(tmp_path):
-    with pytest.raises(DescriptionError, match=r"\(48, 64, 3\)"):
-        write_video(tmp_path / "motion.mp4", [*frames(2), *frames(1, height=96)])
-
-
-@pytest.mark.parametrize("rate", [0.0, -25.0, float("nan"), 1e9])
-def test_impossible_rates_are_refused(tmp_path, rate):
-    with pytest.raises(DescriptionError) as caught:
-        MotionVideo(tmp_path / "motion.mp4", frames_per_second=rate)
-    assert caught.value.code == "bad_rate"
-
-
-def test_a_missing_folder_is_named(tmp_path):
-    with pytest.raises(DescriptionError, match="nowhere") as caught:
-        MotionVideo(tmp_path / "nowhere" / "motion.mp4")
-    assert caught.value.code == "missing_folder"
+        MotionVideo(tmp_path / path, frames_per_second=rate)
+    assert caught.value.code == code
 
 
 def test_captions_that_run_out_leave_the_rest_without(tmp_path):
@@ -132,9 +119,7 @@ class TestFilmStrip:
         assert (strip[4:52, 72:136] == 20).all()
         assert (strip[108:156, 4:68] == 80).all()
         assert (strip[108:156, 72:136] == 255).all()
-
-    def test_few_frames_make_a_short_row(self):
-        assert film_strip(list(frames(2)), columns=6).shape == (56, 2 * 64 + 12, 3)
+        assert film_strip(list(frames(2)), columns=6).shape == (56, 2 * 64 + 12, 3), "a short row"
 
     def test_captions_go_on_their_frames(self):
         strip = film_strip(list(frames(2, 240, 320)), ["", "A"], columns=1)

@@ -11,17 +11,15 @@ from teo_description.pictures import render_cli
 PLAN = "time,FrontalRightElbow\n0.0,0.0\n0.4,-0.3\n"
 
 
-def run(monkeypatch, capsys, main, *arguments):
-    monkeypatch.setattr("sys.argv", ["render", *map(str, arguments)])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    output = capsys.readouterr()
-    return ended.value.code, output.out, output.err
-
-
 @pytest.fixture
 def render(monkeypatch, capsys):
-    return lambda *arguments: run(monkeypatch, capsys, render_cli.main, *arguments)
+    def run(*arguments):
+        monkeypatch.setattr("sys.argv", ["render", *map(str, arguments)])
+        with pytest.raises(SystemExit) as ended:
+            render_cli.main()
+        return ended.value.code, capsys.readouterr().err
+
+    return run
 
 
 @pytest.fixture
@@ -33,24 +31,15 @@ def plan(tmp_path):
 
 def test_a_pose_becomes_a_picture(render, tmp_path):
     out = tmp_path / "pose.png"
-    code, _, said = render(
-        "--pose",
-        "FrontalRightElbow=-90deg",
-        "AxialNeck=0.2",
-        "--out",
-        out,
-        "--camera",
-        "full",
-        "--size",
-        "320x240",
-    )
+    pose = ("--pose", "FrontalRightElbow=-90deg", "AxialNeck=0.2")
+    code, said = render(*pose, "--out", out, "--camera", "full", "--size", "320x240")
     assert (code, str(out) in said.replace("\n", "")) == (0, True)
     assert cv2.imread(str(out)).shape == (240, 320, 3)
 
 
 def test_a_plan_becomes_a_film_and_a_strip(render, plan, tmp_path):
     film, strip = tmp_path / "motion.mp4", tmp_path / "motion.png"
-    code, _, _ = render(
+    code, _ = render(
         "--csv", plan, "--mp4", film, "--strip", strip, "--size", "160x120", "--moments", 4, "--columns", 2
     )
     assert code == 0
@@ -81,7 +70,7 @@ def test_a_plan_becomes_a_film_and_a_strip(render, plan, tmp_path):
 def test_mistakes_end_with_a_sentence_and_no_picture(render, plan, monkeypatch, arguments, code, says):
     monkeypatch.chdir(plan.parent)
     (plan.parent / "empty.csv").write_text("")
-    ended, _, said = render(*arguments)
+    ended, said = render(*arguments)
     assert ended == code
     assert says in said.replace("\n", " ")
     assert "Traceback" not in said

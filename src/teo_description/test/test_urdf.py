@@ -8,12 +8,10 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-import teo_names
 from teo_description import DescriptionError
 from teo_description.humanoid import urdf_hash
 from teo_names import (
     ALL_JOINTS,
-    COMMANDED_JOINTS,
     HOME,
     LEFT_HAND,
     RIGHT_HAND,
@@ -95,16 +93,6 @@ def test_limits_of_an_unknown_or_following_joint_are_refused():
         joint_limits(("RightIndexFingerMiddle",))
 
 
-def test_groups_hold_every_joint_once():
-    groups = [
-        getattr(teo_names, name)
-        for part in ("HEAD", "TRUNK", "{}_ARM", "{}_HAND", "LEG_JOINTS")
-        for name in dict.fromkeys(part.format(side) for side in ("LEFT", "RIGHT"))
-    ]
-    assert tuple(name for group in groups for name in group) == ALL_JOINTS
-    assert (len(COMMANDED_JOINTS), len(set(ALL_JOINTS))) == (28, 40)
-
-
 def test_home_is_within_limits_and_names_every_joint():
     limits = joint_limits(ALL_JOINTS)
     home = np.array([HOME[name] for name in ALL_JOINTS])
@@ -116,17 +104,6 @@ def test_home_is_within_limits_and_names_every_joint():
     thumbs = {"LeftThumbFinger", "RightThumbFinger"}
     assert {HOME[name] for name in thumbs} == {math.radians(-30.0)}
     assert {HOME[name] for name in set(ALL_JOINTS) - fingers - thumbs} == {0.0}
-
-
-def test_robot_is_a_tree_from_base_link(tree):
-    links = {link.attrib["name"] for link in tree.iter("link")}
-    parents = {
-        joint.find("child").attrib["link"]: joint.find("parent").attrib["link"]
-        for joint in tree.iter("joint")
-    }
-    assert tree.attrib["name"] == "teo"
-    assert links - parents.keys() == {"base_link"}
-    assert parents.keys() | set(parents.values()) == links
 
 
 def test_every_joint_of_the_state_is_in_the_urdf_and_only_phalanges_follow(tree):

@@ -25,38 +25,32 @@ def lexical(gloss: str) -> Token:
     return Token(gloss=gloss)
 
 
-def test_a_sign_of_the_table_is_taken(table: Mapping[str, Sign]) -> None:
-    assert resolved(table, lexical("TÚ"), Token(gloss="7", kind=Kind.NUMBER)) == [("TÚ", "TÚ"), ("7", "7")]
-
-
-def test_a_missing_gloss_is_spelled_by_the_longest_letters(table: Mapping[str, Sign]) -> None:
-    assert resolved(table, lexical("CALLÁ")) == [(name, name) for name in ("C", "A", "LL", "A")]
+@pytest.mark.parametrize(
+    ("token", "glosses", "signs"),
+    [
+        (lexical("TÚ"), "TÚ", "TÚ"),
+        (Token(gloss="7", kind=Kind.NUMBER), "7", "7"),
+        (lexical("CALLÁ"), "C A LL A", "C A LL A"),  # the longest letters first
+        (lexical("CAÑA"), "C A Ñ A", "C A Ñ A"),  # the tilde of ñ is no accent
+        (lexical("LA 17"), "L A  1 7", "L A pause 1 7"),
+        (Token(gloss="171", kind=Kind.NUMBER), "1 7 1", "1 7 1"),
+        (Token(gloss="Á", kind=Kind.LETTER), "Á", "A"),
+    ],
+)
+def test_a_token_is_the_tables_sign_or_is_spelled(
+    table: Mapping[str, Sign], token: Token, glosses: str, signs: str
+) -> None:
+    assert resolved(table, token) == list(zip(glosses.split(" "), signs.split(" "), strict=True))
 
 
 def test_letters_of_a_missing_gloss_keep_what_the_token_said(table: Mapping[str, Sign]) -> None:
+    (item,) = Lexicon(table).resolve([lexical("A")])
+    assert item.token.kind == Kind.LETTER, "no word of that name"
     token = Token(gloss="LANA", confidence=0.5, duration_scale=2.0, word_index=3, source_words=("Lana",))
     for item in Lexicon(table).resolve([token]):
         kept = item.token
         assert (kept.kind, kept.confidence, kept.duration_scale) == (Kind.LETTER, 0.5, 2.0)
         assert (kept.word_index, kept.source_words) == (3, ("Lana",))
-
-
-def test_the_tilde_of_ene_is_no_accent(table: Mapping[str, Sign]) -> None:
-    assert resolved(table, lexical("CAÑA"))[2] == ("Ñ", "Ñ")
-
-
-def test_a_blank_in_a_missing_gloss_is_a_pause_and_digits_are_numbers(table: Mapping[str, Sign]) -> None:
-    assert resolved(table, lexical("LA 17")) == [
-        ("L", "L"),
-        ("A", "A"),
-        ("", "pause"),
-        ("1", "1"),
-        ("7", "7"),
-    ]
-
-
-def test_a_long_number_is_signed_digit_by_digit(table: Mapping[str, Sign]) -> None:
-    assert resolved(table, Token(gloss="171", kind=Kind.NUMBER)) == [("1", "1"), ("7", "7"), ("1", "1")]
 
 
 def digits(text: str, *, word: int = 0) -> list[Token]:
@@ -126,15 +120,6 @@ def test_a_token_is_made_in_the_form_that_it_asks_for_if_the_sign_has_it(table: 
     )
     assert form is not None and form.knots is moved.knots
     assert other is signs["TÚ"] and citation is signs["TÚ"]
-
-
-def test_a_letter_is_not_taken_for_a_sign_of_the_same_name(table: Mapping[str, Sign]) -> None:
-    (item,) = Lexicon(table).resolve([lexical("A")])
-    assert item.token.kind == Kind.LETTER
-
-
-def test_an_accented_letter_is_signed_without(table: Mapping[str, Sign]) -> None:
-    assert resolved(table, Token(gloss="Á", kind=Kind.LETTER)) == [("Á", "A")]
 
 
 @pytest.mark.parametrize(

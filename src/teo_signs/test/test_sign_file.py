@@ -69,19 +69,21 @@ def test_a_good_entry_is_read_as_it_says() -> None:
     assert sign.duration == 0.5
     assert sign.provenance.licence == "Apache-2.0"
     assert sign.quality == {"error_mm": 3.5}
+    assert not sign.forms
+    assert not sign.alternatives
+    assert "forms" not in format_sign(sign)
+    for array in (sign.knots, sign.times):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    # The same name in another Unicode form.
+    assert parse_sign(json.dumps(entry()), file=unicodedata.normalize("NFD", "TÚ.json")).gloss == "TÚ"
 
 
-def test_arrays_of_a_sign_cannot_be_changed() -> None:
-    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
-    with pytest.raises(ValueError, match="read-only"):
-        sign.knots[0, 0] = 1.0
-    with pytest.raises(ValueError, match="read-only"):
-        sign.times[0] = 1.0
-
-
-def test_a_single_knot_is_a_sign() -> None:
-    content = changed(lambda c: c.update(times=[0], knots=[[-0.5, 0.2]]))
-    assert parse_sign(json.dumps(content), file="TÚ.json").duration == 0.0
+def test_a_sign_may_have_a_single_knot_and_be_on_a_limit() -> None:
+    lower = float(joint_limits(("FrontalRightElbow",)).lower[0])
+    for value in (lower, round(lower, 6)):
+        content = changed(lambda c, value=value: c.update(times=[0], knots=[[value, 0.2]]))
+        assert parse_sign(json.dumps(content), file="TÚ.json").duration == 0.0
 
 
 WRONG = [
@@ -156,21 +158,8 @@ def test_a_spoiled_entry_is_refused_with_file_field_and_reason(
     assert str(error).startswith(f"TÚ.json: {field}: expected " if field else "TÚ.json: expected ")
     assert ", got " in str(error)
     assert len(str(error)) < 1000
-
-
-def test_every_joint_name_appears_where_one_is_not_known() -> None:
-    message = str(refusal(changed(lambda c: c.update(joints=["FrontalRightElbow", "x"]))))
-    assert all(joint in message for joint in COMMANDED_JOINTS)
-
-
-def test_a_knot_may_be_on_its_limit() -> None:
-    lower = float(joint_limits(("FrontalRightElbow",)).lower[0])
-    content = changed(lambda c: c.update(knots=[[lower, 0.2], [round(lower, 6), 0.2]]))
-    parse_sign(json.dumps(content), file="TÚ.json")
-
-
-def test_a_file_name_in_decomposed_unicode_is_the_same_name() -> None:
-    parse_sign(json.dumps(entry()), file=unicodedata.normalize("NFD", "TÚ.json"))
+    if code == "unknown_joint":
+        assert all(joint in str(error) for joint in COMMANDED_JOINTS)
 
 
 def test_a_file_that_cannot_be_read_says_so(tmp_path: Path) -> None:
@@ -237,7 +226,6 @@ def test_alternatives_are_kept_and_an_entry_without_them_has_none(tmp_path: Path
     np.testing.assert_array_equal(kept.alternatives[0], [[-0.4, 0.3], [-0.9, 0.3]])
     assert not kept.alternatives[0].flags.writeable
     assert sign_warnings(kept) == sign_warnings(parse_sign(json.dumps(entry()), file="TÚ.json"))
-    assert parse_sign(json.dumps(entry()), file="TÚ.json").alternatives == ()
 
 
 @pytest.mark.parametrize(
@@ -323,12 +311,6 @@ def test_forms_are_read_and_written_again() -> None:
     np.testing.assert_array_equal(again.forms["2>1"].knots, sign.forms["2>1"].knots)
     assert format_sign(again) == format_sign(sign)
     assert not again.forms["CABEZA"].knots.flags.writeable
-
-
-def test_an_entry_without_forms_has_none_and_is_written_without() -> None:
-    sign = parse_sign(json.dumps(entry()), file="TÚ.json")
-    assert not sign.forms
-    assert "forms" not in format_sign(sign)
 
 
 @pytest.mark.parametrize(
