@@ -9,6 +9,7 @@ import re
 import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from catkin_pkg.package import parse_package
@@ -132,43 +133,35 @@ def rosdep_keys(package: str) -> set[str]:
     return {(element.text or "").strip() for tag in ("exec_depend", "depend") for element in root.iter(tag)}
 
 
-def pypi_names(package: str) -> set[str]:
-    """Names that a package's setup.py requires, always or for one of its extras."""
+def setup_keywords(package: str) -> dict[str, Any]:
+    """What a package's setup.py says that can be read without running it, by keyword."""
     tree = ast.parse((FOLDERS[package] / "setup.py").read_text(encoding="utf-8"))
-    (call,) = (
-        node
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "setup"
-    )
-    keywords = {keyword.arg: keyword.value for keyword in call.keywords}
-    extras: dict[str, list[str]] = ast.literal_eval(keywords["extras_require"])
-    extras.pop("test", None)
-    return {
-        *ast.literal_eval(keywords["install_requires"]),
-        *(name for names in extras.values() for name in names),
-    }
+    found = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.keyword) and node.arg in ("version", "install_requires", "extras_require"):
+            found[node.arg] = ast.literal_eval(node.value)
+    return found
+
+
+def pypi_names(package: str) -> set[str]:
+    """Names that a package's setup.py requires, always or for one of its extras but the tests'."""
+    keywords = setup_keywords(package)
+    extras = [names for extra, names in keywords["extras_require"].items() if extra != "test"]
+    return {*keywords["install_requires"], *(name for names in extras for name in names)}
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_every_import_is_declared(package: str) -> None:
+def test_every_import_is_declared_and_nothing_else(package: str) -> None:
     imports, keys, names = imports_of(package), rosdep_keys(package), pypi_names(package)
-    missing = []
-    for top, file in imports.items():
-        assert top in DECLARED_AS, f"{file} imports {top}: give DECLARED_AS its rosdep key and PyPI name"
-        key, name = DECLARED_AS[top]
-        if key is not None and key not in keys:
-            missing.append(f"package.xml: {key} ({file})")
-        if name is not None and name not in names:
-            missing.append(f"setup.py: {name} ({file})")
+    unknown = {top: file for top, file in imports.items() if top not in DECLARED_AS}
+    assert not unknown, "give DECLARED_AS its rosdep key and PyPI name"
+    used = [(*DECLARED_AS[top], file) for top, file in imports.items()]
+    missing = [f"package.xml: {key} ({file})" for key, _, file in used if key not in keys | {None}]
+    missing += [f"setup.py: {name} ({file})" for _, name, file in used if name not in names | {None}]
     assert not missing, "\n".join(missing)
-
-
-@pytest.mark.parametrize("package", PACKAGES)
-def test_everything_declared_is_imported(package: str) -> None:
-    used = [DECLARED_AS[top] for top in imports_of(package) if top in DECLARED_AS]
-    keys, names = {key for key, _ in used}, {name for _, name in used}
-    assert rosdep_keys(package) - keys - NOT_IMPORTED.get(package, set()) == set()
-    assert pypi_names(package) - names - NOT_IMPORTED.get(package, set()) == set()
+    others = NOT_IMPORTED.get(package, set())
+    assert keys - {key for key, _, _ in used} - others == set()
+    assert names - {name for _, name, _ in used} - others == set()
 
 
 def test_rosdep_knows_every_key() -> None:
@@ -198,20 +191,9 @@ def test_what_runs_needs_no_requirement_of_the_studio() -> None:
 
 
 @pytest.mark.parametrize("package", PACKAGES)
-def test_package_xml_follows_rep_149(package: str) -> None:
+def test_package_xml_follows_rep_149_and_has_the_version_of_setup_py(package: str) -> None:
     """As the parser reads it that colcon, bloom and rosdep share."""
     complaints: list[str] = []
-    parse_package(FOLDERS[package] / "package.xml", warnings=complaints)
+    parsed = parse_package(FOLDERS[package] / "package.xml", warnings=complaints)
     assert complaints == []
-
-
-@pytest.mark.parametrize("package", PACKAGES)
-def test_package_xml_and_setup_py_tell_the_same_version(package: str) -> None:
-    version = ET.parse(FOLDERS[package] / "package.xml").getroot().findtext("version")
-    tree = ast.parse((FOLDERS[package] / "setup.py").read_text(encoding="utf-8"))
-    versions = [
-        ast.literal_eval(node.value)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.keyword) and node.arg == "version"
-    ]
-    assert versions == [version]
+    assert parsed.version == setup_keywords(package)["version"]

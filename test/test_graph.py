@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import rclpy
+from absence import node_without
 from progress import Progress
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -21,7 +22,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState
 from teo_sign_msgs.msg import ExecutorStatus, SignSentence
 
-from teo_bringup.graph import Graph
+from teo_bringup.graph import SIGNING, Graph
 from teo_description.humanoid import Humanoid, load_humanoid
 
 START_TIMEOUT = 60.0  # [s] for all processes to be there, on a loaded machine
@@ -40,14 +41,10 @@ class Witness(Node):
         self.executor_of_all.add_node(self)
         latched = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(JointState, "joint_states", self.states.append, 100)
-        self.create_subscription(SignSentence, "sign_tokens", self._on_tokens, 100)
-        self.create_subscription(ExecutorStatus, "executor_status", self._on_status, latched)
-
-    def _on_tokens(self, message: SignSentence) -> None:
-        self.progress.on_tokens(message)
-
-    def _on_status(self, message: ExecutorStatus) -> None:
-        self.progress.on_status(message)
+        # By way of `progress`, which each text begins anew.
+        self.create_subscription(SignSentence, "sign_tokens", lambda m: self.progress.on_tokens(m), 100)
+        status = ExecutorStatus, "executor_status", lambda m: self.progress.on_status(m)
+        self.create_subscription(*status, latched)
 
     def positions(self, humanoid: Humanoid) -> np.ndarray:
         """Every position seen, in the order of all joints. Shape (n, joints)."""
@@ -133,8 +130,10 @@ def test_a_typed_sentence_moves_the_robot_and_brings_it_back_to_rest_in_either_l
     witness: Witness, tmp_path: Path
 ) -> None:
     teo = load_humanoid("teo")
+    """Without what a robot has not: OpenCV, MediaPipe, PyTorch, the studio, a ros2 of our own, ..."""
     with Graph(tmp_path) as graph:
-        graph.start_nodes()
+        for name in SIGNING:
+            graph.start(name, *node_without(name))
         witness.wait_for_all(graph)
         for language, text, signs in (
             ("ssp", "Me llamo Al.", ["MI", "NOMBRE", "A", "L"]),

@@ -22,11 +22,8 @@ def maker(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return package
 
 
-def test_the_folder_stays_while_the_code_does(maker: Path) -> None:
+def test_the_folder_stays_while_the_code_does_and_is_another_once_any_module_has_changed(maker: Path) -> None:
     assert kept_folder("bench", maker.name) == kept_folder("bench", maker.name)
-
-
-def test_another_folder_is_taken_once_any_module_has_changed(maker: Path) -> None:
     before = kept_folder("bench", maker.name), kept_folder("bench", "kept", f"{maker.name}.inner.render")
     (maker / "inner" / "render.py").write_text("RATE = 30.0\n")
     after = kept_folder("bench", maker.name), kept_folder("bench", "kept", f"{maker.name}.inner.render")

@@ -21,7 +21,7 @@ from ament_index_python.packages import get_package_share_directory
 from teo_common.atomic_files import write_atomically
 
 # Before which every enclave stands, as in `--enclave /teo/driver`.
-ENCLAVES = "/teo"
+_ENCLAVES = "/teo"
 _SCHEMAS = "http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca"
 _XSI = "http://www.w3.org/2001/XMLSchema-instance"
 # As long as the certificates of `ros2 security create_keystore`.
@@ -106,7 +106,7 @@ def permissions(name: str, access: Access, domain: int, begin: datetime) -> byte
         begin: From when on it is valid.
     """
     root = _root("permissions")
-    enclave = f"{ENCLAVES}/{name}"
+    enclave = f"{_ENCLAVES}/{name}"
     grant = _add(_add(root, "permissions"), "grant")
     grant.set("name", enclave)
     _add(grant, "subject_name", f"CN={enclave}")

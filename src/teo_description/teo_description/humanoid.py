@@ -34,6 +34,11 @@ from teo_description.errors import DescriptionError
 from teo_description.robot_file import RobotFile, read_robot_file
 from teo_description.robot_schema import AXES
 
+Side = Literal["left", "right"]
+SIDES: tuple[Side, Side] = ("left", "right")
+
+DEFAULT_ROBOT = "teo"
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class JointLimits:
@@ -49,12 +54,6 @@ class JointLimits:
     lower: Array
     upper: Array
     velocity: Array
-
-
-Side = Literal["left", "right"]
-SIDES: tuple[Side, Side] = ("left", "right")
-
-DEFAULT_ROBOT = "teo"
 
 
 class Humanoid:

@@ -81,11 +81,11 @@ def read_motion(path: Path, humanoid: Humanoid) -> Motion:
             f"{path.name}, row {line}: expected a time after {table[line - 3, 0]:g} s, "
             f"got {table[line - 2, 0]:g} s",
         )
-    check_limits(humanoid, names, table[:, 1:], path.name)
+    _check_limits(humanoid, names, table[:, 1:], path.name)
     return Motion(names=names, times=table[:, 0], positions=table[:, 1:])
 
 
-def check_limits(
+def _check_limits(
     humanoid: Humanoid, names: tuple[str, ...], positions: NDArray[np.float64], where: str
 ) -> None:
     """Refuse positions that a robot cannot reach.
@@ -169,7 +169,7 @@ def read_pose(arguments: Iterable[str], humanoid: Humanoid) -> dict[str, float]:
             "not_finite", f"expected finite positions, got NaN or infinity for {', '.join(bad)}"
         )
     if pose:
-        check_limits(humanoid, tuple(pose), np.array([list(pose.values())]), "the pose")
+        _check_limits(humanoid, tuple(pose), np.array([list(pose.values())]), "the pose")
     return pose
 
 

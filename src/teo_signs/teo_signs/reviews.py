@@ -12,7 +12,7 @@ import datetime
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Annotated, Literal, NamedTuple, get_args
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
@@ -22,7 +22,6 @@ from teo_signs.sign_schema import Gloss, Provenance, Review
 
 #: What a reviewer finds a motion to be.
 Rating = Literal["right", "understandable", "wrong"]
-RATINGS: tuple[Rating, ...] = get_args(Rating)
 
 # One person's habit is no norm, and two who differ decide nothing.
 LEAST_REVIEWERS = 3

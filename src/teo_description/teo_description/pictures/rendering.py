@@ -20,16 +20,28 @@ from teo_description.pictures.picture import Image, captioned, film_strip, save_
 from teo_description.pictures.visual_parts import joined, visual_parts
 from teo_description.robot import Robot
 
+__all__ = [
+    "Camera",
+    "Image",
+    "MotionVideo",
+    "Renderer",
+    "camera_named",
+    "cameras",
+    "captioned",
+    "film_strip",
+    "render_pose",
+    "save_png",
+    "write_video",
+]
+
 # Samples along each side of a pixel: fingers are 9 pixels wide in the front view.
 _SUPERSAMPLING = 2
 
 # Greatest depth that is drawn [m]: nothing of the robot is farther from any sensible camera.
 _FAR = 20.0
 
-_LIGHT = np.array(
-    [0.75, 0.36, 0.56]
-)  # towards the light: before TEO, from the upper left, so that the hands stand out
-_LIGHT = _LIGHT / np.linalg.norm(_LIGHT)
+# Towards the light: before TEO, from the upper left, so that the hands stand out.
+_LIGHT = np.array([0.75, 0.36, 0.56]) / np.linalg.norm([0.75, 0.36, 0.56])
 _DIFFUSE = 0.58
 
 # Light from everywhere, and more of it from above than from below.
@@ -205,20 +217,6 @@ def _occlusion(depth: NDArray[np.float32]) -> NDArray[np.float32]:
     behind = np.clip((clipped - cv2.blur(clipped, (blur, blur))) / _OCCLUSION_DEPTH, 0.0, 1.0)
     return np.where(figure, 1.0 - _OCCLUSION_DARKNESS * behind, 1.0).astype(np.float32)
 
-
-__all__ = [
-    "Camera",
-    "Image",
-    "MotionVideo",
-    "Renderer",
-    "camera_named",
-    "cameras",
-    "captioned",
-    "film_strip",
-    "render_pose",
-    "save_png",
-    "write_video",
-]
 
 _own = threading.local()
 
