@@ -26,11 +26,11 @@ from teo_common.dds_profiles import VARIABLE
 from teo_common.errors import CodedError
 
 
-class NetworkError(CodedError):
+class _NetworkError(CodedError):
     """What is asked of the network cannot be made."""
 
 
-class Endpoint(NamedTuple):
+class _Endpoint(NamedTuple):
     """Where a discovery server listens."""
 
     address: str
@@ -39,11 +39,11 @@ class Endpoint(NamedTuple):
     """1 to 65535."""
 
     @classmethod
-    def parse(cls, text: str) -> Endpoint:
+    def parse(cls, text: str) -> _Endpoint:
         """Read ADDRESS:PORT.
 
         Raises:
-            NetworkError: `bad_endpoint`: it is none.
+            _NetworkError: `bad_endpoint`: it is none.
         """
         address, _, port = text.rpartition(":")
         try:
@@ -51,68 +51,16 @@ class Endpoint(NamedTuple):
         except ValueError:
             endpoint = cls(address, 0)
         if not 0 < endpoint.port < 2**16:
-            raise NetworkError(
+            raise _NetworkError(
                 "bad_endpoint", f"expected an IPv4 address and a port, such as 10.0.0.2:11811; got {text!r}"
             )
         return endpoint
-
-
-class Certificates(NamedTuple):
-    """Files of TLS, in PEM."""
-
-    authority: Path
-    """Certificate of who signs the machines' certificates."""
-    certificate: Path
-    """This machine's."""
-    key: Path
-    """This machine's secret key."""
-
-
-def peers_profile() -> bytes:
-    """A profile with which up to 16 participants of each machine find each other by ROS_STATIC_PEERS."""
-    return _fill("peers.xml", {})
-
-
-def server_profile(listen: Endpoint, certificates: Certificates | None) -> bytes:
-    """The profile of a discovery server.
-
-    Args:
-        listen: Where it listens.
-        certificates: The server's: it takes TCP connections with TLS and nothing else. None: UDP.
-
-    Raises:
-        NetworkError: `no_certificate`: a file is missing.
-    """
-    if certificates is None:
-        return _fill("server.xml", listen._asdict())
-    return _fill("server_tls.xml", listen._asdict() | _checked(certificates))
-
-
-def client_profile(server: Endpoint, certificates: Certificates) -> bytes:
-    """The profile of a node that finds the others by a discovery server, over TCP with TLS and nothing else.
-
-    Args:
-        server: Where the server listens.
-        certificates: This machine's: nodes of other machines connect to this one as well.
-
-    Raises:
-        NetworkError: `no_certificate`: a file is missing.
-    """
-    return _fill("client_tls.xml", server._asdict() | _checked(certificates))
 
 
 def _fill(template: str, values: dict[str, object]) -> bytes:
     path = Path(get_package_share_directory("teo_bringup")) / "config" / "network" / template
     escaped = {name: escape(str(value)) for name, value in values.items()}
     return Template(path.read_text(encoding="utf-8")).substitute(escaped).encode()
-
-
-def _checked(certificates: Certificates) -> dict[str, object]:
-    """Absolute paths by name; a missing file is refused here: Fast DDS would say so in its log and go on."""
-    for path in certificates:
-        if not path.is_file():
-            raise NetworkError("no_certificate", f"expected a PEM file, got {path}, which is not there")
-    return {name: path.resolve() for name, path in certificates._asdict().items()}
 
 
 _app = typer.Typer(
@@ -127,7 +75,7 @@ _FIND_BY_SERVER = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "ROS_STATIC_PEERS"
 _HIGHEST_DOMAIN = 101
 
 _Output = Annotated[Path, typer.Option(help="Profile to write (XML).", show_default=False)]
-_Endpoint = Annotated[
+_EndpointText = Annotated[
     str, typer.Argument(metavar="ADDRESS:PORT", help="IPv4 address and port where the server listens.")
 ]
 _Authority = Annotated[
@@ -141,7 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Do what the command line asks; exit with 1 and the reason where it cannot be done."""
     try:
         _app(arguments, prog_name="network")
-    except NetworkError as error:
+    except _NetworkError as error:
         sys.exit(f"network: [{error.code}] {error}")
     except OSError as error:
         sys.exit(f"network: [not_written] expected to write a file: {error}")
@@ -160,8 +108,8 @@ def peers(
         try:
             ipaddress.IPv4Address(address)
         except ValueError as error:
-            raise NetworkError("bad_address", f"expected an IPv4 address, got {address!r}") from error
-    write_atomically(output, peers_profile())
+            raise _NetworkError("bad_address", f"expected an IPv4 address, got {address!r}") from error
+    write_atomically(output, _fill("peers.xml", {}))
     _export(
         {
             # Of its own, a node looks on this machine alone, without multicast; the peers come on top.
@@ -174,30 +122,31 @@ def peers(
 
 @_app.command()
 def server(
-    endpoint: _Endpoint,
+    endpoint: _EndpointText,
     output: _Output,
     authority: _Authority = None,
     certificate: _Certificate = None,
     key: _Key = None,
 ) -> None:
     """This machine runs `discovery_server`, which knows all nodes."""
-    profile = server_profile(Endpoint.parse(endpoint), _certificates(authority, certificate, key))
-    write_atomically(output, profile)
+    where = _Endpoint.parse(endpoint)
+    files = _certificates(authority, certificate, key)
+    write_atomically(output, _fill("server_tls.xml" if files else "server.xml", where._asdict() | files))
     _export(_FIND_BY_SERVER | {VARIABLE: str(output.resolve())})
 
 
 @_app.command()
 def client(
-    endpoint: _Endpoint,
+    endpoint: _EndpointText,
     output: Annotated[Path | None, typer.Option(help="Profile to write (XML), with certificates.")] = None,
     authority: _Authority = None,
     certificate: _Certificate = None,
     key: _Key = None,
 ) -> None:
     """This machine's nodes ask a discovery server."""
-    where = Endpoint.parse(endpoint)
-    certificates = _certificates(authority, certificate, key)
-    if certificates is None:  # what ROS 2 has is enough
+    where = _Endpoint.parse(endpoint)
+    files = _certificates(authority, certificate, key)
+    if not files:  # what ROS 2 has is enough
         _export(
             _FIND_BY_SERVER
             | {
@@ -207,8 +156,8 @@ def client(
         )
         return
     if output is None:
-        raise NetworkError("no_output", "expected --output FILE with certificates: TLS needs a profile")
-    write_atomically(output, client_profile(where, certificates))
+        raise _NetworkError("no_output", "expected --output FILE with certificates: TLS needs a profile")
+    write_atomically(output, _fill("client_tls.xml", where._asdict() | files))
     _export(_FIND_BY_SERVER | {VARIABLE: str(output.resolve())})
 
 
@@ -221,12 +170,19 @@ def access(
     write_access_files(output, domain=domain)
 
 
-def _certificates(authority: Path | None, certificate: Path | None, key: Path | None) -> Certificates | None:
-    if authority is None and certificate is None and key is None:
-        return None
-    if authority is None or certificate is None or key is None:
-        raise NetworkError("no_certificate", "expected --authority, --certificate and --key together")
-    return Certificates(authority, certificate, key)
+def _certificates(authority: Path | None, certificate: Path | None, key: Path | None) -> dict[str, object]:
+    """Absolute paths of the files of TLS by name; none without TLS.
+
+    A missing file is refused here: Fast DDS would say so in its log and go on.
+    """
+    files = {"authority": authority, "certificate": certificate, "key": key}
+    given = {name: path for name, path in files.items() if path is not None}
+    if len(given) not in (0, len(files)):
+        raise _NetworkError("no_certificate", "expected --authority, --certificate and --key together")
+    for path in given.values():
+        if not path.is_file():
+            raise _NetworkError("no_certificate", f"expected a PEM file, got {path}, which is not there")
+    return {name: path.resolve() for name, path in given.items()}
 
 
 def _export(variables: dict[str, str]) -> None:

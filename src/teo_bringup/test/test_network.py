@@ -13,6 +13,7 @@ import pytest
 from typed_page import blocks_of
 
 from teo_bringup.graph import executable_of
+from teo_bringup.network import main
 
 PAGE = Path(__file__).parents[3] / "docs" / "machines.md"
 PATIENCE = 120.0  # [s] for Python processes to start and find each other on a loaded machine
@@ -150,9 +151,10 @@ def test_what_cannot_be_made_is_refused_by_reason_and_leaves_no_file(
     code: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    done = network(*arguments)
-    assert (done.returncode, done.stdout) == (1, "")
-    assert f"network: [{code}] expected" in done.stderr
+    with pytest.raises(SystemExit, match=rf"^network: \[{code}\] expected"):
+        main(arguments)
+    assert capsys.readouterr().out == ""
     assert not list(tmp_path.iterdir())

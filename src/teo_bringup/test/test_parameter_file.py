@@ -38,7 +38,7 @@ def context(domain_id: int) -> Iterator[Context]:
     rclpy.shutdown(context=context)
 
 
-@pytest.mark.parametrize(("node", "namespace"), zip(TABLES, cycle(["", "/lab/teo"]), strict=False))
+@pytest.mark.parametrize(("node", "namespace"), list(zip(TABLES, cycle(["", "/lab/teo"]), strict=False)))
 def test_a_node_takes_a_changed_value_from_it_in_any_namespace(
     context: Context, tmp_path: Path, node: str, namespace: str
 ) -> None:

@@ -154,7 +154,7 @@ def _shaded(
 def _angles(radius: float) -> NDArray[np.float64]:
     """Angles [rad] of a circle's corners: so many that it looks round at its size on a picture."""
     count = 12 if radius < 0.02 else 20 if radius < 0.06 else 32
-    return np.arange(count) * (2.0 * math.pi / count)
+    return np.linspace(0.0, 2.0 * math.pi, count, endpoint=False)
 
 
 _log = logging.getLogger(__name__)
