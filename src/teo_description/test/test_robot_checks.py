@@ -28,9 +28,9 @@ def changed(tmp_path, monkeypatch):
         (folder / "urdf" / path.name).write_bytes(path.read_bytes())
 
     def apply(change) -> Robot:
-        content = yaml.safe_load((SECOND / "robot.yaml").read_text())
+        content = yaml.load((SECOND / "robot.yaml").read_text(), Loader=yaml.CSafeLoader)
         change(content)
-        (folder / "robot.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
+        (folder / "robot.yaml").write_text(yaml.dump(content, Dumper=yaml.CSafeDumper, sort_keys=False))
         return Robot(Humanoid(folder))
 
     return apply

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import xml.etree.ElementTree as ET
 
@@ -31,7 +32,7 @@ def change(folder):
 
     def apply(field: str, value: object = None) -> Humanoid:
         path = folder / "robot.yaml"
-        content = yaml.safe_load(path.read_text())
+        content = yaml.load(path.read_text(), Loader=yaml.CSafeLoader)
         *way, last = field.split(".")
         place = content
         for key in way:
@@ -40,7 +41,7 @@ def change(folder):
             del place[last]
         else:
             place[last] = value
-        path.write_text(yaml.safe_dump(content, sort_keys=False))
+        path.write_text(yaml.dump(content, Dumper=yaml.CSafeDumper, sort_keys=False))
         return Humanoid(folder)
 
     return apply
@@ -80,46 +81,34 @@ def test_a_file_that_is_no_description_is_refused(folder, content, said):
 
 
 @pytest.mark.parametrize(
-    ("field", "value"),
-    [
-        ("hand.palm", None),
-        ("schema", 2),
-        ("cameras.front.field_of_view_deg", 200.0),
-        ("hand.thumb_radii", [0.01]),
-        ("postures.ready_deg.right_elbow_pitch_joint", float("nan")),
-        ("colour", "red"),
-        ("mirror", []),
-        ("places.mouth", None),
-        ("cameras.sign", None),
-        ("natural_arm.lower_deg", [0.0]),
-    ],
-)
-def test_a_wrong_field_is_named(change, field, value):
-    message = refused(lambda: change(field, value))
-    assert all(part in message for part in field.removesuffix(".lower_deg").split("."))
-    assert "robot.yaml" in message
-
-
-@pytest.mark.parametrize(
     ("field", "value", "said"),
     [
+        ("hand.palm", None, "hand.palm: Object missing required field"),
         ("schema", 2, "robot.yaml: schema: expected 1; got 2"),
+        (
+            "cameras.front.field_of_view_deg",
+            200.0,
+            "field_of_view_deg: Expected `float` < 180.0",
+        ),
+        ("hand.thumb_radii", [0.01], "hand.thumb_radii: Expected `array` of length 2; got [0.01]"),
+        (
+            "postures.ready_deg.right_elbow_pitch_joint",
+            math.nan,
+            "_joint: expected a finite number",
+        ),
+        ("colour", "red", "robot.yaml: colour: Object contains unknown field"),
+        ("mirror", [], "mirror: Expected `array` of length >= 1; got []"),
+        ("places.mouth", None, "places: expected mouth too"),
+        ("cameras.sign", None, "cameras: expected sign too"),
+        ("natural_arm.lower_deg", [0.0], "natural_arm: expected an angle for each of the arm's 7 joints"),
         ("places.mouth.point", [0.1, 0.0, "x"], "places.mouth.point.2: Expected `float`; got 'x'"),
-        ("hand.palm_box.front", float("inf"), "hand.palm_box.front: expected a finite number; got inf"),
+        ("hand.palm_box.front", math.inf, "hand.palm_box.front: expected a finite number; got inf"),
         ("limits", {"elbow": {"effort": 0}}, "limits.elbow.effort: Expected `float` > 0.0; got 0"),
         ("groups.head", {"jaw": "jaw"}, "groups.head.jaw: expected 'yaw' or 'pitch' or 'roll'; got 'jaw'"),
         ("hand.palm_box", {1: 0.0}, "hand.palm_box.1: Expected `str`; got 1"),
         ("collision.shapes", {"palm": [{}]}, "collision.shapes.palm.0: expected one of box"),
         ("reach", {"arm": 1.0}, "reach.arm_boxes: Object missing required field"),
-    ],
-)
-def test_a_wrong_value_is_told_with_its_whole_path_and_what_was_expected(change, field, value, said):
-    assert said in refused(lambda: change(field, value))
-
-
-@pytest.mark.parametrize(
-    ("field", "value", "said"),
-    [
+        # What the URDF lacks, or does not fit.
         ("groups.right_hand.index", "R_index_joint", "groups.right_hand: expected the mirror image"),
         ("groups.head.yaw", "neck_joint", "neck_joint"),
         ("limits", {"elbow": {"lower_deg": 0.0}}, "limits: expected names in the URDF, got elbow"),
@@ -131,11 +120,10 @@ def test_a_wrong_value_is_told_with_its_whole_path_and_what_was_expected(change,
         ("mirror", [["port_", "starboard_"]], "groups.right_arm: expected the mirror image"),
     ],
 )
-def test_a_name_that_the_urdf_lacks_is_named_with_its_field(change, field, value, said):
-    def act() -> None:
-        Robot(change(field, value)).humanoid.limits()
-
-    assert said in refused(act)
+def test_a_wrong_value_is_told_with_its_whole_path_and_what_was_expected(change, field, value, said):
+    message = refused(lambda: Robot(change(field, value)).humanoid.limits())
+    assert "robot.yaml: " in message
+    assert said in message
 
 
 @pytest.mark.parametrize(
