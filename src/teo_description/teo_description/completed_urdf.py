@@ -261,17 +261,29 @@ class OtherSide:
         if link in frames:
             frame = frames[link]
             return self._pose(frame.link, frames) @ _transform(frame.xyz, np.radians(frame.rpy_deg))
-        joint = self._joints.get(link)
-        if joint is None:
-            return np.eye(4)
-        origin = joint.find("origin")
-        at = {} if origin is None else origin.attrib
-        xyz, rpy = (np.array(at.get(key, "0 0 0").split(), dtype=np.float64) for key in ("xyz", "rpy"))
-        return self._pose(joint.find("parent").attrib["link"], frames) @ _transform(xyz, rpy)  # type: ignore[union-attr]
+        return self._poses.get(link, np.eye(4))
 
     @cached_property
-    def _joints(self) -> dict[str, ET.Element]:
-        return {joint.find("child").attrib["link"]: joint for joint in self._root.iter("joint")}  # type: ignore[union-attr]
+    def _poses(self) -> Mapping[str, Array]:
+        return _link_poses(self._root)
+
+
+def _link_poses(root: ET.Element) -> Mapping[str, Array]:
+    """Pose of every link that a joint holds, with all joints at zero, in the root's axes. Shapes (4, 4)."""
+    joints = {_end(joint, "child"): joint for joint in root.iter("joint")}
+    found: dict[str, Array] = {}
+
+    def pose(link: str) -> Array:
+        if link not in joints:
+            return np.eye(4)
+        if link not in found:
+            origin = joints[link].find("origin")
+            at = {} if origin is None else origin.attrib
+            xyz, rpy = (np.array(at.get(key, "0 0 0").split(), dtype=np.float64) for key in ("xyz", "rpy"))
+            found[link] = pose(_end(joints[link], "parent")) @ _transform(xyz, rpy)
+        return found[link]
+
+    return {link: pose(link) for link in joints}
 
 
 def _transform(xyz: Sequence[float] | Array, rpy: Array) -> Array:
@@ -295,28 +307,10 @@ def urdf_hash(urdf: str) -> str:
 
 def joint_directions(urdf: ET.Element) -> Mapping[str, Array]:
     """The unit vectors along which joints' axes point with all joints at zero, in the root's frame."""
-    from scipy.spatial.transform import (
-        Rotation,
-    )  # here: half a second that who reads names alone does without
-
-    tree = {joint.find("child").attrib["link"]: joint for joint in urdf.iter("joint")}  # type: ignore[union-attr]
-    turned: dict[str, Rotation] = {}
-
-    def rotation(link: str) -> Rotation:
-        if link not in tree:
-            return Rotation.identity()
-        if link not in turned:
-            joint = tree[link]
-            origin = joint.find("origin")
-            rpy = "0 0 0" if origin is None else origin.get("rpy", "0 0 0")
-            own = Rotation.from_euler("xyz", [float(angle) for angle in rpy.split()])
-            turned[link] = rotation(joint.find("parent").attrib["link"]) * own  # type: ignore[union-attr]
-        return turned[link]
-
-    found = {}
-    for link, joint in tree.items():
+    poses, found = _link_poses(urdf), {}
+    for joint in urdf.iter("joint"):
         axis = joint.find("axis")
         if joint.attrib["type"] != "fixed":
             values = [1.0, 0.0, 0.0] if axis is None else [float(x) for x in axis.attrib["xyz"].split()]
-            found[joint.attrib["name"]] = rotation(link).apply(values)
+            found[joint.attrib["name"]] = poses[_end(joint, "child")][:3, :3] @ values
     return found

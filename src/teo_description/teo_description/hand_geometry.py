@@ -268,7 +268,7 @@ def _segments(points: Array, radii: Array) -> tuple[Array, Array]:
 
 
 def _distances(starts: Array, ends: Array, other_starts: Array, other_ends: Array) -> Array:
-    """Distances of segments, of shapes (..., 3) that broadcast; see `hand_geometry.segment_distances`."""
+    """Distances of segments, of shapes (..., 3) that broadcast; see `segment_distances`."""
     one, other, between = ends - starts, other_ends - other_starts, starts - other_starts
     a, e, b = (_dots(*pair) for pair in ((one, one), (other, other), (one, other)))
     c, f = _dots(one, between), _dots(other, between)
