@@ -212,7 +212,7 @@ def _range(row: ParameterRow) -> str:
         return ", ".join(f"`{choice}`" if choice else "empty" for choice in row.choices)
     if row.low is None or row.high is None:
         return ""
-    return f"{row.low:g} to {row.high:g}"
+    return f"{row.low:g}..{row.high:g}"
 
 
 def _table_head(names: Sequence[str]) -> tuple[str, str]:

@@ -8,6 +8,7 @@ import logging
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from functools import cache
 from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -56,19 +57,22 @@ def moved(mesh: Mesh, rotation: NDArray[np.float64], translation: NDArray[np.flo
     return Mesh(mesh.vertices @ rotation.T + translation, mesh.normals @ rotation.T, mesh.triangles)
 
 
-def box(half_sizes: NDArray[np.float64]) -> Mesh:
+@cache  # parts of both sides, and of several fingers, are alike
+def box(*half_sizes: float) -> Mesh:
     """A box about the origin with its edges taken off, so that they catch the light.
 
     Args:
-        half_sizes: Half the edge lengths [m]. Shape (3,).
+        half_sizes: Half the edge lengths along x, y and z [m].
     """
-    bevel = min(0.006, 0.25 * float(np.min(half_sizes)))
+    bevel = min(0.006, 0.25 * min(half_sizes))
     # Each corner has a vertex on each of its three faces.
     signs = np.array(list(product((-1.0, 1.0), repeat=3)))
-    points = np.concatenate([signs * (half_sizes - bevel * (1.0 - axis)) for axis in np.eye(3)])
+    halves = np.array(half_sizes)
+    points = np.concatenate([signs * (halves - bevel * (1.0 - axis)) for axis in np.eye(3)])
     return _hull(points, np.zeros_like(points))
 
 
+@cache
 def cylinder(radius: float, half_length: float) -> Mesh:
     """A cylinder about the origin along z [m], with flat ends."""
     angles = _angles(radius)
@@ -77,6 +81,7 @@ def cylinder(radius: float, half_length: float) -> Mesh:
     return _hull(np.concatenate([radius * circle - up, radius * circle + up]), np.tile(circle, (2, 1)))
 
 
+@cache
 def sphere(radius: float) -> Mesh:
     """A sphere about the origin [m]."""
     around = _angles(radius)
@@ -220,7 +225,7 @@ def _shape(item: Any) -> Mesh:
     shape, placement = item.geometry, item.placement
     kind = type(shape).__name__  # by name: the module is called coal or hppfcl, by the age of Pinocchio
     if kind == "Box":
-        made = box(shape.halfSide)
+        made = box(*shape.halfSide.tolist())
     elif kind == "Cylinder":
         made = cylinder(shape.radius, shape.halfLength)
     elif kind == "Sphere":

@@ -7,12 +7,12 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from teo_description.pictures import visual_parts as mesh
+from teo_description.pictures import visual_parts
 
 SOLIDS = {
-    "box": (mesh.box(np.array([0.1, 0.2, 0.3])), 8 * 0.1 * 0.2 * 0.3),
-    "cylinder": (mesh.cylinder(0.1, 0.2), np.pi * 0.1**2 * 0.4),
-    "sphere": (mesh.sphere(0.1), 4 / 3 * np.pi * 0.1**3),
+    "box": (visual_parts.box(0.1, 0.2, 0.3), 8 * 0.1 * 0.2 * 0.3),
+    "cylinder": (visual_parts.cylinder(0.1, 0.2), np.pi * 0.1**2 * 0.4),
+    "sphere": (visual_parts.sphere(0.1), 4 / 3 * np.pi * 0.1**3),
 }
 
 
