@@ -72,6 +72,9 @@ class NotOfferedError(Exception):
 def offered_command(name: str) -> Callable[..., Any]:
     """Find the command that an installed package offers under a name.
 
+    `ros2 run teo_sign_translator train` runs what `teo_sign_training` offers under the name `train`: a
+    robot's computer has the one and not the other.
+
     Raises:
         NotOfferedError: None does.
     """

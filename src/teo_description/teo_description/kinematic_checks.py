@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -135,13 +135,13 @@ def limit_checks(robot: Robot) -> Iterator[Finding]:
     empty = [
         n for n, low, high in zip(limits.names, limits.lower, limits.upper, strict=True) if not low < high
     ]
-    yield Finding(not empty, "every commanded joint can move", _names(empty) or "all can", "limits")
+    yield Finding(not empty, "every commanded joint can move", ", ".join(empty) or "all can", "limits")
     odd = [
         f"{name} {speed:g}"
         for name, speed in zip(limits.names, limits.velocity, strict=True)
         if not _SLOWEST <= speed <= _FASTEST
     ]
-    measured = _names(odd) or f"{limits.velocity.min():.2f} to {limits.velocity.max():.2f} rad/s"
+    measured = ", ".join(odd) or f"{limits.velocity.min():.2f} to {limits.velocity.max():.2f} rad/s"
     yield Finding(not odd, f"greatest speeds within {_SLOWEST} and {_FASTEST} rad/s", measured, "limits")
     for title, posture in (("home", humanoid.hanging), ("ready", humanoid.ready)):
         outside = [
@@ -152,7 +152,7 @@ def limit_checks(robot: Robot) -> Iterator[Finding]:
         yield Finding(
             not outside,
             f"the {title} posture is within the limits",
-            _names(outside) or "it is",
+            ", ".join(outside) or "it is",
             f"postures.{title}_deg",
         )
     beyond = list(_followers_beyond(humanoid))
@@ -239,7 +239,3 @@ def _in_palm(robot: Robot, positions: dict[str, float]) -> Array:
 
 def _named(humanoid: Humanoid, values: Array) -> dict[str, float]:
     return dict(zip(humanoid.commanded_joints, values.tolist(), strict=True))
-
-
-def _names(names: Sequence[str]) -> str:
-    return ", ".join(names)

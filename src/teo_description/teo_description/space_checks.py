@@ -45,7 +45,7 @@ class Reached(NamedTuple):
 
 
 class ArmReach:
-    """Inverse kinematics of one arm for a point, with straight fingers and the body at home."""
+    """Brings one hand to points, whichever way it is turned, with straight fingers and the body at home."""
 
     def __init__(self, robot: Robot, side: Side) -> None:
         """Look at one side."""
@@ -157,7 +157,7 @@ def reach_checks(robot: Robot) -> Iterator[Finding]:
             f"{share:.0%} of {len(places)}" + (f"; not {', '.join(failed)}" if failed else ""),
             "places",
         )
-        grid = _grid_points(robot)
+        grid = np.array(robot.humanoid.file.places["space"].point) + _GRID
         mirror = np.array([1.0, -1.0 if side == "left" else 1.0, 1.0])
         count = sum(arm.to(point * mirror, arm.palm, body=False).ok for point in grid)
         yield Finding(
@@ -175,9 +175,3 @@ def _reached_places(robot: Robot, arm: ArmReach) -> dict[str, Reached]:
         point = np.array(place.point) * [1.0, -1.0 if arm.side == "left" else 1.0, 1.0]
         found[name] = arm.to(point, arm.tip if place.body else arm.palm, body=place.body)
     return found
-
-
-def _grid_points(robot: Robot) -> Array:
-    """Points before the chest for the right hand [m]. Shape (n, 3)."""
-    points: Array = np.array(robot.humanoid.file.places["space"].point) + _GRID
-    return points

@@ -25,7 +25,10 @@ from teo_signs.sign import Sign
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class SignMotion:
-    """A sign from rest to rest. Arrays are read-only.
+    """A sign from rest to rest, for programs that play motions and know no signs. Arrays are read-only.
+
+    Such a program goes straight to the first position, with no look at what is in between; a motion from rest
+    to rest leaves nothing to hit on the way.
 
     Attributes:
         sign: The entry.
@@ -67,11 +70,18 @@ class SignMotion:
 
 
 # A nanoradian: what is written stays within the limits that it stands on.
-_DECIMALS = 9
+_RADIAN_DECIMALS = 9
 
 
 def play_motion2_parameters(motions: Iterable[SignMotion]) -> str:
-    """The text of a parameter file: motions by gloss, joints in radians."""
+    """The text of a parameter file of play_motion2: motions by gloss, joints in radians.
+
+    Its form is that of pal-robotics/play_motion2, README and motion_loader.cpp: `motions.<key>.joints`,
+    `.positions` (a row for each time, rows one after the other), `.times_from_start` and `.meta.name`,
+    `.usage`, `.description`. Numbers all carry a decimal point, for ROS takes a list of numbers without one
+    for integers and play_motion2 refuses those. Texts and keys are quoted: without quotes `NO` and `Y` are
+    truth values in YAML, and `7` is a number.
+    """
     lines = ["play_motion2:", "  ros__parameters:", "    motions:"]
     for motion in motions:
         sign = motion.sign
@@ -92,7 +102,7 @@ def play_motion2_parameters(motions: Iterable[SignMotion]) -> str:
 
 
 def _number(value: float) -> str:
-    return f"{round(value, _DECIMALS) + 0.0:.{_DECIMALS}f}"
+    return f"{round(value, _RADIAN_DECIMALS) + 0.0:.{_RADIAN_DECIMALS}f}"
 
 
 def _text(value: str) -> str:
@@ -101,7 +111,7 @@ def _text(value: str) -> str:
 
 
 # Finer than what TEO's drives count in, 5e-4 deg, and than a tick of a Dextra's encoder.
-_DECIMALS = 4
+_BOARD_DECIMALS = 4
 
 _TIME_DECIMALS = 6
 
@@ -112,7 +122,11 @@ def playback_mask(axes: int) -> str:
 
 
 def playback_table(motion: SignMotion, limb: str) -> str:
-    """The text of the file of a limb's board.
+    """The text of the file of a limb's board for TEO's PlaybackThread (roboticslab-uc3m/tools).
+
+    No header; a row for each moment, numbers by spaces: the time [s], then the board's axes in its order and
+    units: degrees, and for the fingers of a Dextra hand millimetres of tendon. PlaybackThread plays it with
+    `timeIdx 0`, `timeScale 1` and the mask of `playback_mask`.
 
     Raises:
         DescriptionError: A finger is outside what the device can do ("outside_hand_range").
@@ -120,7 +134,8 @@ def playback_table(motion: SignMotion, limb: str) -> str:
     columns = _board_units(motion, limb)
     rows = zip(motion.times.tolist(), columns.tolist(), strict=True)
     return "".join(
-        " ".join([f"{time:.{_TIME_DECIMALS}f}", *(f"{value + 0.0:.{_DECIMALS}f}" for value in row)]) + "\n"
+        " ".join([f"{time:.{_TIME_DECIMALS}f}", *(f"{value + 0.0:.{_BOARD_DECIMALS}f}" for value in row)])
+        + "\n"
         for time, row in rows
     )
 
@@ -128,7 +143,9 @@ def playback_table(motion: SignMotion, limb: str) -> str:
 def save_playback_tables(directory: Path, motion: SignMotion, *, replace: bool = False) -> list[Path]:
     """Write a sign's tables into a folder of its own, all of them or none.
 
-    A folder is replaced whole: a table of an arm that moved in an older version of the sign must not stay.
+    One file for each control board that moves, and `SIGN.txt` beside them, which says of which language the
+    sign is and for which robot: a table has no place for that. A folder is replaced whole: a table of an arm
+    that moved in an older version of the sign must not stay.
 
     Args:
         directory: Where the folder goes, named after the gloss; made if it is not there.
@@ -179,9 +196,9 @@ def _board_units(motion: SignMotion, limb: str) -> NDArray[np.float64]:
     humanoid, positions = load_humanoid(motion.sign.robot), motion.limb(limb)
     hands = {f"{side}_hand": setpoint_axes(humanoid, side) for side in SIDES}
     if limb not in hands:
-        return np.asarray(np.round(np.degrees(positions), _DECIMALS), dtype=np.float64)
+        return np.asarray(np.round(np.degrees(positions), _BOARD_DECIMALS), dtype=np.float64)
     columns = [
         [min(max(axis.setpoint(angle), 0.0), axis.travel) for angle in column]
         for axis, column in zip(hands[limb], positions.T.tolist(), strict=True)
     ]
-    return np.asarray(np.round(np.array(columns).T, _DECIMALS), dtype=np.float64)
+    return np.asarray(np.round(np.array(columns).T, _BOARD_DECIMALS), dtype=np.float64)

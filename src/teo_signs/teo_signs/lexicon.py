@@ -17,13 +17,18 @@ from teo_signs.sign_schema import STANDINGS, Standing
 from teo_signs.tokens import Kind, Token, check_tokens
 
 #: Digits of the largest number that has a name: 999,999.
-LONGEST = 6
+_LONGEST_NUMBER = 6
 
 _HUNDRED, _THOUSAND = 100, 1000
 
 
 def number_glosses(digits: str, numbers: Numbers, has: Callable[[str], bool]) -> tuple[str, ...]:
     """The signs of a number, in order.
+
+    A number below a million is how many there are of a magnitude, then the language's gloss for hundred or
+    thousand, in falling order. Tens and units have one sign where the table has it; else they are their
+    digits side by side, the tens first. What is no such number is read out digit by digit: longer ones (telephone
+    numbers), those with a zero in front, which are codes, and those of a magnitude without a gloss.
 
     Args:
         digits: The number, 0 to 9 only.
@@ -38,7 +43,7 @@ def number_glosses(digits: str, numbers: Numbers, has: Callable[[str], bool]) ->
     if len(digits) == 1 or has(digits):
         return (digits,)
     spelled = tuple(digits)
-    if len(digits) > LONGEST or digits.startswith("0"):
+    if len(digits) > _LONGEST_NUMBER or digits.startswith("0"):
         return spelled
     thousands, rest = divmod(int(digits), _THOUSAND)
     made = (*_how_many(thousands, numbers, has), numbers.thousand) if thousands else ()

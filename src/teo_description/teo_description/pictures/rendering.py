@@ -20,6 +20,7 @@ from teo_description.pictures.picture import Image, captioned, film_strip, save_
 from teo_description.pictures.visual_parts import joined, visual_parts
 from teo_description.robot import Robot
 
+# What other packages draw with.
 __all__ = [
     "Camera",
     "Image",

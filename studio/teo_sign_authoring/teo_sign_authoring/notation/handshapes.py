@@ -23,7 +23,7 @@ from teo_sign_capture.signing_space.places import WRITTEN_FOR
 
 # [deg] Abductor, thumb, index, middle, ring, little finger. 7 is straight, 85 fully bent; abductor 0 has the
 # thumb at the hand's side, 90 opposite the palm; thumb -90 stands out, 90 is folded. Thumbs over folded
-# fingers are as far over as they go without touching (`hand_contact`); those that meet a finger are those of
+# fingers are as far over as they go without touching (`hand_geometry`); those that meet a finger are those of
 # the letters O, T, S.
 _SHAPES: dict[str, tuple[float, float, float, float, float, float]] = {
     "flat": (0, -25, 7, 7, 7, 7),  # fingers straight and together, thumb along
