@@ -28,7 +28,7 @@ def number_glosses(digits: str, numbers: Numbers, has: Callable[[str], bool]) ->
     A number below a million is how many there are of a magnitude, then the language's gloss for hundred or
     thousand, in falling order. Tens and units have one sign where the table has it; else they are their
     digits side by side, the tens first. What is no such number is read out digit by digit: longer ones
-    (telephone numbers), those with a zero in front, which are codes, and those of a magnitude without a gloss.
+    (telephone numbers), codes, which have a zero in front, and those of a magnitude without a gloss.
 
     Args:
         digits: The number, 0 to 9 only.
