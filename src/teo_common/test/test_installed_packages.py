@@ -35,7 +35,9 @@ def test_every_command_of_the_studio_is_offered_under_the_name_of_a_package_that
             assert (Path(get_package_prefix(package)) / "lib" / package / name).is_file()
             (point,) = entry_points(group="teo.commands", name=name)
             assert FOLDERS[point.module.partition(".")[0]].parent.name == "studio"
-            assert find_spec(point.module) is not None
+            spec = find_spec(point.module)
+            assert spec is not None and spec.origin is not None
+            assert f"def {point.attr}(" in Path(spec.origin).read_text("utf-8")
 
 
 def test_a_command_of_the_studio_runs() -> None:
