@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from teo_synthetic_signer.body.hand_shapes import HAND_SHAPES
+from teo_synthetic_signer.body.hand import HAND_SHAPES
 from teo_synthetic_signer.script.keys import ArmKey, Key, Vector
-from teo_synthetic_signer.script.scripts import add_script
-from teo_synthetic_signer.script.signs import HANGING, REST
+from teo_synthetic_signer.script.scripts import HANGING, REST, add_script
 
 _AT_BODY = ("temple", "forehead", "mouth", "chin", "ear", "other_shoulder", "sternum", "belly", "upper_chest")
 

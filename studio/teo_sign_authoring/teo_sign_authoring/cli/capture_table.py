@@ -57,9 +57,10 @@ def ease_letters(
     language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
-    from teo_sign_authoring.alphabet.letter_features import recorded_features
+    from teo_sign_authoring.alphabet.letter_likeness import recorded_features
     from teo_sign_authoring.alphabet.letters import read_alphabet
-    from teo_sign_authoring.easing import easy_letters
+    from teo_sign_authoring.easing.easy_letters import ease_letters as easier_offsets
+    from teo_sign_authoring.easing.easy_letters import with_easy_posture
     from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
 
     robot = Robot.load()
@@ -71,10 +72,10 @@ def ease_letters(
         }
         letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
         tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
-        offsets = easy_letters.ease_letters(robot, table.language.alphabet, tolerances)
+        offsets = easier_offsets(robot, table.language.alphabet, tolerances)
     except LutError as error:
         _fail(error)
-    eased = (easy_letters.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
+    eased = (with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
     _save(eased, lut, replace=True)
 
 

@@ -21,7 +21,7 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
-from teo_sign_authoring.alphabet.letter_features import features
+from teo_sign_authoring.alphabet.letter_likeness import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.knots import least_clearance

@@ -17,8 +17,7 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
-from teo_sign_authoring.easing.word_arms import ALONG, DIRECTIONS, Rows, WordArms
-from teo_sign_authoring.easing.word_contacts import WordContacts
+from teo_sign_authoring.easing.word_arms import ALONG, DIRECTIONS, Rows, WordArms, WordContacts
 from teo_sign_capture.retarget.arm_kinematics import ArmPoses, arm_bounds
 from teo_signs.sign import Sign
 

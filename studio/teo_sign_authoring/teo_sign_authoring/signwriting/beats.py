@@ -11,8 +11,15 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Part
+from teo_sign_authoring.signwriting.hand_symbols import (
+    Orientation,
+    Side,
+    closed,
+    displacement_words,
+    for_hand,
+    opened,
+)
 from teo_sign_authoring.signwriting.hands import WrittenHand
-from teo_sign_authoring.signwriting.handshapes import closed, opened
 from teo_sign_authoring.signwriting.movement import (
     Circling,
     Closing,
@@ -22,7 +29,6 @@ from teo_sign_authoring.signwriting.movement import (
     Swinging,
     Turning,
 )
-from teo_sign_authoring.signwriting.page import Orientation, Side, displacement_words, for_hand
 from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
 from teo_sign_capture.signing_space.places import split_place, written_place

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Circle, HandScore, HeadScore, Score, Step, Wiggle
-from teo_sign_authoring.signwriting import symbol_groups as groups
+from teo_sign_authoring.signwriting import written_sign as groups
 from teo_sign_authoring.signwriting.beats import (
     OTHER_HAND,
     Beat,
@@ -23,15 +23,56 @@ from teo_sign_authoring.signwriting.beats import (
     circle_spots,
     sorted_movements,
 )
-from teo_sign_authoring.signwriting.contact import read_contacts
+from teo_sign_authoring.signwriting.hand_symbols import (
+    SIDES,
+    Side,
+    direction_words,
+    displacement_words,
+    handshape_of,
+)
 from teo_sign_authoring.signwriting.hands import WrittenHands, read_hands
-from teo_sign_authoring.signwriting.handshapes import handshape_of
-from teo_sign_authoring.signwriting.head import face_words, head_postures
 from teo_sign_authoring.signwriting.movement import Circling, Hands, Movement, is_finger_movement, movement_of
-from teo_sign_authoring.signwriting.page import SIDES, Side, direction_words, displacement_words
 from teo_sign_authoring.signwriting.place import read_landmarks
-from teo_sign_authoring.signwriting.stances import are_mirrored, read_stances
+from teo_sign_authoring.signwriting.stances import are_mirrored, read_contacts, read_stances
 from teo_sign_authoring.signwriting.written_sign import Symbol, UnreadableError, read_fsw
+
+# [deg] A nod and a turn that are seen; TEO bows by 10 at most.
+_BOW, _TURN = 8.0, 25.0
+_STRAIGHT, _FLOOR_STRAIGHT, _CURVE, _FLOOR_CURVE = 0x301, 0x303, 0x304, 0x305
+
+
+def head_postures(symbols: tuple[Symbol, ...]) -> tuple[list[tuple[float, float]], tuple[str, ...]]:
+    """Turns and bows of the head, one after the other [deg], and what of its movements TEO cannot make.
+
+    A turn is to the right, a bow forward. With fill 0 the movement is made once, with 1 twice.
+    """
+    postures: list[tuple[float, float]] = []
+    losses: list[str] = []
+    for symbol in groups.of(symbols, groups.HEAD_MOVEMENTS):
+        posture = _posture(symbol)
+        if posture is None:
+            losses.append(f"{symbol.key}, {symbol.name}: TEO's head turns and bows only")
+        else:
+            postures += [posture, (0.0, 0.0)] * (1 + min(symbol.fill, 2))
+    return postures, tuple(losses)
+
+
+def _posture(symbol: Symbol) -> tuple[float, float] | None:
+    if symbol.rotation in (0, 4) and symbol.base in (_STRAIGHT, _FLOOR_STRAIGHT):
+        up = symbol.rotation == 0
+        forward = up if symbol.base == _FLOOR_STRAIGHT else not up
+        return 0.0, _BOW if forward else -_BOW
+    if symbol.rotation in (2, 6) and symbol.base in (_FLOOR_STRAIGHT, _CURVE, _FLOOR_CURVE):
+        return (_TURN if symbol.rotation == 6 else -_TURN), 0.0
+    return None
+
+
+def face_words(symbols: tuple[Symbol, ...]) -> str:
+    """What the face does, by the names of its symbols."""
+    bare = {0x2FF, groups.HEAD_RIM, groups.EARS, *groups.HEAD_MOVEMENTS, *groups.NOSE, 0x33B, 0x36A}
+    names = [symbol.name for symbol in groups.of(symbols, groups.HEADS) if symbol.base not in bare]
+    return ", ".join(dict.fromkeys(names))
+
 
 # SignWriting gives no durations. Measured signs move at about half a metre a second, and no movement takes
 # less than 0.2 s; symbols of dynamics are a third faster or two thirds slower than that.

@@ -15,9 +15,9 @@ from typing import Literal
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_authoring.signwriting import symbol_groups as groups
+from teo_sign_authoring.signwriting import written_sign as groups
+from teo_sign_authoring.signwriting.hand_symbols import CM_PER_PIXEL, Side, displacement_words, drawn_tip
 from teo_sign_authoring.signwriting.hands import WrittenHand
-from teo_sign_authoring.signwriting.page import CM_PER_PIXEL, Side, displacement_words, drawn_tip
 from teo_sign_authoring.signwriting.written_sign import Symbol
 from teo_sign_capture.signing_space.places import written_place
 

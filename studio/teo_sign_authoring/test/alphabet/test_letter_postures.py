@@ -18,12 +18,10 @@ from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry, segment_distances
 from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
-from teo_sign_authoring.alphabet.face_visibility import shift_off_face
 from teo_sign_authoring.alphabet.hand_fit import HandPose, SignerHand, fit_hand, measure_signer
-from teo_sign_authoring.alphabet.letter_clips import DEPTH_SCALE, LetterClip, load_letter_clips
-from teo_sign_authoring.alphabet.spelling_arm import fit_arm, spelling_bounds
+from teo_sign_authoring.alphabet.letter_clips import DEPTH_SCALE, LetterClip, find_stroke, load_letter_clips
+from teo_sign_authoring.alphabet.spelling_arm import fit_arm, shift_off_face, spelling_bounds
 from teo_sign_authoring.alphabet.spelling_hand import fit_robot_hand
-from teo_sign_authoring.alphabet.stroke import find_stroke
 from teo_sign_authoring.cli.capture_table import letters_main
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.tracks.hand_shape import palm_axes

@@ -17,10 +17,9 @@ from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_names import RIGHT_ARM, RIGHT_HAND, joint_limits
 from teo_sign_authoring.alphabet.demonstration import SPELLING_POSES
-from teo_sign_authoring.alphabet.face_visibility import shift_off_face
-from teo_sign_authoring.alphabet.letter_clips import load_letter_clips
+from teo_sign_authoring.alphabet.letter_clips import find_stroke, load_letter_clips, palm_centres
 from teo_sign_authoring.alphabet.letters import capture_letter, read_alphabet
-from teo_sign_authoring.alphabet.stroke import find_stroke, palm_centres
+from teo_sign_authoring.alphabet.spelling_arm import shift_off_face
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.likeness import nearest_pairs
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory

@@ -15,7 +15,7 @@ from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
 from teo_motion.trajectory.limits import MotionLimits
 from teo_names import COMMANDED_JOINTS, joint_limits
-from teo_sign_authoring.alphabet.face_visibility import shift_off_face
+from teo_sign_authoring.alphabet.spelling_arm import shift_off_face
 from teo_sign_authoring.easing.easy_letters import ease_letters, with_easy_posture
 from teo_sign_capture.retarget.knots import least_clearance
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language

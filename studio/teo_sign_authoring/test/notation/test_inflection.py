@@ -12,8 +12,7 @@ import pytest
 
 from teo_description.robot import Robot
 from teo_names import joint_limits
-from teo_sign_authoring.notation.inflection import BODY_PLACES
-from teo_sign_authoring.notation.score_file import read_score
+from teo_sign_authoring.notation.score_file import BODY_PLACES, read_score
 from teo_sign_authoring.notation.score_retarget import score_sign
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut, Sign, default_lut_directory

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from teo_sign_authoring.signwriting.page import orientation_of, written_side
+from teo_sign_authoring.signwriting.hand_symbols import orientation_of, written_side
 from teo_sign_authoring.signwriting.written_sign import read_fsw
 from teo_sign_capture.signing_space.places import direction
 

@@ -14,15 +14,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.camera.painter import LIGHTS
+from teo_synthetic_signer.camera.renderer import LIGHTS
 from teo_synthetic_signer.camera.sensors import SENSORS
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.scripts import SCRIPTS, about
 from teo_synthetic_signer.take.furniture import SCENES
 from teo_synthetic_signer.take.take import Companion, Take, TakeOptions
-from teo_synthetic_signer.take.take_bag import write_take
-from teo_synthetic_signer.take.take_film import FILM_SUFFIX, write_film
-from teo_synthetic_signer.take.take_messages import JPEG_QUALITY
+from teo_synthetic_signer.take.take_files import FILM_SUFFIX, JPEG_QUALITY, write_film, write_take
 
 _DEFAULTS = TakeOptions()
 # A hand that is nearer than this to its place is there [m].

@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_synthetic_signer.body.hand import OTHER_HAND, hand_point
-from teo_synthetic_signer.body.hand_shapes import HandShape, hand_shape
+from teo_synthetic_signer.body.hand import OTHER_HAND, HandShape, hand_point, hand_shape
 from teo_synthetic_signer.body.places import PLACES, Places
 from teo_synthetic_signer.body.pose import ArmPose, Poser
 from teo_synthetic_signer.body.rotations import about, cross, frame, turn

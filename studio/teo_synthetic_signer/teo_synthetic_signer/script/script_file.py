@@ -4,17 +4,237 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
-from typing import NamedTuple
+from typing import Annotated, Literal, NamedTuple, Self
 
+import numpy as np
 import yaml
-from pydantic import ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from teo_synthetic_signer.body.body_data import data_folder
+from teo_synthetic_signer.body.hand import (
+    FINGERS,
+    HAND_SHAPES,
+    OTHER_HAND,
+    POINTS,
+    THUMBS,
+    HandShape,
+    hand_thumb,
+)
+from teo_synthetic_signer.body.places import PLACES
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.script.keys import Key
-from teo_synthetic_signer.script.script_schema import KeyText, RepeatText, ScriptText
-from teo_synthetic_signer.script.scripts import about, script
-from teo_synthetic_signer.script.signs import HANGING
+from teo_synthetic_signer.script.keys import ArmKey, Key, Swing, Vector
+from teo_synthetic_signer.script.scripts import HANGING, about, script
+
+_STRICT = ConfigDict(strict=True, extra="forbid", frozen=True)
+# Palm and fingers nearer to one line than 5 deg do not say how the hand is turned.
+_MOST_OBLIQUE = math.cos(math.radians(5.0))
+
+
+def _one_of(*names: str) -> AfterValidator:
+    def check(value: str) -> str:
+        if value not in names:
+            raise ValueError(f"expected one of {', '.join(names)}; got {value!r}")
+        return value
+
+    return AfterValidator(check)
+
+
+def _not_zero(value: tuple[float, float, float]) -> tuple[float, float, float]:
+    if math.hypot(*value) < 1e-6:
+        raise ValueError(f"expected a direction, got {list(value)}")
+    return value
+
+
+def _face(value: dict[str, float]) -> dict[str, float]:
+    folder = data_folder() / "faceunits01/targets/faceunits"
+    for name, strength in value.items():
+        if not (folder / f"{name}.target").is_file():
+            known = ", ".join(sorted(file.stem for file in folder.glob("*.target")))
+            raise ValueError(f"expected facial actions of {known}; got {name!r}")
+        if not 0.0 <= strength <= 1.0:
+            raise ValueError(f"expected a strength of 0 to 1 for {name}, got {strength:g}")
+    return value
+
+
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Metres = Annotated[float, Field(ge=-2.0, le=2.0)]
+Bend = Annotated[float, Field(ge=-40.0, le=130.0)]
+Spread = Annotated[float, Field(ge=-40.0, le=40.0)]
+Seconds = Annotated[float, Field(ge=0.0, le=60.0)]
+Way = Annotated[tuple[Number, Number, Number], Field(strict=False), AfterValidator(_not_zero)]
+Bends = Annotated[tuple[Bend, Bend, Bend], Field(strict=False)]
+
+
+class ThumbText(BaseModel):
+    """A thumb in full."""
+
+    model_config = _STRICT
+
+    points: Way = Field(
+        description="Where its metacarpal points: along the fingers, out of the palm, thumbwards."
+    )
+    bends: Way = Field(description="Towards where it bends, likewise.")
+    flexion: Annotated[tuple[Bend, Bend], Field(strict=False)] = Field(
+        description="Of its two outer joints [deg]."
+    )
+
+
+class ShapeText(BaseModel):
+    """A hand shape in full."""
+
+    model_config = _STRICT
+
+    index: Bends = Field(description="Flexion of knuckle, middle and last joint; 0 is straight [deg].")
+    middle: Bends
+    ring: Bends
+    little: Bends
+    spread: Annotated[tuple[Spread, Spread, Spread, Spread], Field(strict=False)] = Field(
+        (2.0, 0.0, -2.0, -5.0), description="Of index to little finger towards the thumb [deg]."
+    )
+    thumb: Annotated[str, _one_of(*THUMBS)] | ThumbText = Field(description="By name or in full.")
+
+    thumb_bent: Bend = Field(0.0, description="By how much its two outer joints are bent further [deg].")
+
+    def shape(self) -> HandShape:
+        """Give the shape."""
+        thumb = self.thumb
+        if isinstance(thumb, str):
+            ways, angles = hand_thumb(thumb)
+        else:
+            ways, angles = np.array([thumb.points, thumb.bends]), np.radians(thumb.flexion)
+        flexion = np.radians([getattr(self, finger) for finger in FINGERS])
+        return HandShape(
+            flexion,
+            np.radians(np.array(self.spread, dtype=float)),
+            ways,
+            angles + math.radians(self.thumb_bent),
+        )
+
+
+class SwingText(BaseModel):
+    """By how much joints are turned after the hand is there [deg]."""
+
+    model_config = _STRICT
+
+    wrist: Annotated[float, Field(ge=-60.0, le=60.0)] = Field(0.0, description="To the thumb's side.")
+    forearm: Annotated[float, Field(ge=-120.0, le=120.0)] = Field(0.0, description="The palm upwards.")
+    elbow: Annotated[float, Field(ge=-90.0, le=90.0)] = Field(0.0, description="Stretched.")
+
+
+class ArmText(BaseModel):
+    """Where an arm goes; see `ArmKey`."""
+
+    model_config = _STRICT
+
+    at: Annotated[str, _one_of(*PLACES, *OTHER_HAND)]
+    offset: Annotated[tuple[Metres, Metres, Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
+    point: Annotated[str, _one_of(*POINTS)] = "palm"
+    fingers: Way
+    palm: Way
+    shape: Annotated[str, _one_of(*HAND_SHAPES)] | ShapeText
+    swing: SwingText | None = None
+    swivel: Annotated[float, Field(ge=-90.0, le=90.0)] = Field(
+        0.0, description="Elbow outwards and up [deg]."
+    )
+
+    @model_validator(mode="after")
+    def _palm_is_across(self) -> Self:
+        cosine = abs(np.dot(self.fingers, self.palm)) / math.hypot(*self.fingers) / math.hypot(*self.palm)
+        if cosine > _MOST_OBLIQUE:
+            raise ValueError(
+                "expected a palm that faces across the fingers; got both along one line: "
+                f"fingers {list(self.fingers)}, palm {list(self.palm)}"
+            )
+        return self
+
+    def key(self) -> ArmKey:
+        """Give what it says."""
+        swing = dict(self.swing) if self.swing else {}
+        return ArmKey(
+            at=self.at,
+            offset=self.offset,
+            point=self.point,
+            fingers=self.fingers,
+            palm=self.palm,
+            shape=self.shape if isinstance(self.shape, str) else self.shape.shape(),
+            swing=Swing(**{joint: math.radians(angle) for joint, angle in swing.items()}),
+            swivel=math.radians(self.swivel),
+        )
+
+
+_Hanging = Literal["hanging"]
+Angle = Annotated[float, Field(ge=-90.0, le=90.0)]
+Angles = Annotated[tuple[Angle, Angle, Angle], Field(strict=False)]
+
+
+class KeyText(BaseModel):
+    """One key pose; see `Key`. What arms, head, trunk and face do stays until said otherwise."""
+
+    model_config = _STRICT
+
+    right: ArmText | _Hanging | None = None
+    left: ArmText | _Hanging | None = None
+    move: Annotated[float, Field(gt=0.0, le=60.0)] = 0.45
+    hold: Seconds = 0.0
+    bulge: Annotated[tuple[Metres, Metres, Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
+    through: bool = False
+    head: Angles | None = Field(None, description="Turned left, bowed, tilted left [deg].")
+    lean: Angles | None = Field(None, description="Of the trunk: forwards, left, turned left [deg].")
+    face: Annotated[dict[str, float], AfterValidator(_face)] | None = None
+
+    @model_validator(mode="after")
+    def _goes_on(self) -> Self:
+        if self.through and (self.hold or any(self.bulge)):
+            raise ValueError("expected neither hold nor bulge where hands go through")
+        return self
+
+    def key(self, before: Key, hanging: ArmKey) -> Key:
+        """Give what it says after another key."""
+
+        def arm(text: ArmText | str | None) -> ArmKey | None:
+            return text.key() if isinstance(text, ArmText) else hanging if text else None
+
+        def angles(text: tuple[float, float, float] | None, kept: Vector) -> Vector:
+            return (
+                kept
+                if text is None
+                else (math.radians(text[0]), math.radians(text[1]), math.radians(text[2]))
+            )
+
+        return Key(
+            right=arm(self.right),
+            left=arm(self.left),
+            move=self.move,
+            hold=self.hold,
+            arc=0.0,
+            bulge=self.bulge,
+            through=self.through,
+            head=angles(self.head, before.head),
+            lean=angles(self.lean, before.lean),
+            face=before.face if self.face is None else self.face,
+            keep_out=True,
+        )
+
+
+class RepeatText(BaseModel):
+    """Keys that are played again."""
+
+    model_config = _STRICT
+
+    times: int = Field(ge=2, le=100, description="How often in all.")
+    keys: list[KeyText] = Field(min_length=1)
+
+
+class ScriptText(BaseModel):
+    """A script."""
+
+    model_config = _STRICT
+
+    about: Annotated[str, Field(min_length=1, max_length=500)] = Field(description="What happens.")
+    keys: list[KeyText | RepeatText] = Field(min_length=2, max_length=2000)
+
 
 # By which a script's file is told from a script's name.
 SUFFIXES = (".yaml", ".yml")

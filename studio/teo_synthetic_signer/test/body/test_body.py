@@ -11,14 +11,13 @@ import pytest
 
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_shapes import BODIES, Phenotype, target_weights
-from teo_synthetic_signer.body.hand_shapes import HAND_SHAPES, hand_shape
+from teo_synthetic_signer.body.hand import HAND_SHAPES, hand_shape
 from teo_synthetic_signer.body.pose import BodyPose
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.keys import ArmKey, Key, KeyResolver
 from teo_synthetic_signer.script.motion import Motion
-from teo_synthetic_signer.script.scripts import SCRIPTS, script
-from teo_synthetic_signer.script.signs import REST
+from teo_synthetic_signer.script.scripts import REST, SCRIPTS, script
 
 FINGERS = {"thumb": 1, "index": 5, "middle": 9, "ring": 13, "little": 17}
 STRAIGHT = ("index", "middle", "ring", "little")

@@ -9,8 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from teo_synthetic_signer.camera.depth_model import DepthModel
-from teo_synthetic_signer.camera.sensors import SENSORS, Principle, sensor
+from teo_synthetic_signer.camera.sensors import SENSORS, DepthModel, Principle, sensor
 from teo_synthetic_signer.errors import SyntheticError
 
 SIZE = (640, 480)

@@ -16,7 +16,7 @@ from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, de
 from teo_synthetic_signer import SyntheticFrame, render_take
 from teo_synthetic_signer.cli.synthesize_cli import _app
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.take.take_bag import START, write_take
+from teo_synthetic_signer.take.take_files import START, write_take
 
 MESSAGES = Path(__file__).parents[4] / "src" / "teo_sign_msgs" / "msg"
 COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
