@@ -132,10 +132,7 @@ class WordTolerance:
             turned = Rotation.from_matrix(now.rotation[posture] @ captured.rotation[posture].T).as_rotvec()
             shifted = now.place[posture] - captured.place[posture]
             ways = now.point_jacobian(now.place)[posture]
-            for matrix, already, most in (
-                (now.axes[posture].T, turned, TURN),
-                (ways, shifted, _SHIFT),
-            ):
+            for matrix, already, most in ((now.axes[posture].T, turned, TURN), (ways, shifted, _SHIFT)):
                 rows = self.arms.of_side(number, DIRECTIONS @ matrix)
                 found.append(Rows((posture,), rows, ALONG * most - DIRECTIONS @ already, most))
         return found

@@ -199,11 +199,7 @@ class ScoreKnots:
         self._swing_sizes = np.concatenate([np.ones(2), axis_shares(self._table)])
 
     def of(
-        self,
-        hands: Hands,
-        moments: list[Posture],
-        rights: list[ArmCandidate],
-        lefts: list[ArmCandidate],
+        self, hands: Hands, moments: list[Posture], rights: list[ArmCandidate], lefts: list[ArmCandidate]
     ) -> tuple[tuple[str, ...], Array]:
         """Joints that take part, and their positions at every moment [rad]. Shape (moments, joints).
 

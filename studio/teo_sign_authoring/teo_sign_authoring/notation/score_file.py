@@ -20,7 +20,6 @@ from itertools import permutations
 from pathlib import Path
 
 import numpy as np
-import yaml
 from pydantic import ValidationError
 
 from teo_sign_authoring.notation.score_schema import (
@@ -35,6 +34,8 @@ from teo_sign_authoring.notation.score_schema import (
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 from teo_signs.sign import gloss_key
+from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.yaml_lines import YamlLines
 
 # Where persons are: the first before the signer's chest, the second farther away, the third to the right,
 # as far as the arm reaches without help of the trunk (GramLSE, Morphology 3.1.1.1: a place of the signing
@@ -226,73 +227,52 @@ def read_score(path: Path) -> Score:
 def _read(path: Path, within: tuple[str, ...]) -> Score:
     """Read a score that is part of compounds of those names."""
     try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise LutError(
-            "unreadable", f"{path.name}: expected a file to read, got: {error.strerror}"
-        ) from error
-    if len(data) > _MOST_BYTES:
-        raise LutError("too_large", f"{path.name}: expected at most {_MOST_BYTES} bytes, got {len(data)}")
-    try:
-        text = data.decode("utf-8")
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
-        content = yaml.safe_load(text)
-    except UnicodeDecodeError as error:
-        raise LutError("not_utf8", f"{path.name}: expected UTF-8, got byte {data[error.start]:#x}") from error
-    except yaml.YAMLError as error:
-        raise LutError(
-            "not_yaml", f"{path.name}: expected YAML, got: {' '.join(str(error).split())}"
-        ) from error
-    if not isinstance(root, yaml.MappingNode):
-        raise LutError("bad_score", f"{path.name}:1: expected fields such as 'gloss: YO', got none")
-    compound = any(key.value == "signs" for key, _ in root.value)
+        lines = YamlLines(path, most_bytes=_MOST_BYTES, fields="fields such as 'gloss: YO'")
+    except SyntheticError as error:
+        code = "bad_score" if error.code == "no_fields" else error.code
+        raise LutError(code, error.sentence) from error
     score: Compound | Score
     try:
-        score = (Compound if compound else Score).model_validate(content)
+        score = (Compound if "signs" in lines.content else Score).model_validate(lines.content)
     except ValidationError as error:
         first = error.errors()[0]
-        where = [part for part in first["loc"] if not (isinstance(part, str) and part in _UNION_NAMES)]
-        field = ".".join(map(str, where)) or "score"
-        expected = first["msg"].removeprefix("Value error, ")
-        raise LutError("bad_score", f"{path.name}:{_line(root, where)}: {field}: {expected}") from error
+        where = [part for part in first["loc"] if part not in _UNION_NAMES]
+        raise _refusal(lines, where, first["msg"]) from error
     if gloss_key(score.gloss) != path.stem:
         message = f"{path.name}:1: gloss: expected {path.stem!r}, the file's name, got {score.gloss!r}"
         raise LutError("gloss_mismatch", message)
     if isinstance(score, Score):
-        _check_forms(path, root, score)
+        try:
+            for form in inflected_scores(score).values():
+                Score.model_validate(form.model_dump(exclude_unset=True))
+        except ValidationError as error:  # words of the forms that mean nothing once persons are filled in
+            raise _refusal(lines, ["forms"], error.errors()[0]["msg"]) from error
         return score
-    return performed(score, [_part(path, root, score, index, within) for index in range(len(score.signs))])
+    return performed(score, [_part(path, lines, score, index, within) for index in range(len(score.signs))])
 
 
-def _check_forms(path: Path, root: yaml.Node, score: Score) -> None:
-    """Refuse forms whose words mean nothing: they are filled in for each person or place."""
-    try:
-        for form in inflected_scores(score).values():
-            Score.model_validate(form.model_dump(exclude_unset=True))
-    except ValidationError as error:
-        expected = error.errors()[0]["msg"].removeprefix("Value error, ")
-        line = _line(root, ["forms"])
-        raise LutError("bad_score", f"{path.name}:{line}: forms: {expected}") from error
+def _refusal(lines: YamlLines, where: list[int | str], expected: str) -> LutError:
+    field = ".".join(map(str, where)) or "score"
+    return LutError("bad_score", f"{lines.place(where)}: {field}: {expected.removeprefix('Value error, ')}")
 
 
-def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
-    gloss = compound.signs[index]
+def _part(path: Path, lines: YamlLines, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
+    """The score of one of a compound's signs, which is beside it."""
+    gloss, where = compound.signs[index], ["signs", index]
     beside = path.with_name(f"{gloss_key(gloss)}.yaml")
-    where = f"{path.name}:{_line(root, ['signs', index])}: signs.{index}"
     within = (*within, compound.gloss)
     if gloss in within:
-        raise LutError("bad_score", f"{where}: expected a sign that is not made of itself, got {gloss!r}")
+        raise _refusal(lines, where, f"expected a sign that is not made of itself, got {gloss!r}")
     if not beside.is_file():
-        raise LutError("bad_score", f"{where}: expected a sign with a score beside this one, got {gloss!r}")
+        raise _refusal(lines, where, f"expected a sign with a score beside this one, got {gloss!r}")
     part = _read(beside, within)
     if not compound.inflection:
         return part
     forms = inflected_scores(part)
     if compound.inflection not in forms:
         there = ", ".join(forms) or "none"
-        raise LutError(
-            "bad_score", f"{where}: expected a form of {gloss} ({there}), got {compound.inflection!r}"
-        )
+        message = f"expected a form of {gloss} ({there}), got {compound.inflection!r}"
+        raise _refusal(lines, where, message)
     return forms[compound.inflection]
 
 
@@ -306,20 +286,3 @@ def read_scores(directory: Path) -> Iterator[Score]:
         raise LutError("no_directory", f"expected a directory of scores, got {directory}")
     for path in sorted(directory.glob("*.yaml")):
         yield read_score(path)
-
-
-def _line(node: yaml.Node, path: list[int | str]) -> int:
-    """Line of the deepest part of a path that the text has, from 1."""
-    line = node.start_mark.line + 1
-    for part in path:
-        if isinstance(node, yaml.MappingNode):
-            found = next((pair for pair in node.value if pair[0].value == part), None)
-            if found is None:
-                break
-            line, node = found[0].start_mark.line + 1, found[1]
-        elif isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
-            node = node.value[part]
-            line = node.start_mark.line + 1
-        else:
-            break
-    return line

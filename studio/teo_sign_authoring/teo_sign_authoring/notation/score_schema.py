@@ -192,8 +192,7 @@ class Forms(BaseModel):
         None, description="Forms along persons that TEO can make; all without it."
     )
     hands: Literal["right", "both"] | None = Field(
-        None,
-        description="Hands of the forms, if the score mirrors them: two that go to one side are both.",
+        None, description="Hands of the forms, if the score mirrors them: two that go to one side are both."
     )
     steps: list[FormStep | FormRepeat] = Field(min_length=1)
 

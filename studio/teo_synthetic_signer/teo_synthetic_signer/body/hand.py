@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,14 +53,19 @@ class HandShape:
         return HandShape(*((1.0 - share) * mine + share * its for mine, its in pairs))
 
 
-_STRAIGHT = (2.0, 4.0, 3.0)
-_RELAXED = (22.0, 28.0, 15.0)
-_FOLDED = (82.0, 95.0, 60.0)
-_HOOK = (8.0, 80.0, 50.0)
-_BENT = (75.0, 8.0, 5.0)
-_ROUND = (45.0, 48.0, 30.0)
-_CLAW = (25.0, 50.0, 35.0)
-_PINCH = (55.0, 50.0, 25.0)
+Bends = tuple[float, float, float]
+
+# Flexion of knuckle, middle and last joint [deg].
+_STRAIGHT: Bends = (2.0, 4.0, 3.0)
+_RELAXED: Bends = (22.0, 28.0, 15.0)
+_FOLDED: Bends = (82.0, 95.0, 60.0)
+_HOOK: Bends = (8.0, 80.0, 50.0)
+_CROOKED: Bends = (8.0, 78.0, 48.0)
+_BENT: Bends = (75.0, 8.0, 5.0)
+_ROUND: Bends = (45.0, 48.0, 30.0)
+_CLAW: Bends = (25.0, 50.0, 35.0)
+_PINCH: Bends = (55.0, 50.0, 25.0)
+_AT_THUMB: Bends = (56.0, 48.0, 24.0)
 
 # Where the thumb's metacarpal points, towards where it bends, and how far in its two outer joints [deg].
 THUMBS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float]]] = {
@@ -79,39 +85,69 @@ def hand_thumb(name: str) -> tuple[FloatArray, FloatArray]:
     return np.array([points, bends]), np.radians(np.array(angles))
 
 
-def _shape(
-    fingers: tuple[tuple[float, float, float], ...],
-    thumb: str,
-    spread: tuple[float, float, float, float] = (2.0, 0.0, -2.0, -5.0),
-) -> HandShape:
-    return HandShape(np.radians(np.array(fingers)), np.radians(np.array(spread)), *hand_thumb(thumb))
+class HandAngles(NamedTuple):
+    """A hand shape in degrees.
+
+    Attributes:
+        fingers: Flexion of knuckle, middle and last joint of index, middle, ring and little finger.
+        thumb: One of `THUMBS`.
+        spread: Of index to little finger towards the thumb.
+    """
+
+    fingers: tuple[Bends, Bends, Bends, Bends]
+    thumb: str
+    spread: tuple[float, float, float, float] = (2.0, 0.0, -2.0, -5.0)
+
+    def shape(self) -> HandShape:
+        """Give the shape in radians."""
+        return HandShape(
+            np.radians(np.array(self.fingers)), np.radians(np.array(self.spread)), *hand_thumb(self.thumb)
+        )
 
 
 _FAN = (12.0, 2.0, -9.0, -20.0)  # spread of an open hand [deg]
+_TWO_APART = (8.0, -4.0, -4.0, -6.0)
 
-HAND_SHAPES: dict[str, HandShape] = {
-    "relaxed": _shape((_RELAXED, (26.0, 32.0, 18.0), (30.0, 34.0, 18.0), (32.0, 34.0, 18.0)), "relaxed"),
-    "open": _shape((_STRAIGHT,) * 4, "out", _FAN),
-    "flat": _shape((_STRAIGHT,) * 4, "beside"),
-    "fist": _shape((_FOLDED,) * 4, "over"),
-    "index": _shape((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "over"),
-    "middle": _shape((_FOLDED, _STRAIGHT, _FOLDED, _FOLDED), "over"),
-    "little": _shape((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "over"),
-    "v": _shape((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across", (13.0, -10.0, -4.0, -6.0)),
-    "u": _shape((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across"),
-    "w": _shape((_STRAIGHT, _STRAIGHT, _STRAIGHT, _FOLDED), "across", (13.0, 0.0, -13.0, -8.0)),
-    "b": _shape((_STRAIGHT,) * 4, "across"),
-    "l": _shape((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "up"),
-    "y": _shape((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "up", (2.0, 0.0, -2.0, -14.0)),
-    "horns": _shape((_STRAIGHT, _FOLDED, _FOLDED, _STRAIGHT), "over", (6.0, 0.0, -2.0, -12.0)),
-    "thumb_up": _shape((_FOLDED,) * 4, "up"),
-    "c": _shape((_ROUND,) * 4, "opposed"),
-    "o": _shape(((58.0, 56.0, 35.0), (58.0, 58.0, 36.0), (60.0, 58.0, 36.0), (62.0, 58.0, 36.0)), "opposed"),
-    "claw": _shape((_CLAW,) * 4, "out", _FAN),
-    "hook": _shape((_HOOK, _FOLDED, _FOLDED, _FOLDED), "over"),
-    "bent": _shape((_BENT,) * 4, "beside"),
-    "f": _shape((_PINCH, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0.0, 4.0, -7.0, -18.0)),
+HAND_ANGLES: dict[str, HandAngles] = {
+    "relaxed": HandAngles((_RELAXED, (26, 32, 18), (30, 34, 18), (32, 34, 18)), "relaxed"),
+    "open": HandAngles((_STRAIGHT,) * 4, "out", _FAN),
+    "flat": HandAngles((_STRAIGHT,) * 4, "beside"),
+    "fist": HandAngles((_FOLDED,) * 4, "over"),
+    "index": HandAngles((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "over"),
+    "middle": HandAngles((_FOLDED, _STRAIGHT, _FOLDED, _FOLDED), "over"),
+    "little": HandAngles((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "over"),
+    "v": HandAngles((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across", (13, -10, -4, -6)),
+    "u": HandAngles((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across"),
+    "w": HandAngles((_STRAIGHT, _STRAIGHT, _STRAIGHT, _FOLDED), "across", (13, 0, -13, -8)),
+    "b": HandAngles((_STRAIGHT,) * 4, "across"),
+    "l": HandAngles((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "up"),
+    "y": HandAngles((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "up", (2, 0, -2, -14)),
+    "horns": HandAngles((_STRAIGHT, _FOLDED, _FOLDED, _STRAIGHT), "over", (6, 0, -2, -12)),
+    "thumb_up": HandAngles((_FOLDED,) * 4, "up"),
+    "c": HandAngles((_ROUND,) * 4, "opposed"),
+    "o": HandAngles(((58, 56, 35), (58, 58, 36), (60, 58, 36), (62, 58, 36)), "opposed"),
+    "claw": HandAngles((_CLAW,) * 4, "out", _FAN),
+    "hook": HandAngles((_HOOK, _FOLDED, _FOLDED, _FOLDED), "over"),
+    "bent": HandAngles((_BENT,) * 4, "beside"),
+    "f": HandAngles((_PINCH, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
+    # More handshapes of sign scores; the others of theirs have names above.
+    "loose": HandAngles(((14, 20, 10), (16, 22, 11), (18, 23, 12), (20, 24, 12)), "relaxed", (6, 1, -4, -10)),
+    "cupped": HandAngles(((26, 32, 18),) * 4, "relaxed"),
+    "bunched": HandAngles(((58, 38, 18), (62, 36, 16), (60, 40, 18), (58, 46, 22)), "opposed", (-4, 0, 4, 8)),
+    "crooked": HandAngles((_CROOKED, _FOLDED, _FOLDED, _FOLDED), "over"),
+    "bent_two": HandAngles((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "across", (10, -8, -4, -6)),
+    "bent_thumb_two": HandAngles((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "up", _TWO_APART),
+    "four": HandAngles((_STRAIGHT,) * 4, "across", _FAN),
+    "bent_four": HandAngles((_BENT,) * 4, "across"),
+    "thumb_two": HandAngles((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "up", _TWO_APART),
+    "pinch": HandAngles((_AT_THUMB, _FOLDED, _FOLDED, _FOLDED), "opposed"),
+    "ring": HandAngles((_AT_THUMB, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
+    "middle_flick": HandAngles((_STRAIGHT, _AT_THUMB, _STRAIGHT, _STRAIGHT), "opposed", (8, 0, -8, -16)),
+    "ring_flick": HandAngles((_STRAIGHT, _STRAIGHT, _AT_THUMB, _STRAIGHT), "opposed", (8, 4, 0, -14)),
+    "two_flick": HandAngles((_AT_THUMB, _AT_THUMB, _FOLDED, _FOLDED), "opposed"),
+    "three_flick": HandAngles((_AT_THUMB, _AT_THUMB, _AT_THUMB, _FOLDED), "opposed"),
 }
+HAND_SHAPES: dict[str, HandShape] = {name: angles.shape() for name, angles in HAND_ANGLES.items()}
 
 
 def hand_shape(name: str) -> HandShape:

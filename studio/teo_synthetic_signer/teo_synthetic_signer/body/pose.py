@@ -13,15 +13,7 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.hand import HAND_SHAPES, Hand, HandShape
 from teo_synthetic_signer.body.rig import SIDES, Rig
-from teo_synthetic_signer.body.rotations import (
-    about,
-    cross,
-    frame,
-    perpendicular,
-    turn,
-    twist_about,
-    unit,
-)
+from teo_synthetic_signer.body.rotations import about, cross, frame, perpendicular, turn, twist_about, unit
 
 # How far a place may be, of the length of the stretched arm: elbows are never quite straight.
 REACH = 0.985

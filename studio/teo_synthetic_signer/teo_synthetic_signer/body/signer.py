@@ -91,11 +91,7 @@ class Dress:
         for side in ("R", "L"):
             chosen = np.unique(groups[f"helper-{side.lower()}-eye"])
             patterns[chosen] = rig.vertices[chosen] - rig.head(f"eye.{side}")
-        parts = [
-            (bare, Material.PLAIN),
-            (eyes, Material.EYE),
-            (worn, Material.CLOTH),
-        ]
+        parts = [(bare, Material.PLAIN), (eyes, Material.EYE), (worn, Material.CLOTH)]
         cap, cap_vertices, sources = _hair_cap(rig, body, hair_roots)
         parts.append((cap + len(z), Material.HAIR))
         if shape.long_hair:

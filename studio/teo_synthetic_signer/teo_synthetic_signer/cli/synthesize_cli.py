@@ -81,7 +81,7 @@ def _synthesize(
         return
     if out is None:
         raise typer.BadParameter("expected a folder for the bag: --out FOLDER")
-    width, height = _parsed(size)
+    width, height = parsed_size(size)
     try:
         options = TakeOptions(
             script=script,
@@ -106,10 +106,6 @@ def _synthesize(
     count = min(frames, len(take)) if frames else len(take)
     rendered = (take.truth(i) if truth_only else take.frame(i) for i in range(count))
     columns = (TextColumn("rendering"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    about_it = {
-        "synthetic signer": f"{Path(script).name} by {body} in {scene} before {sensor} at {distance:g} m",
-        "script": take.about,
-    }
     try:
         with Progress(*columns, console=_err) as progress:
             task = progress.add_task("", total=count)
@@ -117,7 +113,7 @@ def _synthesize(
                 written = write_film((take.frame(i) for i in range(count)), out)
             else:
                 written = write_take(
-                    rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=about_it
+                    rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=take.about_it
                 )
             for number in written:
                 progress.update(task, completed=number)
@@ -151,7 +147,8 @@ def _companion(words: str) -> Companion:
         ) from None
 
 
-def _parsed(size: str) -> tuple[int, int]:
+def parsed_size(size: str) -> tuple[int, int]:
+    """Read "columns x rows" of images [px]."""
     width, cross, height = size.lower().partition("x")
     if not (cross and width.isdigit() and height.isdigit()):
         raise typer.BadParameter(f"--size: expected columns x rows such as 640x480, got {size!r}")

@@ -11,8 +11,8 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.hand import OTHER_HAND, HandShape, hand_point, hand_shape
-from teo_synthetic_signer.body.places import PLACES, Places
 from teo_synthetic_signer.body.pose import ArmPose, Poser
+from teo_synthetic_signer.body.rig import PLACES, Places
 from teo_synthetic_signer.body.rotations import about, cross, frame, turn
 from teo_synthetic_signer.errors import unknown_name
 

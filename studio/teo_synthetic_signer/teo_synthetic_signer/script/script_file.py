@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated, Literal, NamedTuple, Self
 
 import numpy as np
-import yaml
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from teo_synthetic_signer.body.body_data import data_folder
@@ -22,10 +21,11 @@ from teo_synthetic_signer.body.hand import (
     HandShape,
     hand_thumb,
 )
-from teo_synthetic_signer.body.places import PLACES
+from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.keys import ArmKey, Key, Swing, Vector
 from teo_synthetic_signer.script.scripts import HANGING, about, script
+from teo_synthetic_signer.yaml_lines import YamlLines
 
 _STRICT = ConfigDict(strict=True, extra="forbid", frozen=True)
 # Palm and fingers nearer to one line than 5 deg do not say how the hand is turned.
@@ -240,6 +240,13 @@ class ScriptText(BaseModel):
 SUFFIXES = (".yaml", ".yml")
 # A minute of signing is 50 kB; this is no script.
 _MOST_BYTES = 2_000_000
+# Codes of files that are none, of scripts.
+_CODES = {
+    "unreadable": "unreadable_script",
+    "too_large": "script_too_large",
+    "not_utf8": "not_yaml",
+    "no_fields": "bad_script",
+}
 # [s] Of a script: 18,000 frames take 40 min to render.
 _LONGEST = 600.0
 # What pydantic puts between the fields of a path where a field can be of several kinds.
@@ -272,37 +279,23 @@ def read_script(path: Path) -> Script:
             with file and line and names the field.
     """
     try:
-        data = path.read_bytes()
-    except OSError as error:
-        message = f"{path.name}: expected a file to read, got: {error.strerror}"
-        raise SyntheticError("unreadable_script", message) from error
-    if len(data) > _MOST_BYTES:
-        message = f"{path.name}: expected at most {_MOST_BYTES} bytes, got {len(data)}"
-        raise SyntheticError("script_too_large", message)
+        lines = YamlLines(path, most_bytes=_MOST_BYTES, fields="fields such as 'keys:'")
+    except SyntheticError as error:
+        raise SyntheticError(_CODES.get(error.code, error.code), error.sentence) from error
     try:
-        source = data.decode("utf-8")
-        root = yaml.compose(source, Loader=yaml.SafeLoader)
-        content = yaml.safe_load(source)
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        message = f"{path.name}: expected YAML in UTF-8, got: {' '.join(str(error).split())}"
-        raise SyntheticError("not_yaml", message) from error
-    if not isinstance(root, yaml.MappingNode):
-        raise SyntheticError("bad_script", f"{path.name}:1: expected fields such as 'keys:', got none")
-    try:
-        text = ScriptText.model_validate(content)
+        text = ScriptText.model_validate(lines.content)
     except ValidationError as error:
-        where, expected = _first_error(error)
-        raise _refusal(path, root, where, expected) from error
+        raise _refusal(lines, *_first_error(error)) from error
     flat = _flattened(text.keys)
     for side in ("right", "left"):
         if getattr(flat[0], side) is None:
-            raise _refusal(path, root, ["keys", 0], f"the first key to say where the {side} arm is")
+            raise _refusal(lines, ["keys", 0], f"the first key to say where the {side} arm is")
     keys: list[Key] = []
     for key in flat:
         keys.append(key.key(keys[-1] if keys else Key(), HANGING))
     duration = sum(key.move + key.hold for key in keys)
     if duration > _LONGEST:
-        raise _refusal(path, root, ["keys"], f"a script of at most {_LONGEST:g} s, got {duration:.0f} s")
+        raise _refusal(lines, ["keys"], f"a script of at most {_LONGEST:g} s, got {duration:.0f} s")
     return Script(tuple(keys), text.about)
 
 
@@ -325,23 +318,6 @@ def _first_error(error: ValidationError) -> tuple[list[int | str], str]:
     return max(found, key=lambda one: len(one[0]))
 
 
-def _refusal(path: Path, root: yaml.Node, where: list[int | str], expected: str) -> SyntheticError:
+def _refusal(lines: YamlLines, where: list[int | str], expected: str) -> SyntheticError:
     field = ".".join(map(str, where)) or "script"
-    return SyntheticError("bad_script", f"{path.name}:{_line(root, where)}: {field}: {expected}")
-
-
-def _line(node: yaml.Node, path: list[int | str]) -> int:
-    """Line of the deepest part of a path that the text has, from 1."""
-    line = int(node.start_mark.line) + 1
-    for part in path:
-        if isinstance(node, yaml.MappingNode):
-            found = next((pair for pair in node.value if pair[0].value == part), None)
-            if found is None:
-                break
-            line, node = int(found[0].start_mark.line) + 1, found[1]
-        elif isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
-            node = node.value[part]
-            line = int(node.start_mark.line) + 1
-        else:
-            break
-    return line
+    return SyntheticError("bad_script", f"{lines.place(where)}: {field}: {expected}")

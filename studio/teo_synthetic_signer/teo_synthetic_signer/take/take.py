@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -208,6 +209,18 @@ class Take:
         self._rotation, self._position = self._camera_pose(actor.signer.height)
         self._surfaces = [one.signer.dress.surface for one in self._actors]
         self._walls = self._seen(vertices)
+
+    @property
+    def about_it(self) -> dict[str, str]:
+        """What the metadata of a bag say of the take."""
+        options = self._options
+        script, distance = Path(options.script).name, f"{options.distance:g} m"
+        return {
+            "synthetic signer": (
+                f"{script} by {options.body} in {options.scene} before {options.sensor} at {distance}"
+            ),
+            "script": self.about,
+        }
 
     def __len__(self) -> int:
         """Tell how many frames the take has."""

@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from teo_synthetic_signer.body.body_data import load_body_data
 from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.body.places import PLACES, Places
+from teo_synthetic_signer.body.rig import PLACES, Places
 from teo_synthetic_signer.body.signer import Signer
 
 INSIDE = {"shoulders", "hip", "side"}
