@@ -7,12 +7,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.hand import HAND_SHAPES, Hand, HandShape
-from teo_synthetic_signer.body.rig import SIDES, Rig
+from teo_synthetic_signer.body.rig import SIDES, Places, Rig
 from teo_synthetic_signer.body.rotations import about, cross, frame, perpendicular, turn, twist_about, unit
 
 # How far a place may be, of the length of the stretched arm: elbows are never quite straight.
@@ -276,6 +277,11 @@ class Poser:
         self.arms = {side: Arm(rig, side) for side in SIDES}
         self.hands = {side: Hand(rig, side) for side in SIDES}
         self.legs = {side: Leg(rig, side) for side in SIDES}
+
+    @cached_property
+    def places(self) -> Places:
+        """The places of the body that hands go to."""
+        return Places(self.rig)
 
     def transforms(self, pose: BodyPose) -> FloatArray:
         """Give the transform of each bone from rest. Shape (bones, 4, 4)."""

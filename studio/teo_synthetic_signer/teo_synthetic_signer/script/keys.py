@@ -12,7 +12,7 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.hand import OTHER_HAND, HandShape, hand_point, hand_shape
 from teo_synthetic_signer.body.pose import ArmPose, Poser
-from teo_synthetic_signer.body.rig import PLACES, Places
+from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.body.rotations import about, cross, frame, turn
 from teo_synthetic_signer.errors import unknown_name
 
@@ -111,7 +111,6 @@ class KeyResolver:
     def __init__(self, poser: Poser) -> None:
         self._poser = poser
         self.shortfall = 0.0
-        self._places = Places(poser.rig)
         self._scale = (poser.arms["R"].upper + poser.arms["R"].fore) / _ARM_LENGTH
 
     def swung_out(self, side: str, bulge: Vector) -> FloatArray:
@@ -162,7 +161,7 @@ class KeyResolver:
 
     def _anchor(self, side: str, at: str, other: ArmPose | None) -> FloatArray:
         if at in PLACES:
-            return self._places.at(at, side)
+            return self._poser.places.at(at, side)
         if at in OTHER_HAND and other is not None:
             hand = self._poser.hands["L" if side == "R" else "R"]
             point = hand_point(hand, other.shape, OTHER_HAND[at])
