@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -141,35 +142,18 @@ def capture_scores(
         raise typer.Exit(1)
 
 
-def letters_main() -> None:
-    """Run `capture_letters`."""
-    _run(capture_letters)
-
-
-def ease_letters_main() -> None:
-    """Run `ease_letters`."""
-    _run(ease_letters)
-
-
-def numbers_main() -> None:
-    """Run `capture_numbers`."""
-    _run(capture_numbers)
-
-
-def demonstration_main() -> None:
-    """Run `capture_demonstration`."""
-    _run(capture_demonstration)
-
-
-def scores_main() -> None:
-    """Run `capture_scores`."""
-    _run(capture_scores)
-
-
 def _run(command: Callable[..., None]) -> None:
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     app.command()(command)
     app()
+
+
+# What the entry points call.
+letters_main = partial(_run, capture_letters)
+ease_letters_main = partial(_run, ease_letters)
+numbers_main = partial(_run, capture_numbers)
+demonstration_main = partial(_run, capture_demonstration)
+scores_main = partial(_run, capture_scores)
 
 
 def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:

@@ -7,7 +7,6 @@ Arms are seen as right arms throughout (`mirrored`): a left one in the mirror.
 
 from __future__ import annotations
 
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +17,7 @@ from teo_description.clearance import Contact
 from teo_description.hand_geometry import HandGeometry
 from teo_description.humanoid import SIDES, Side
 from teo_description.robot import Robot
+from teo_sign_authoring.easing.linear_program import DIRECTIONS
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, mirrored, mirrored_hand
 from teo_sign_capture.signing_space.places import find_place
 from teo_signs.sign import Sign
@@ -27,9 +27,6 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 # Share of a tolerance that is used along each of the directions below [1]: between them it is 1.13 times
 # as much.
 ALONG = 0.88
-# Directions in which a turn or shift is bounded: the faces, edges and corners of a cube.
-DIRECTIONS = np.array([row for row in product((-1.0, 0.0, 1.0), repeat=3) if any(row)])
-DIRECTIONS /= np.linalg.norm(DIRECTIONS, axis=1, keepdims=True)
 
 
 class Rows(NamedTuple):

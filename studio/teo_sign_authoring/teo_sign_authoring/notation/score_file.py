@@ -258,7 +258,8 @@ def _refusal(lines: YamlLines, where: list[int | str], expected: str) -> LutErro
 
 def _part(path: Path, lines: YamlLines, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
     """The score of one of a compound's signs, which is beside it."""
-    gloss, where = compound.signs[index], ["signs", index]
+    gloss = compound.signs[index]
+    where: list[int | str] = ["signs", index]
     beside = path.with_name(f"{gloss_key(gloss)}.yaml")
     within = (*within, compound.gloss)
     if gloss in within:

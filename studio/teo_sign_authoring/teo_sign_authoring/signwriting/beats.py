@@ -12,12 +12,12 @@ import numpy as np
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Part
 from teo_sign_authoring.signwriting.hand_symbols import (
+    CLOSED,
+    OPENED,
     Orientation,
     Side,
-    closed,
     displacement_words,
     for_hand,
-    opened,
 )
 from teo_sign_authoring.signwriting.hands import WrittenHand
 from teo_sign_authoring.signwriting.movement import (
@@ -353,11 +353,11 @@ def circle_spots(beat: Beat) -> list[Spot]:
 def _with_closing(beats: list[Beat], closing: Closing) -> list[Beat]:
     """A hand that opens or closes on its way, or where it is."""
     drawn = beats[0].shape
-    change = opened if closing.opens else closed
-    after = change(drawn)
+    change, back = (OPENED, CLOSED) if closing.opens else (CLOSED, OPENED)
+    after = change.get(drawn)
     if after is None or (not closing.opens and drawn in ("fist", "bunched", "pinch", "two_flick", "ring")):
         # The hand is drawn as it is in the end.
-        before = (closed if closing.opens else opened)(drawn)
+        before = back.get(drawn)
         assert before is not None, "every hand opens or closes"
         before, after = before, drawn
     else:

@@ -39,41 +39,10 @@ _SHAPES: dict[str, tuple[int, ...]] = {
     "four": (0x144, 0x147, 0x148),
     "open": (0x14C, 0x14D, 0x152, 0x161, 0x162, 0x163, 0x164, 0x165),
     "claw": (
-        0x145,
-        0x149,
-        0x14A,
-        0x14E,
-        0x14F,
-        0x150,
-        0x151,
-        0x153,
-        0x154,
-        0x156,
-        0x166,
-        0x167,
-        0x168,
-        0x169,
+        *(0x145, 0x149, 0x14A, 0x14E, 0x14F, 0x150, 0x151, 0x153, 0x154, 0x156),
+        *(0x166, 0x167, 0x168, 0x169),
     ),
-    "bent": (
-        *(
-            0x146,
-            0x14B,
-            0x155,
-            0x157,
-            0x158,
-            0x159,
-            0x17B,
-            0x17C,
-            0x17D,
-            0x17E,
-            0x17F,
-            0x180,
-            0x181,
-            0x182,
-            0x183,
-        ),
-        0x184,
-    ),
+    "bent": (0x146, 0x14B, 0x155, 0x157, 0x158, 0x159, *range(0x17B, 0x185)),
     "flat": (*range(0x15A, 0x161),),
     "cupped": (0x16C, 0x16D, 0x16E, 0x16F, 0x170, 0x171, 0x172, 0x173),
     "bunched": (0x174, 0x175, 0x176, 0x177, 0x178, 0x179, 0x17A, 0x185),
@@ -110,21 +79,13 @@ _LOSS_BY_BASE = {base: loss for loss, bases in _LOSSES.items() for base in bases
 # point to the left of the hand that is drawn upright.
 BENT_ASIDE = frozenset(
     {
-        *_SHAPES["bent"],
-        0x185,
-        *_SHAPES["cupped"],
-        *range(0x1EC, 0x1F5),
-        0x13D,
-        0x13E,
-        0x13F,
-        0x1D2,
-        0x1D3,
-        0x1D4,
+        *(*_SHAPES["bent"], *_SHAPES["cupped"]),
+        *(0x185, 0x13D, 0x13E, 0x13F, 0x1D2, 0x1D3, 0x1D4, *range(0x1EC, 0x1F5)),
     }
 ) - {0x157, 0x158, 0x159}
 
-# Closed hands, and what each is opened: by the dots of finger movement.
-_OPENED = {
+# What a closed hand is opened, and an open one closed, by the dots of finger movement; others stay.
+OPENED = {
     "fist": "open",
     "bunched": "open",
     "pinch": "l",
@@ -141,7 +102,7 @@ _OPENED = {
     "relaxed": "open",
     "little": "open",
 }
-_CLOSED = {
+CLOSED = {
     "open": "claw",
     "flat": "bunched",
     "four": "bunched",
@@ -168,16 +129,6 @@ def handshape_of(base: int) -> Handshape | None:
     """The project's handshape for a hand symbol; None if it has none like it."""
     name = _BY_BASE.get(base)
     return None if name is None else Handshape(name, _LOSS_BY_BASE.get(base, ""))
-
-
-def opened(shape: str) -> str | None:
-    """The hand that a closed one opens to; None if it is open."""
-    return _OPENED.get(shape)
-
-
-def closed(shape: str) -> str | None:
-    """The hand that an open one closes to; None if it is closed."""
-    return _CLOSED.get(shape)
 
 
 Plane = Literal["wall", "floor"]

@@ -21,16 +21,8 @@ from teo_common.arrays import Array
 from teo_signs.errors import LutError
 
 
-class UnreadableError(Exception):
-    """A sign that cannot be read.
-
-    Attributes:
-        code: Stable name of the reason, such as "movement".
-    """
-
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(message)
-        self.code = code
+class UnreadableError(LutError):
+    """A sign that cannot be read; its code is the stable name of the reason, such as "movement"."""
 
 
 # One sign: a sequence for sorting, if any, then the box and its symbols.

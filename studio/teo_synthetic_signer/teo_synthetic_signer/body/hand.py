@@ -150,17 +150,6 @@ HAND_ANGLES: dict[str, HandAngles] = {
 HAND_SHAPES: dict[str, HandShape] = {name: angles.shape() for name, angles in HAND_ANGLES.items()}
 
 
-def hand_shape(name: str) -> HandShape:
-    """Give a hand shape by name.
-
-    Raises:
-        SyntheticError: No shape has that name.
-    """
-    if name not in HAND_SHAPES:
-        raise unknown_name("hand_shape", name, HAND_SHAPES)
-    return HAND_SHAPES[name]
-
-
 # By how much flexed fingers turn towards the thumb [rad]: they all point to the scaphoid bone.
 _CONVERGENCE = dict(zip(FINGERS, np.radians([-2.0, 3.0, 9.0, 16.0]), strict=True))
 # By how much the ring and the little finger's metacarpals follow their knuckle: the palm hollows.

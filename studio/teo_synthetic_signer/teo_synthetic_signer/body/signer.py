@@ -24,11 +24,11 @@ from teo_synthetic_signer.body.body_data import (
     load_body_data,
     load_target,
 )
-from teo_synthetic_signer.body.body_shapes import BodyShape, body_shape
+from teo_synthetic_signer.body.body_shapes import BODIES, BodyShape
 from teo_synthetic_signer.body.pose import BodyPose, Poser
 from teo_synthetic_signer.body.rig import SIDES, Rig
 from teo_synthetic_signer.body.surface import Material, Surface, vertex_normals
-from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.errors import SyntheticError, named
 
 _EYE_WHITE = (0.80, 0.78, 0.76)
 _SHOES = (0.06, 0.05, 0.05)
@@ -274,7 +274,7 @@ class Signer:
         Raises:
             SyntheticError: Nobody has that name.
         """
-        shape = body_shape(name)
+        shape = named("body", name, BODIES)
         self.rig = Rig.of(shape.phenotype)
         self.poser = Poser(self.rig)
         self.dress = Dress(self.rig, shape)

@@ -15,7 +15,6 @@ from teo_skeleton_retriever.arrays import FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_synthetic_signer.body.rotations import unit
 from teo_synthetic_signer.body.surface import Hits, Material, RayCaster, Surface, vertex_normals
-from teo_synthetic_signer.errors import unknown_name
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,17 +48,6 @@ LIGHTS: dict[str, Light] = {
         towards=(0.40, 0.70, 0.25), lamp=0.28, sky=0.10, ground=0.07, fill=0.05, tint=(1.0, 0.84, 0.62)
     ),
 }
-
-
-def light_named(name: str) -> Light:
-    """Give a light by name.
-
-    Raises:
-        SyntheticError: None has that name.
-    """
-    if name not in LIGHTS:
-        raise unknown_name("light", name, LIGHTS)
-    return LIGHTS[name]
 
 
 Floats = NDArray[np.float32]

@@ -15,7 +15,7 @@ from scipy.special import ndtri
 
 from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
-from teo_synthetic_signer.errors import SyntheticError, unknown_name
+from teo_synthetic_signer.errors import SyntheticError, named
 
 
 class Principle(Enum):
@@ -224,10 +224,7 @@ def sensor(name: str) -> Sensor:
     Raises:
         SyntheticError: None has that name.
     """
-    key = name.lower()
-    if key not in SENSORS:
-        raise unknown_name("sensor", name, SENSORS)
-    return SENSORS[key]
+    return named("sensor", name.lower(), SENSORS)
 
 
 # A step between neighbours that is an edge, of their depth: steeper surfaces are grazing ones.

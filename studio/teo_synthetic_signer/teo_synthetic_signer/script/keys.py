@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_synthetic_signer.body.hand import OTHER_HAND, HandShape, hand_point, hand_shape
+from teo_synthetic_signer.body.hand import HAND_SHAPES, OTHER_HAND, HandShape, hand_point
 from teo_synthetic_signer.body.pose import ArmPose, Poser
 from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.body.rotations import about, cross, frame, turn
-from teo_synthetic_signer.errors import unknown_name
+from teo_synthetic_signer.errors import named, unknown_name
 
 # Forwards, outwards (away from the body's middle, on the hand's side) and up.
 Vector = tuple[float, float, float]
@@ -131,7 +131,7 @@ class KeyResolver:
         Raises:
             SyntheticError: A place, point or shape that does not exist.
         """
-        shape = hand_shape(key.shape) if isinstance(key.shape, str) else key.shape
+        shape = named("hand_shape", key.shape, HAND_SHAPES) if isinstance(key.shape, str) else key.shape
         hand = self._poser.hands[side]
         outwards = np.array([1.0, -1.0 if side == "R" else 1.0, 1.0])
         rotation = (

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from teo_synthetic_signer.errors import unknown_name
+from teo_synthetic_signer.errors import named
 from teo_synthetic_signer.script.keys import ArmKey, Key, Vector
 
 
@@ -294,9 +294,7 @@ def script(name: str) -> tuple[Key, ...]:
     Raises:
         SyntheticError: None has that name.
     """
-    if name not in SCRIPTS:
-        raise unknown_name("script", name, SCRIPTS)
-    return SCRIPTS[name]
+    return named("script", name, SCRIPTS)
 
 
 def about(name: str) -> str:

@@ -18,11 +18,11 @@ from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.body.surface import RayCaster
-from teo_synthetic_signer.camera.renderer import Rendered, Renderer, light_named
+from teo_synthetic_signer.camera.renderer import LIGHTS, Rendered, Renderer
 from teo_synthetic_signer.camera.sensors import DepthModel
 from teo_synthetic_signer.camera.sensors import sensor as sensor_named
 from teo_synthetic_signer.camera.visibility import visible
-from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.errors import SyntheticError, named
 from teo_synthetic_signer.script.motion import Motion
 from teo_synthetic_signer.script.script_file import script_of
 from teo_synthetic_signer.take.furniture import furnish
@@ -201,7 +201,7 @@ class Take:
         vertices, self._room = furnish(options.scene)
         actor = _Actor(options.body, options.script, (0.0, 0.0))
         self.about, self.motion = actor.about, actor.motion
-        self._light = light_named(options.light)
+        self._light = named("light", options.light, LIGHTS)
         self._actors = (
             actor,
             *(_Actor(one.body, one.script, (-one.behind, one.aside)) for one in options.companions),

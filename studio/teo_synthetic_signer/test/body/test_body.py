@@ -14,7 +14,6 @@ from scipy.spatial import cKDTree
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_synthetic_signer.body.body_data import load_body_data
 from teo_synthetic_signer.body.body_shapes import BODIES, Phenotype, target_weights
-from teo_synthetic_signer.body.hand import hand_shape
 from teo_synthetic_signer.body.pose import BodyPose
 from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.body.signer import Signer
@@ -223,7 +222,7 @@ def test_unknown_names_are_named_with_those_that_are_known(signer: Signer) -> No
     with pytest.raises(SyntheticError, match=r"unknown_script.*signing"):
         script("dance")
     with pytest.raises(SyntheticError, match=r"unknown_hand_shape.*fist"):
-        hand_shape("paw")
+        KeyResolver(signer.poser).arm("R", ArmKey(shape="paw"), None)
     resolver = KeyResolver(signer.poser)
     with pytest.raises(SyntheticError, match=r"unknown_place.*chin"):
         resolver.arm("R", ArmKey(at="moon"), None)
