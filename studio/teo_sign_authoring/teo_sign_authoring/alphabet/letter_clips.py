@@ -202,7 +202,7 @@ class Stroke:
 def find_stroke(clip: LetterClip) -> Stroke:
     """Cut a clip and say what moves in it."""
     hand = clip.hand
-    bends = total_bends(hand)
+    bends = _total_bends(hand)
     rising = np.abs(np.diff(hand[:, WRIST, 2])) >= _RISE
     forming = np.abs(np.diff(bends, axis=0)).mean(axis=1) >= _FORMING
     steady = np.flatnonzero(~(rising | forming))
@@ -232,7 +232,7 @@ def _arrival(hand: Array) -> int:
     return int(inside.argmax())
 
 
-def total_bends(hand: Array) -> Array:
+def _total_bends(hand: Array) -> Array:
     """Bend of each finger, knuckle to tip, all joints added [deg]. Shape (n, 4)."""
     local = np.einsum("nij,nki->nkj", palm_axes(hand), hand - hand[:, WRIST, None])
     total = np.empty((len(hand), 4))

@@ -21,20 +21,20 @@ from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 
-Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
-Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
+_Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
+_Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
 
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
 
 
 def capture_letters(
-    out: Out,
+    out: _Out,
     only: Annotated[
         list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
     ] = None,
     language: LanguageCode = DEFAULT_LANGUAGE,
-    replace: Replace = False,
+    replace: _Replace = False,
 ) -> None:
     """Capture a manual alphabet from the recordings in the package spoken-to-signed."""
     from teo_sign_authoring.alphabet.letters import capture_letter, read_alphabet
@@ -80,7 +80,7 @@ def ease_letters(
     _save(eased, lut, replace=True)
 
 
-def capture_numbers(out: Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: Replace = False) -> None:
+def capture_numbers(out: _Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: _Replace = False) -> None:
     """Bring the scores of numbers onto TEO; `capture_scores` does so with all."""
     from teo_sign_authoring.notation.score_file import read_scores
     from teo_sign_authoring.notation.score_retarget import score_sign
@@ -94,7 +94,7 @@ def capture_numbers(out: Out, language: LanguageCode = DEFAULT_LANGUAGE, replace
         _fail(error)
 
 
-def capture_demonstration(out: Out, replace: Replace = False) -> None:
+def capture_demonstration(out: _Out, replace: _Replace = False) -> None:
     """Write HOLA, MI and NOMBRE from the poses of TEO's own public demonstration."""
     from teo_sign_authoring.alphabet.demonstration import demonstrated_signs
 
@@ -102,7 +102,7 @@ def capture_demonstration(out: Out, replace: Replace = False) -> None:
 
 
 def capture_scores(
-    out: Out,
+    out: _Out,
     scores: Annotated[
         Path | None, typer.Option(help="Directory of scores (YAML); the language's without it.")
     ] = None,
@@ -110,7 +110,7 @@ def capture_scores(
         list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
     ] = None,
     language: LanguageCode = DEFAULT_LANGUAGE,
-    replace: Replace = False,
+    replace: _Replace = False,
 ) -> None:
     """Bring sign scores, written descriptions of signs, onto TEO."""
     from teo_sign_authoring.notation.score_file import read_scores

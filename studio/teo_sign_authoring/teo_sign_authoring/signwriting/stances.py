@@ -11,7 +11,6 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Part
-from teo_sign_authoring.signwriting import written_sign as groups
 from teo_sign_authoring.signwriting.beats import Spot, Stance
 from teo_sign_authoring.signwriting.hand_symbols import SIDES, Orientation, Side, for_hand, in_space, plane_of
 from teo_sign_authoring.signwriting.hands import WrittenHand, WrittenHands
@@ -25,7 +24,15 @@ from teo_sign_authoring.signwriting.place import (
     point_in_air,
     tip_is_nearer,
 )
-from teo_sign_authoring.signwriting.written_sign import Symbol
+from teo_sign_authoring.signwriting.written_sign import (
+    BRUSH,
+    CONTACTS,
+    CONTACTS_BETWEEN,
+    MULTIPLE_CONTACTS,
+    RUB,
+    Symbol,
+    symbols_of,
+)
 
 Touched = Literal["head", "trunk", "hand"]
 
@@ -56,12 +63,12 @@ class Contact:
     @property
     def times(self) -> int:
         """How often."""
-        return 2 + self.symbol.fill if self.symbol.base in groups.MULTIPLE_CONTACTS else 1
+        return 2 + self.symbol.fill if self.symbol.base in MULTIPLE_CONTACTS else 1
 
     @property
     def slides(self) -> bool:
         """Whether the hand brushes or rubs."""
-        return self.symbol.base in groups.BRUSH | groups.RUB
+        return self.symbol.base in BRUSH | RUB
 
 
 def read_contacts(
@@ -71,7 +78,7 @@ def read_contacts(
     found: list[Contact] = []
     losses: list[str] = []
     both = bool(hands.right and hands.left)
-    for symbol in groups.of(symbols, groups.CONTACTS):
+    for symbol in symbols_of(symbols, CONTACTS):
         near = sorted(
             (hand.symbol.distance(symbol.middle), side, index, hand)
             for side in SIDES
@@ -97,13 +104,13 @@ def read_contacts(
             continue
         if touched == "hand" and side == "left":
             side, index = "right", min(index, len(hands.right) - 1)
-        if symbol.base in groups.CONTACTS_BETWEEN:
+        if symbol.base in CONTACTS_BETWEEN:
             losses.append(f"{symbol.key}, {symbol.name}: TEO's fingers stay together")
         found.append(Contact(symbol=symbol, side=side, drawing=index, touched=touched))
     return tuple(found), tuple(losses)
 
 
-def meeting_part(hand: WrittenHand, towards: Array, point: Array) -> Part:
+def _meeting_part(hand: WrittenHand, towards: Array, point: Array) -> Part:
     """The part of a hand that meets what lies that way.
 
     Args:
@@ -133,7 +140,7 @@ def _ways(orientation: Orientation) -> dict[Part, Array]:
     }
 
 
-def towards_body(hand: WrittenHand, point: Array) -> Array:
+def _towards_body(hand: WrittenHand, point: Array) -> Array:
     """Where the body lies from a hand that touches it, in the axes of the hand's score. Shape (3,).
 
     Args:
@@ -146,7 +153,7 @@ def towards_body(hand: WrittenHand, point: Array) -> Array:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HandMeeting:
+class _HandMeeting:
     """How the right hand is on the left one.
 
     Attributes:
@@ -161,9 +168,9 @@ class HandMeeting:
     towards: Array
 
 
-def hand_meeting(right: WrittenHand, left: WrittenHand) -> HandMeeting:
+def _hand_meeting(right: WrittenHand, left: WrittenHand) -> _HandMeeting:
     """How two hands that touch meet: by how they are drawn beside each other and how they are held."""
-    best: tuple[float, HandMeeting] | None = None
+    best: tuple[float, _HandMeeting] | None = None
     for from_left in _ways_between(right, left):
         on_left = for_hand(from_left, "left")
         places = {
@@ -176,11 +183,11 @@ def hand_meeting(right: WrittenHand, left: WrittenHand) -> HandMeeting:
         scores = {place: float(way @ on_left) for place, way in places.items()}
         place = max(scores, key=lambda name: scores[name])
         towards = -from_left
-        part = meeting_part(right, towards, left.symbol.middle)
+        part = _meeting_part(right, towards, left.symbol.middle)
         # Fingers meet with their tips, hands with what they hold towards each other.
         fit = scores[place] + max(float(way @ towards) for way in _ways(right.orientation).values())
         if best is None or fit > best[0] + 0.1:
-            best = (fit, HandMeeting(place=place, part=part, towards=towards))
+            best = (fit, _HandMeeting(place=place, part=part, towards=towards))
     assert best is not None
     return best[1]
 
@@ -298,7 +305,7 @@ def _drawn_as_mirrors(hands: WrittenHands, index: int) -> bool:
 
 def _part_at_head(hand: WrittenHand, landmarks: Landmarks) -> Part:
     assert landmarks.head is not None
-    return meeting_part(hand, towards_body(hand, landmarks.head), landmarks.head)
+    return _meeting_part(hand, _towards_body(hand, landmarks.head), landmarks.head)
 
 
 def _on_body(hand: WrittenHand, contacts: list[Contact], landmarks: Landmarks) -> Stance:
@@ -308,11 +315,11 @@ def _on_body(hand: WrittenHand, contacts: list[Contact], landmarks: Landmarks) -
         words, point = place_on_head(hand, landmarks, contact.symbol), landmarks.head
     else:
         words, point = place_on_trunk(hand, landmarks), contact.symbol.middle
-    towards = towards_body(hand, point)
+    towards = _towards_body(hand, point)
     return Stance(
         hand=hand,
         spot=Spot.read(words),
-        part=meeting_part(hand, towards, point),
+        part=_meeting_part(hand, towards, point),
         # Off the body is to the front, however the page has it.
         towards=np.array([-1.0, 0.0, 0.0]) if contact.touched == "trunk" else towards,
         times=max(len(contacts), *(each.times for each in contacts)),
@@ -339,11 +346,11 @@ def _on_other_hand(
     if alone_mirrored:
         spot = Spot.read(air_words(np.array([centre[0], -0.01 * _FROM_MIDDLE, centre[2]])))
         towards = np.array([0.0, 1.0, 0.0])
-        part = meeting_part(hand, towards, partner.symbol.middle)
+        part = _meeting_part(hand, towards, partner.symbol.middle)
         return Stance(hand=hand, spot=spot, part=part, towards=towards, times=times, slides=slides)
     if hand.side == "left":
         return Stance(hand=hand, spot=Spot.read(air_words(centre)), part="palm")
-    met = hand_meeting(hand, partner)
+    met = _hand_meeting(hand, partner)
     return Stance(
         hand=hand,
         spot=Spot(name=met.place, offset=np.zeros(3)),

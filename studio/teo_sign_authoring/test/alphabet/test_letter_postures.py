@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -23,7 +24,7 @@ from teo_sign_authoring.alphabet.hand_fit import HandPose, SignerHand, fit_hand,
 from teo_sign_authoring.alphabet.letter_clips import DEPTH_SCALE, LetterClip, find_stroke, load_letter_clips
 from teo_sign_authoring.alphabet.spelling_arm import fit_arm, shift_off_face, spelling_bounds
 from teo_sign_authoring.alphabet.spelling_hand import fit_robot_hand
-from teo_sign_authoring.cli.capture_table import letters_main
+from teo_sign_authoring.cli.capture_table import demonstration_main, letters_main
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.tracks.hand_shape import palm_axes
 from teo_sign_languages import DEFAULT_LANGUAGE, Language, LetterClips, load_language
@@ -275,37 +276,42 @@ def test_a_hand_before_the_face_is_moved_off_it_and_one_beside_it_is_not(robot: 
 # --- the command
 
 
-def run_letters(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
-    monkeypatch.setattr(sys, "argv", ["capture_letters", *arguments])
+def run(monkeypatch: pytest.MonkeyPatch, command: Callable[[], None], *arguments: str) -> int:
+    monkeypatch.setattr(sys, "argv", ["capture", *arguments])
     with pytest.raises(SystemExit) as ended:
-        letters_main()
+        command()
     return int(ended.value.code or 0)
 
 
-def test_the_command_writes_entries_and_does_not_replace_them_unasked(
+def test_the_command_writes_the_letter_that_the_table_has(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert run(monkeypatch, letters_main, "--out", str(tmp_path), "--only", "I") == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["I.json"]
+    made, kept = Lut.open(tmp_path)["I"], Lut.open()["I"]
+    np.testing.assert_allclose(made.knots, kept.knots, atol=0.02)  # processors add in other orders
+    np.testing.assert_allclose(made.times, kept.times)
+
+
+def test_entries_are_not_replaced_unasked(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run_letters(monkeypatch, "--out", str(tmp_path), "--only", "I") == 0
-    assert Lut.open(tmp_path).glosses() == ("I",)
-    before = (tmp_path / "I.json").read_bytes()
-    assert run_letters(monkeypatch, "--out", str(tmp_path), "--only", "I") == 1
+    words = ("--out", str(tmp_path))
+    assert run(monkeypatch, demonstration_main, *words) == 0
+    assert Lut.open(tmp_path).glosses() == ("HOLA", "MI", "NOMBRE")
+    before = (tmp_path / "MI.json").read_bytes()
+    assert run(monkeypatch, demonstration_main, *words) == 1
     assert "exists" in capsys.readouterr().err
-    assert (tmp_path / "I.json").read_bytes() == before
-    assert run_letters(monkeypatch, "--out", str(tmp_path), "--only", "I", "--replace") == 0
+    assert (tmp_path / "MI.json").read_bytes() == before
+    assert run(monkeypatch, demonstration_main, *words, "--replace") == 0
 
 
-@pytest.mark.parametrize(
-    ("out", "letter", "code"), [("lut", "Ç", "unknown_letter"), ("file/lut", "I", "not_written")]
-)
-def test_the_command_refuses_what_was_not_recorded_and_where_it_cannot_write(
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    out: str,
-    letter: str,
-    code: str,
+def test_what_was_not_recorded_and_where_it_cannot_be_written_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").touch()
-    assert run_letters(monkeypatch, "--out", str(tmp_path / out), "--only", letter) == 1
-    assert code in capsys.readouterr().err
+    assert run(monkeypatch, letters_main, "--out", str(tmp_path / "lut"), "--only", "Ç") == 1
+    assert "unknown_letter" in capsys.readouterr().err
+    assert run(monkeypatch, demonstration_main, "--out", str(tmp_path / "file" / "lut")) == 1
+    assert "not_written" in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["file"]

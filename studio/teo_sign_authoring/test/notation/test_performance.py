@@ -20,6 +20,7 @@ from teo_sign_authoring.notation.score_file import default_scores_directory, rea
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_capture.signing_space.places import OTHER_HAND, direction
 from teo_skeleton_retriever.layouts.layout import BODY_25
+from teo_synthetic_signer.body.body_data import load_body_data
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.script.motion import Motion
 from teo_synthetic_signer.script.script_file import read_script
@@ -135,19 +136,13 @@ def test_hands_touch_the_body_and_do_not_enter_it(
     pose = motion.pose(performed.start + 0.1)
     person = signer(body)
     skin = person.vertices(pose, person.poser.transforms(pose))
-    arm = np.array([name.endswith(".R") for name in _bones()])[person.dress.surface.bones]
+    arm = np.array([name.endswith(".R") for name in load_body_data().bones])[person.dress.surface.bones]
     others = np.unique(person.dress.surface.triangles[~arm])
     tip = {"fingertips": seen["right"][[8, 12, 16, 20]], "index": seen["right"][[8]]}.get(
         part, seen["right"][[5, 9, 13, 17]]
     )
     nearest = min(float(np.linalg.norm(skin[others] - point, axis=1).min()) for point in tip)
     assert nearest < 0.05  # joints are a centimetre or two below the skin, vertices as far apart
-
-
-def _bones() -> tuple[str, ...]:
-    from teo_synthetic_signer.body.body_data import load_body_data
-
-    return load_body_data().bones
 
 
 def test_the_time_of_a_score_is_the_time_of_its_performance(tmp_path: Path) -> None:
@@ -229,19 +224,17 @@ def test_a_movement_of_one_hand_leaves_the_other_still(tmp_path: Path, movement:
     assert np.abs(at[0]["left"] - at[1]["left"]).max() > 0.03
 
 
-def test_a_head_turns_to_the_right_and_bows(tmp_path: Path) -> None:
-    performed = performance(score({"right": FLAT, "head": {"turn": 20.0, "bow": 8.0}, "hold": 0.3}))
+def test_a_head_turns_and_bows_and_a_way_swings_out_in_its_middle(tmp_path: Path) -> None:
+    steps = (
+        {"right": FLAT, "head": {"turn": 20.0, "bow": 8.0}, "hold": 0.3},
+        {"time": 0.6, "right": {"place": "space 10 in"}, "arc": "8 up"},
+    )
+    performed = performance(score(*steps))
     motion = played(performed, tmp_path)
     yaw, pitch, _ = motion.pose(performed.start).head
     assert np.degrees([yaw, pitch]) == pytest.approx([-20.0, 8.0], abs=1.5)  # nobody stands still
     assert np.degrees(motion.pose(motion.duration).head[0]) == pytest.approx(0.0, abs=1.5)
-
-
-def test_a_way_swings_out_in_its_middle(tmp_path: Path) -> None:
-    steps = ({"right": FLAT}, {"time": 0.6, "right": {"place": "space 10 in"}, "arc": "8 up"})
-    performed = performance(score(*steps))
-    motion = played(performed, tmp_path)
-    start, middle, end = (motion.pose(performed.start + time).arms["R"].wrist[2] for time in (0.0, 0.3, 0.6))
+    start, middle, end = (motion.pose(performed.start + time).arms["R"].wrist[2] for time in (0.3, 0.6, 0.9))
     assert middle - (start + end) / 2.0 > 0.05
 
 

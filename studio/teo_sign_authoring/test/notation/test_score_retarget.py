@@ -237,7 +237,6 @@ def test_a_compound_of_what_is_not_there_is_refused(tmp_path: Path, signs: str, 
     assert said in str(caught.value)
 
 
-@pytest.mark.slow
 def test_every_entry_that_a_score_made_keeps_limits_and_clearance_between_its_knots(robot: Robot) -> None:
     """A second look at the table, denser than the one that made it."""
     lut = Lut.open(default_lut_directory())

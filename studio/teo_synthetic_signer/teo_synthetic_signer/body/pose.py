@@ -17,7 +17,7 @@ from teo_synthetic_signer.body.rig import SIDES, Places, Rig
 from teo_synthetic_signer.body.rotations import about, cross, frame, perpendicular, turn, twist_about, unit
 
 # How far a place may be, of the length of the stretched arm: elbows are never quite straight.
-REACH = 0.985
+_REACH = 0.985
 # Share of the upper arm's roll that its upper half takes: the skin of the shoulder stays behind.
 _UPPER_TWIST = 0.35
 # Share of the hand's roll that the two halves of the forearm take: the radius turns about the ulna.
@@ -50,7 +50,7 @@ class Arm:
         """Give the place nearest to `wrist` that the arm can reach, seen from the shoulder."""
         away = wrist - shoulder
         distance = float(np.linalg.norm(away))
-        longest = REACH * (self.upper + self.fore)
+        longest = _REACH * (self.upper + self.fore)
         # The elbow bends by at most 150 deg.
         shortest = math.sqrt(
             self.upper**2 + self.fore**2 + 2.0 * self.upper * self.fore * math.cos(math.radians(150.0))

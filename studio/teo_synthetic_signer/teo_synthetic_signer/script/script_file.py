@@ -58,13 +58,13 @@ def _face(value: dict[str, float]) -> dict[str, float]:
     return value
 
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Metres = Annotated[float, Field(ge=-2.0, le=2.0)]
-Bend = Annotated[float, Field(ge=-40.0, le=130.0)]
-Spread = Annotated[float, Field(ge=-40.0, le=40.0)]
-Seconds = Annotated[float, Field(ge=0.0, le=60.0)]
-Way = Annotated[tuple[Number, Number, Number], Field(strict=False), AfterValidator(_not_zero)]
-Bends = Annotated[tuple[Bend, Bend, Bend], Field(strict=False)]
+_Number = Annotated[float, Field(allow_inf_nan=False)]
+_Metres = Annotated[float, Field(ge=-2.0, le=2.0)]
+_Bend = Annotated[float, Field(ge=-40.0, le=130.0)]
+_Spread = Annotated[float, Field(ge=-40.0, le=40.0)]
+_Seconds = Annotated[float, Field(ge=0.0, le=60.0)]
+_Way = Annotated[tuple[_Number, _Number, _Number], Field(strict=False), AfterValidator(_not_zero)]
+_Bends = Annotated[tuple[_Bend, _Bend, _Bend], Field(strict=False)]
 
 
 class ThumbText(BaseModel):
@@ -72,11 +72,11 @@ class ThumbText(BaseModel):
 
     model_config = _STRICT
 
-    points: Way = Field(
+    points: _Way = Field(
         description="Where its metacarpal points: along the fingers, out of the palm, thumbwards."
     )
-    bends: Way = Field(description="Towards where it bends, likewise.")
-    flexion: Annotated[tuple[Bend, Bend], Field(strict=False)] = Field(
+    bends: _Way = Field(description="Towards where it bends, likewise.")
+    flexion: Annotated[tuple[_Bend, _Bend], Field(strict=False)] = Field(
         description="Of its two outer joints [deg]."
     )
 
@@ -86,16 +86,16 @@ class ShapeText(BaseModel):
 
     model_config = _STRICT
 
-    index: Bends = Field(description="Flexion of knuckle, middle and last joint; 0 is straight [deg].")
-    middle: Bends
-    ring: Bends
-    little: Bends
-    spread: Annotated[tuple[Spread, Spread, Spread, Spread], Field(strict=False)] = Field(
+    index: _Bends = Field(description="Flexion of knuckle, middle and last joint; 0 is straight [deg].")
+    middle: _Bends
+    ring: _Bends
+    little: _Bends
+    spread: Annotated[tuple[_Spread, _Spread, _Spread, _Spread], Field(strict=False)] = Field(
         (2.0, 0.0, -2.0, -5.0), description="Of index to little finger towards the thumb [deg]."
     )
     thumb: Annotated[str, _one_of(*THUMBS)] | ThumbText = Field(description="By name or in full.")
 
-    thumb_bent: Bend = Field(0.0, description="By how much its two outer joints are bent further [deg].")
+    thumb_bent: _Bend = Field(0.0, description="By how much its two outer joints are bent further [deg].")
 
     def shape(self) -> HandShape:
         """Give the shape."""
@@ -129,10 +129,10 @@ class ArmText(BaseModel):
     model_config = _STRICT
 
     at: Annotated[str, _one_of(*PLACES, *OTHER_HAND)]
-    offset: Annotated[tuple[Metres, Metres, Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
+    offset: Annotated[tuple[_Metres, _Metres, _Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
     point: Annotated[str, _one_of(*POINTS)] = "palm"
-    fingers: Way
-    palm: Way
+    fingers: _Way
+    palm: _Way
     shape: Annotated[str, _one_of(*HAND_SHAPES)] | ShapeText
     swing: SwingText | None = None
     swivel: Annotated[float, Field(ge=-90.0, le=90.0)] = Field(
@@ -165,8 +165,8 @@ class ArmText(BaseModel):
 
 
 _Hanging = Literal["hanging"]
-Angle = Annotated[float, Field(ge=-90.0, le=90.0)]
-Angles = Annotated[tuple[Angle, Angle, Angle], Field(strict=False)]
+_Angle = Annotated[float, Field(ge=-90.0, le=90.0)]
+_Angles = Annotated[tuple[_Angle, _Angle, _Angle], Field(strict=False)]
 
 
 class KeyText(BaseModel):
@@ -177,11 +177,11 @@ class KeyText(BaseModel):
     right: ArmText | _Hanging | None = None
     left: ArmText | _Hanging | None = None
     move: Annotated[float, Field(gt=0.0, le=60.0)] = 0.45
-    hold: Seconds = 0.0
-    bulge: Annotated[tuple[Metres, Metres, Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
+    hold: _Seconds = 0.0
+    bulge: Annotated[tuple[_Metres, _Metres, _Metres], Field(strict=False)] = (0.0, 0.0, 0.0)
     through: bool = False
-    head: Angles | None = Field(None, description="Turned left, bowed, tilted left [deg].")
-    lean: Angles | None = Field(None, description="Of the trunk: forwards, left, turned left [deg].")
+    head: _Angles | None = Field(None, description="Turned left, bowed, tilted left [deg].")
+    lean: _Angles | None = Field(None, description="Of the trunk: forwards, left, turned left [deg].")
     face: Annotated[dict[str, float], AfterValidator(_face)] | None = None
 
     @model_validator(mode="after")
