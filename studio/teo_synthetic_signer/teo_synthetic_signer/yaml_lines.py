@@ -40,9 +40,9 @@ class YamlLines:
         if len(data) > most_bytes:
             raise self._error("too_large", f"expected at most {most_bytes} bytes, got {len(data)}")
         try:
-            text = data.decode("utf-8")
-            root = yaml.compose(text, Loader=yaml.SafeLoader)
-            self.content: Any = yaml.safe_load(text)
+            loader = yaml.CSafeLoader(data.decode("utf-8"))
+            root = loader.get_single_node()
+            self.content: Any = None if root is None else loader.construct_document(root)
         except UnicodeDecodeError as error:
             raise self._error("not_utf8", f"expected UTF-8, got byte {data[error.start]:#x}") from error
         except yaml.YAMLError as error:
