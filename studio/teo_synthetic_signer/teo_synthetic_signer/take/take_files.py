@@ -262,7 +262,7 @@ FILM_SUFFIX = ".mp4"
 
 
 def write_film(frames: Iterable[SyntheticFrame], out: Path) -> Iterator[int]:
-    """Write the colour images of frames as a film.
+    """Write the colour images of frames as a film, such as a phone or a webcam records.
 
     Args:
         frames: In order of time.
