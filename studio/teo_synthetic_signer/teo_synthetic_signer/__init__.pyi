@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: 2026 TEO signing project
+# SPDX-License-Identifier: Apache-2.0
 from .take.take import Companion as Companion
 from .take.take import SyntheticFrame as SyntheticFrame
 from .take.take import Take as Take
