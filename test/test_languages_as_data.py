@@ -23,7 +23,7 @@ _PAPER = "the published model's sentences, which are Spanish"
 LEFT = {
     f"{AUTHORING}/alphabet/demonstration.py": "the three signs of TEO's own public demonstration",
     f"{CAPTURE}/cli/import_pose.py": "the dictionary that is imported where none is named",
-    f"{AUTHORING}/notation/inflection.py": "names of places of the body in forms of a sign",
+    f"{AUTHORING}/notation/score_file.py": "names of places of the body in forms of a sign",
     f"{TRAINING}/cli/reproduce_paper.py": _PAPER,
     f"{TRAINING}/corpus/aligned_pairs.py": _PAPER,
     f"{TRAINING}/corpus/paper_pairs.py": _PAPER,

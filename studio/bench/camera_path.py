@@ -40,7 +40,7 @@ from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_signs.sign_schema import Handedness
 from teo_synthetic_signer import Take, TakeOptions
-from teo_synthetic_signer.take.take_bag import write_take
+from teo_synthetic_signer.take.take_files import write_take
 
 FEW = ("ADIÓS", "BIEN", "GRACIAS")
 # One and two hands; at the head, the chest, in the air and on the other hand; arcs, circles, wiggles.

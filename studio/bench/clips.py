@@ -34,8 +34,7 @@ from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 from teo_signs.sign_schema import Standing
 from teo_synthetic_signer import Take, TakeOptions
-from teo_synthetic_signer.take.take_bag import write_take
-from teo_synthetic_signer.take.take_film import write_film
+from teo_synthetic_signer.take.take_files import write_film, write_take
 
 GLOSSES = ("BIEN", "CASA", "POCO")
 _RATE = 15.0  # [Hz]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The manual alphabet: is what a robot plays for a letter most like the recording it was made from?
 
-How they are compared says `teo_sign_authoring.transfer.letter_likeness`.
+How they are compared says `teo_sign_authoring.alphabet.letter_likeness`.
 `python bench/letters.py --language ase` prints the whole table of confusions.
 """
 
@@ -16,7 +16,7 @@ from rich.table import Table
 
 from report import Figure
 from teo_description.robot import Robot
-from teo_sign_authoring.transfer.letter_likeness import Likeness, letter_likenesses
+from teo_sign_authoring.alphabet.letter_likeness import Likeness, letter_likenesses
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_signs.look_up_table import Lut, default_lut_directory
 

@@ -6,11 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from teo_synthetic_signer.body.hand_shapes import HAND_SHAPES
 from teo_synthetic_signer.script.keys import ArmKey, Key, Vector
-from teo_synthetic_signer.script.scripts import add_script
-from teo_synthetic_signer.script.signs import HANGING, REST
+from teo_synthetic_signer.script.scripts import HANGING, REST, add_script
 
+# In this order, so that a seed draws the same.
+_SHAPES = (
+    *("relaxed", "open", "flat", "fist", "index", "middle", "little", "v", "u", "w", "b", "l", "y", "horns"),
+    *("thumb_up", "c", "o", "claw", "hook", "bent", "f"),
+)
 _AT_BODY = ("temple", "forehead", "mouth", "chin", "ear", "other_shoulder", "sternum", "belly", "upper_chest")
 
 
@@ -40,7 +43,7 @@ def add_random_scripts(count: int, seed: int, name: str) -> None:
             offset=offset,
             fingers=vector((-0.3, -1.0, -0.4), (1.0, 0.4, 1.0)),
             palm=vector((-1.0, -1.0, -1.0), (1.0, 0.3, 1.0)),
-            shape=str(random.choice(list(HAND_SHAPES))),
+            shape=str(random.choice(_SHAPES)),
             swivel=random.uniform(-0.3, 0.5),
         )
 

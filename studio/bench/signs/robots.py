@@ -17,9 +17,9 @@ import numpy as np
 from report import Figure
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
+from teo_sign_authoring.alphabet.letter_likeness import letter_likenesses
 from teo_sign_authoring.transfer.fit import fit_table, median_stretch, within_share
 from teo_sign_authoring.transfer.language_signs import LanguageSigns
-from teo_sign_authoring.transfer.letter_likeness import letter_likenesses
 from teo_sign_languages import Language, available_languages, load_language
 from teo_signs.errors import PlanError
 from teo_signs.look_up_table import Lut

@@ -36,7 +36,7 @@ from teo_signs.errors import LutError
 from teo_signs.sign import Sign
 from teo_synthetic_signer import Take, TakeOptions
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.take.take_film import write_film
+from teo_synthetic_signer.take.take_files import write_film
 
 EXACT, LIFTED, FILMED = "exact keypoints", "lifted from a picture", "filmed in colour"
 _RATE = 25.0  # [Hz], as `performed`

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_synthetic_signer.camera.sensors import SENSORS
-from teo_synthetic_signer.cli.sensor_study import DISTANCES, Study, _app, seen_share, table, write_csv
+from teo_synthetic_signer.cli.sensor_study import DISTANCES, Study, _app, seen_share, write_csv
 
 WIDE = CameraModel.from_field_of_view(width=640, height=640, horizontal=math.radians(110))
 D435 = SENSORS["d435"]
@@ -31,25 +31,12 @@ def share(distance: float, camera: CameraModel = WIDE, farthest: float = 10.0) -
     )
 
 
-def test_a_wide_camera_far_enough_sees_all_of_the_signing_space() -> None:
-    assert share(2.0) == 1.0
-
-
-def test_the_nearer_the_camera_the_less_it_sees() -> None:
+def test_a_camera_sees_all_of_the_signing_space_from_afar_less_from_near_and_nothing_out_of_range() -> None:
+    assert (share(2.0), share(2.5, farthest=1.5)) == (1.0, 0.0)
     narrow = CameraModel.from_field_of_view(width=640, height=400, horizontal=math.radians(60))
     shares = [share(distance, narrow) for distance in DISTANCES]
     assert shares == sorted(shares)
     assert shares[0] < 0.3 < 0.95 < shares[-1]
-
-
-def test_what_is_out_of_range_is_not_seen() -> None:
-    assert share(2.5, farthest=1.5) == 0.0
-
-
-def test_the_table_names_devices_and_leaves_out_what_was_not_found() -> None:
-    lines = table([Study("d435", 0.6, 0.1, math.nan, 0.0, 0.012, 1.0)])
-    cells = [next(iter(column.cells)) for column in lines.columns]
-    assert cells == ["RealSense D435", "0.6 m", "10%", "-", "0%", "12 mm", "100%"]
 
 
 def test_the_csv_holds_what_was_measured(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ _PARTS = {"body": BODY, "left_hand": HAND, "right_hand": HAND, "face": FACE}
 _EARLIEST = datetime.datetime(2000, 1, 1, tzinfo=datetime.UTC)
 
 
-# [s] The synthetic signer's takes all begin at this moment of 2023 (`teo_synthetic_signer.take.take_bag`,
+# [s] The synthetic signer's takes all begin at this moment of 2023 (`teo_synthetic_signer.take.take_files`,
 # which loads for seconds what draws them), and last no longer: skeletons that were found in its images carry
 # no other sign.
 _RENDERED_FROM, _LONGEST = 1_700_000_000.0, 3600.0

@@ -25,7 +25,7 @@ from teo_signs.errors import LutError
 from teo_signs.look_up_table import Lut
 from teo_synthetic_signer import Take as Performance
 from teo_synthetic_signer import TakeOptions
-from teo_synthetic_signer.take.take_bag import write_take
+from teo_synthetic_signer.take.take_files import write_take
 
 GOOD = {
     "lost_percent": 20.0,

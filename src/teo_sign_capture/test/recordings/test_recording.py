@@ -18,7 +18,7 @@ from teo_sign_capture.recordings import own_process
 from teo_sign_capture.recordings.recording import digest_of, is_bag, open_recording, retrieve_apart, track_of
 from teo_sign_capture.recordings.skeleton_bag import write_skeletons
 from teo_signs.errors import LutError
-from teo_synthetic_signer.take.take_bag import START
+from teo_synthetic_signer.take.take_files import START
 
 SHIPPED = Path(__file__).resolve().parents[4] / "bags" / "signer_d435"
 

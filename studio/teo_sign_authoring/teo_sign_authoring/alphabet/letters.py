@@ -14,14 +14,18 @@ from scipy.spatial.transform import Rotation, Slerp
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry, HandTable, hand_table
 from teo_description.robot import Robot
-from teo_sign_authoring.alphabet.face_visibility import shift_off_face
 from teo_sign_authoring.alphabet.hand_fit import HandPose, SignerHand, fit_hand, measure_signer
 from teo_sign_authoring.alphabet.letter_clips import (
     LICENCE,
     PACKAGE,
     LetterClip,
+    Stroke,
     clips_version,
+    find_stroke,
     load_letter_clips,
+    palm_centres,
+    reaches,
+    tilts,
 )
 from teo_sign_authoring.alphabet.spelling_arm import (
     ArmFit,
@@ -29,9 +33,9 @@ from teo_sign_authoring.alphabet.spelling_arm import (
     fit_arm_and_hand,
     follow_arm,
     is_at_its_place,
+    shift_off_face,
 )
 from teo_sign_authoring.alphabet.spelling_hand import HandFit, fit_robot_hand
-from teo_sign_authoring.alphabet.stroke import Stroke, find_stroke, palm_centres, reaches, tilts
 from teo_sign_capture.retarget.hand_motion import axis_shares
 from teo_sign_capture.retarget.knots import clearance_mm, limit_margin_deg, reduce_to_knots
 from teo_sign_capture.signing_space.hand_points import finger_rows

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Annotated, NoReturn
 
@@ -20,20 +21,20 @@ from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign
 from teo_signs.sign_file import save_sign
 
-Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
-Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
+_Out = Annotated[Path, typer.Option(help="Directory of the table to write into; made if it is not there.")]
+_Replace = Annotated[bool, typer.Option(help="Replace entries that are there already.")]
 
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
 
 
 def capture_letters(
-    out: Out,
+    out: _Out,
     only: Annotated[
         list[str] | None, typer.Option(help="A letter; may be given again. All without it.")
     ] = None,
     language: LanguageCode = DEFAULT_LANGUAGE,
-    replace: Replace = False,
+    replace: _Replace = False,
 ) -> None:
     """Capture a manual alphabet from the recordings in the package spoken-to-signed."""
     from teo_sign_authoring.alphabet.letters import capture_letter, read_alphabet
@@ -57,9 +58,10 @@ def ease_letters(
     language: LanguageCode = DEFAULT_LANGUAGE,
 ) -> None:
     """Give each letter of a table the posture with which spelling needs least travel, as its alternative."""
-    from teo_sign_authoring.alphabet.letter_features import recorded_features
+    from teo_sign_authoring.alphabet.letter_likeness import recorded_features
     from teo_sign_authoring.alphabet.letters import read_alphabet
-    from teo_sign_authoring.easing import easy_letters
+    from teo_sign_authoring.easing.easy_letters import ease_letters as easier_offsets
+    from teo_sign_authoring.easing.easy_letters import with_easy_posture
     from teo_sign_authoring.easing.letter_tolerance import LetterTolerance
 
     robot = Robot.load()
@@ -71,14 +73,14 @@ def ease_letters(
         }
         letters = {letter: table[letter] for letter in alphabet.clips if letter in table}
         tolerances = {letter: LetterTolerance(robot, sign, recordings) for letter, sign in letters.items()}
-        offsets = easy_letters.ease_letters(robot, table.language.alphabet, tolerances)
+        offsets = easier_offsets(robot, table.language.alphabet, tolerances)
     except LutError as error:
         _fail(error)
-    eased = (easy_letters.with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
+    eased = (with_easy_posture(sign, offsets[letter]) for letter, sign in letters.items())
     _save(eased, lut, replace=True)
 
 
-def capture_numbers(out: Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: Replace = False) -> None:
+def capture_numbers(out: _Out, language: LanguageCode = DEFAULT_LANGUAGE, replace: _Replace = False) -> None:
     """Bring the scores of numbers onto TEO; `capture_scores` does so with all."""
     from teo_sign_authoring.notation.score_file import read_scores
     from teo_sign_authoring.notation.score_retarget import score_sign
@@ -92,7 +94,7 @@ def capture_numbers(out: Out, language: LanguageCode = DEFAULT_LANGUAGE, replace
         _fail(error)
 
 
-def capture_demonstration(out: Out, replace: Replace = False) -> None:
+def capture_demonstration(out: _Out, replace: _Replace = False) -> None:
     """Write HOLA, MI and NOMBRE from the poses of TEO's own public demonstration."""
     from teo_sign_authoring.alphabet.demonstration import demonstrated_signs
 
@@ -100,7 +102,7 @@ def capture_demonstration(out: Out, replace: Replace = False) -> None:
 
 
 def capture_scores(
-    out: Out,
+    out: _Out,
     scores: Annotated[
         Path | None, typer.Option(help="Directory of scores (YAML); the language's without it.")
     ] = None,
@@ -108,7 +110,7 @@ def capture_scores(
         list[str] | None, typer.Option(help="A gloss; may be given again. All without it.")
     ] = None,
     language: LanguageCode = DEFAULT_LANGUAGE,
-    replace: Replace = False,
+    replace: _Replace = False,
 ) -> None:
     """Bring sign scores, written descriptions of signs, onto TEO."""
     from teo_sign_authoring.notation.score_file import read_scores
@@ -140,35 +142,18 @@ def capture_scores(
         raise typer.Exit(1)
 
 
-def letters_main() -> None:
-    """Run `capture_letters`."""
-    _run(capture_letters)
-
-
-def ease_letters_main() -> None:
-    """Run `ease_letters`."""
-    _run(ease_letters)
-
-
-def numbers_main() -> None:
-    """Run `capture_numbers`."""
-    _run(capture_numbers)
-
-
-def demonstration_main() -> None:
-    """Run `capture_demonstration`."""
-    _run(capture_demonstration)
-
-
-def scores_main() -> None:
-    """Run `capture_scores`."""
-    _run(capture_scores)
-
-
 def _run(command: Callable[..., None]) -> None:
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     app.command()(command)
     app()
+
+
+# What the entry points call.
+letters_main = partial(_run, capture_letters)
+ease_letters_main = partial(_run, ease_letters)
+numbers_main = partial(_run, capture_numbers)
+demonstration_main = partial(_run, capture_demonstration)
+scores_main = partial(_run, capture_scores)
 
 
 def _save(signs: Iterable[Sign], out: Path, *, replace: bool) -> None:

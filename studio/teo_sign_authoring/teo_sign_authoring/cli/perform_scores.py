@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
-import sys
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Callable
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -21,13 +20,17 @@ from teo_common.atomic_files import write_atomically
 from teo_sign_authoring.notation.performance import performance
 from teo_sign_authoring.notation.score_file import default_scores_directory, read_scores
 from teo_sign_authoring.notation.score_schema import Score
+from teo_sign_capture.entries.batch import workers
 from teo_signs.errors import LutError
+from teo_synthetic_signer.cli.synthesize_cli import parsed_size
+from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.take.take import Take, TakeOptions
+from teo_synthetic_signer.take.take_files import write_take
 
-_SYNTHESIZE = "teo_synthetic_signer.cli.synthesize_cli"
-_SAYS = "synthesize: "
 # [Hz] The fastest wiggles of scores go to and fro 7 times a second at most.
 _TWICE_A_SIGNS_FASTEST = 15.0
-_LAST_WORDS = 300
+# [m] A hand that is nearer than this to its place is there.
+_WORTH_SAYING = 0.02
 
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
@@ -65,6 +68,7 @@ def perform_scores(
 
     Exit status: 0 if all are there, 1 if some could not be made.
     """
+    width, height = parsed_size(size)
     try:
         chosen = _chosen(scores, only)
         out.mkdir(parents=True, exist_ok=True)
@@ -79,11 +83,19 @@ def perform_scores(
     if scripts_only:
         _output.print(f"{out}: {len(chosen)} scripts", soft_wrap=True)
         return
-    options = ["--body", body, "--sensor", sensor, "--scene", scene, "--size", size]
-    options += ["--distance", f"{distance:g}", "--rate", f"{rate:g}", "--seed", str(seed)]
-    options += ["--truth-only"] if truth_only else []
     open_ones = [score.gloss for score in chosen if replace or not (out / score.gloss).exists()]
-    failed = _performed(out, open_ones, options, jobs)
+    options = partial(
+        TakeOptions,
+        body=body,
+        sensor=sensor,
+        scene=scene,
+        distance=distance,
+        rate=rate,
+        width=width,
+        height=height,
+        seed=seed,
+    )
+    failed = _performed(partial(_perform, out, options, truth_only), open_ones, jobs)
     for gloss, reason in failed.items():
         _errors.print(f"not_performed: {gloss}: {reason}", soft_wrap=True, markup=False)
     kept = len(chosen) - len(open_ones)
@@ -102,52 +114,46 @@ def _chosen(directory: Path | None, only: list[str] | None) -> list[Score]:
     return [found[gloss] for gloss in only or found]
 
 
-def _performed(out: Path, glosses: list[str], options: list[str], jobs: int) -> dict[str, str]:
-    """Perform signs. Returns what was in the way, by gloss."""
+def _performed(perform: Callable[[str], tuple[str, float]], glosses: list[str], jobs: int) -> dict[str, str]:
+    """Perform signs, several at a time in as many processes. Returns what was in the way, by gloss."""
     columns = (TextColumn("performing"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     failed: dict[str, str] = {}
-    with ThreadPoolExecutor(jobs) as pool, Progress(*columns, console=_errors) as progress:
+    with ExitStack() as stack, Progress(*columns, console=_errors) as progress:
         task = progress.add_task("", total=len(glosses))
-        running = {pool.submit(_synthesize, out, gloss, options): gloss for gloss in glosses}
-        try:
-            for done in as_completed(running):
-                reason = done.result()
-                if reason:
-                    failed[running[done]] = reason
-                progress.advance(task)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+        performing = stack.enter_context(workers(jobs, None)).map if jobs > 1 else map
+        for gloss, (reason, shortfall) in zip(glosses, performing(perform, glosses), strict=True):
+            if reason:
+                failed[gloss] = reason
+            elif shortfall > _WORTH_SAYING:  # what a viewer of the recording should know
+                said = f"{gloss}: hands stay up to {100.0 * shortfall:.0f} cm off places out of reach"
+                _errors.print(said, soft_wrap=True, markup=False)
+            progress.advance(task)
     return failed
 
 
-def _synthesize(out: Path, gloss: str, options: list[str]) -> str:
-    """Run `synthesize` as a process of its own. Returns what it complained about, nothing if it did not."""
+def _perform(
+    out: Path, options: Callable[..., TakeOptions], truth_only: bool, gloss: str
+) -> tuple[str, float]:
+    """Perform one sign, in whatever process this is.
+
+    Returns:
+        What was in the way, empty if nothing was, and how far hands stay off their places at most [m].
+    """
     bag, beside = out / gloss, out / f".{gloss}.{os.getpid()}"
-    script = out / f"{gloss}.yaml"
-    command = [sys.executable, "-m", _SYNTHESIZE, "--script", str(script), "--out", str(beside), *options]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode:
-            complaint = " ".join(_without_frames(done.stderr)).rpartition("Invalid value: ")[2]
-            return complaint[-_LAST_WORDS:] or f"exit status {done.returncode}"
+        take = Take(options(script=str(out / f"{gloss}.yaml")))
+        frames = (take.truth(i) if truth_only else take.frame(i) for i in range(len(take)))
+        for _ in write_take(frames, beside, truth_only=truth_only, about=take.about_it):
+            pass
         shutil.rmtree(bag, ignore_errors=True)
         beside.replace(bag)
-        for line in done.stderr.splitlines():
-            if line.startswith(_SAYS):  # what a viewer of the recording should know
-                _errors.print(f"{gloss}: {line.removeprefix(_SAYS)}", soft_wrap=True, markup=False)
+    except SyntheticError as error:
+        return error.sentence, 0.0
     except OSError as error:
-        return str(error)
+        return str(error), 0.0
     finally:
         shutil.rmtree(beside, ignore_errors=True)
-    return ""
-
-
-def _without_frames(said: str) -> Iterable[str]:
-    """Words of a complaint, without the lines that are drawn round it."""
-    return "".join(
-        letter if letter.isprintable() and letter not in "╭╮╰╯─│━" else " " for letter in said
-    ).split()
+    return "", take.motion.shortfall
 
 
 def main() -> None:

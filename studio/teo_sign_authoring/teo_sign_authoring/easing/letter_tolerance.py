@@ -11,7 +11,6 @@ more than they do.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -21,16 +20,14 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
-from teo_sign_authoring.alphabet.letter_features import features
+from teo_sign_authoring.alphabet.letter_likeness import features
 from teo_sign_authoring.alphabet.spelling_arm import spelling_bounds
+from teo_sign_authoring.easing.linear_program import BEND, DIRECTIONS, FOLDED, FOLDED_BEND, TURN
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics
 from teo_sign_capture.retarget.knots import least_clearance
 from teo_sign_capture.time_warp import warp
 from teo_signs.sign import Sign
 
-# [rad] The palm turns by this much about any axis: what is just seen (`teo_signs.likeness`), a third of the
-# 45 deg between a palm to the front and one half to the side.
-_TURN = np.radians(15.0)
 # [m] A letter has no place of its own; it stays within half a hand's length of where the signer made it.
 _SHIFT = 0.08
 # [m] The elbow goes no farther out and up than this, about its own thickness: a person's hangs, and with it
@@ -39,11 +36,6 @@ _SHIFT = 0.08
 _ELBOW = 0.05
 # To the right, up, and both, in ``base_link``.
 _ELBOW_WAYS = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -np.sqrt(0.5), np.sqrt(0.5)]])
-# [m] The end of a finger or thumb moves less than is just seen, the thickness of a finger: two thirds of it.
-_BEND = 0.010
-# [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended
-# finger that bends is soon a hooked one.
-_FOLDED_BEND, _FOLDED = 0.015, np.radians(60.0)
 # Own recording nearer than any other by this [just seen differences].
 _AHEAD = 0.2
 # Only recordings within this of the own one can come near it [just seen differences].
@@ -63,10 +55,6 @@ _SPEED, _RATE, _HOLD = np.radians(50.0), 25.0, 0.3
 _RECOGNITION_SCALE, _MEETING_SCALE, _FACE_SCALE = 0.5, 0.01, 0.02
 # Of an offset that cannot be used whole, the shares that are tried.
 _SHARES = (1.0, 0.9, 0.8, 0.65, 0.5, 0.3)
-
-# Directions in which a turn or shift is bounded: the faces, edges and corners of a cube.
-_DIRECTIONS = np.array([row for row in product((-1.0, 0.0, 1.0), repeat=3) if any(row)])
-_DIRECTIONS /= np.linalg.norm(_DIRECTIONS, axis=1, keepdims=True)
 
 
 class LinearTolerance(NamedTuple):
@@ -216,7 +204,7 @@ class LetterTolerance:
         for points, row in zip(self._points, knots, strict=True):
             away = np.linalg.norm(reached[:, :, 2:] - points.fingers[None, :, 2:], axis=3).max(axis=2)
             for finger, bend in enumerate(row[count + 2 :]):
-                inside = grid[away[:, finger] <= (_FOLDED_BEND if bend > _FOLDED else _BEND)]
+                inside = grid[away[:, finger] <= (FOLDED_BEND if bend > FOLDED else BEND)]
                 column = count + 2 + finger
                 lower[column] = max(lower[column], inside.min() - bend)
                 upper[column] = min(upper[column], inside.max() - bend)
@@ -234,12 +222,12 @@ class LetterTolerance:
         for at in sorted({0, len(knots) // 2, len(knots) - 1}):
             turned = Rotation.from_matrix(poses.rotation[at] @ self._poses.rotation[at].T).as_rotvec()
             shifted = poses.place[at] - self._poses.place[at]
-            blocks.append((self._of_arm(_DIRECTIONS @ poses.axes[at].T), _TURN - _DIRECTIONS @ turned, _TURN))
+            blocks.append((self._of_arm(DIRECTIONS @ poses.axes[at].T), TURN - DIRECTIONS @ turned, TURN))
             blocks.extend(
-                (self._of_arm(axis[None] @ poses.axes[at].T), np.array([-axis @ turned]), _TURN)
+                (self._of_arm(axis[None] @ poses.axes[at].T), np.array([-axis @ turned]), TURN)
                 for axis in self._turned_from
             )
-            blocks.append((self._of_arm(_DIRECTIONS @ places[at]), _SHIFT - _DIRECTIONS @ shifted, _SHIFT))
+            blocks.append((self._of_arm(DIRECTIONS @ places[at]), _SHIFT - DIRECTIONS @ shifted, _SHIFT))
             lifted = elbows[at] - self._poses.origins[at, self._chain.elbow]
             blocks.append((self._of_arm(_ELBOW_WAYS @ raising[at]), _ELBOW - _ELBOW_WAYS @ lifted, _ELBOW))
             facing = np.isfinite(self._off_face)
@@ -255,7 +243,7 @@ class LetterTolerance:
         moved = [self._hand.points(hand + _STEP * unit) for unit in np.eye(len(hand))]
         thumb = np.column_stack([(points.thumb[2] - here.thumb[2]) / _STEP for points in moved])
         away = here.thumb[2] - captured.thumb[2]
-        blocks = [(self._of_hand(_DIRECTIONS @ thumb), _BEND - _DIRECTIONS @ away, _BEND)]
+        blocks = [(self._of_hand(DIRECTIONS @ thumb), BEND - DIRECTIONS @ away, BEND)]
         clearance = self._hand.thumb_clearances(here)
         near = np.flatnonzero(clearance < _MEETING)
         slopes = (
@@ -272,7 +260,7 @@ class LetterTolerance:
                 np.vstack([points.fingers[:, 3], points.thumb[2]])[tip] for points in (captured, here, *moved)
             ]
             slope = np.array([(other - tips[1]) @ way for other in tips[2:]]) / _STEP
-            blocks.append((self._of_hand(-slope[None]), np.array([(tips[1] - tips[0]) @ way]), _BEND))
+            blocks.append((self._of_hand(-slope[None]), np.array([(tips[1] - tips[0]) @ way]), BEND))
         return blocks
 
     def _way_rows(self, offset: Array) -> list[tuple[Array, Array, float]]:
@@ -286,7 +274,7 @@ class LetterTolerance:
         ways, before = (self._from_middle(points)[far] for points in (tips, captured))
         lengths = np.linalg.norm(ways, axis=1)
         longer = np.einsum("ni,nij->nj", ways / lengths[:, None], self._from_middle(carried)[far])
-        return [(-self._of_arm(longer), lengths - np.linalg.norm(before, axis=1), _BEND)]
+        return [(-self._of_arm(longer), lengths - np.linalg.norm(before, axis=1), BEND)]
 
     def _from_middle(self, values: Array) -> Array:
         """Values of each knot, less their mean over the letter's time. Shape (n, ...)."""

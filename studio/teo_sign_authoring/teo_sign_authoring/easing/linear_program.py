@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The linear programs by which letters and words are eased, one after the other.
+"""The linear programs by which letters and words are eased, one after the other, and tolerances of both.
 
 Tolerances are curved, so that programs follow each other, each within a shorter distance of the last
 (sequential linear programming, F. Palacios-Gomez, L. Lasdon, M. Engquist, Management Science 28, 1982).
@@ -9,6 +9,7 @@ Tolerances are curved, so that programs follow each other, each within a shorter
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,19 @@ from teo_signs.errors import LutError
 # Price of being beyond a tolerance by its whole size, where a second of time or a radian of travel costs 1:
 # nothing gained by it is worth it, but a program that is infeasible would end the search.
 BEYOND = 10.0
+
+# Directions in which a turn or shift is bounded: the faces, edges and corners of a cube.
+DIRECTIONS = np.array([row for row in product((-1.0, 0.0, 1.0), repeat=3) if any(row)])
+DIRECTIONS /= np.linalg.norm(DIRECTIONS, axis=1, keepdims=True)
+
+# [rad] A palm turns by this much about any axis: what is just seen (`teo_signs.likeness`), a third of the
+# 45 deg between a palm to the front and one half to the side.
+TURN = np.radians(15.0)
+# [m] The end of a finger or thumb moves less than is just seen, the thickness of a finger: two thirds of it.
+BEND = 0.010
+# [m], [rad] A finger folded by this much at each joint may open farther: it stays folded, where an extended
+# finger that bends is soon a hooked one.
+FOLDED_BEND, FOLDED = 0.015, np.radians(60.0)
 
 Block = tuple[Sequence[int] | NDArray[np.intp], Array]
 

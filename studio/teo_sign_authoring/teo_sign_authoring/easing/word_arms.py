@@ -1,22 +1,25 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The arms and hands of a word: their different postures, and how what they carry moves with them.
+"""The arms and hands of a word: their postures, what they carry, what they touch and show.
 
 Arms are seen as right arms throughout (`mirrored`): a left one in the mirror.
 """
 
 from __future__ import annotations
 
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from teo_common.arrays import Array
-from teo_description.humanoid import Side
+from teo_description.clearance import Contact
+from teo_description.hand_geometry import HandGeometry
+from teo_description.humanoid import SIDES, Side
 from teo_description.robot import Robot
+from teo_sign_authoring.easing.linear_program import DIRECTIONS
 from teo_sign_capture.retarget.arm_kinematics import ArmKinematics, ArmPoses, mirrored, mirrored_hand
+from teo_sign_capture.signing_space.places import find_place
 from teo_signs.sign import Sign
 
 _SIDES: tuple[Side, Side] = ("right", "left")
@@ -24,9 +27,6 @@ _MIRROR = np.array([1.0, -1.0, 1.0])
 # Share of a tolerance that is used along each of the directions below [1]: between them it is 1.13 times
 # as much.
 ALONG = 0.88
-# Directions in which a turn or shift is bounded: the faces, edges and corners of a cube.
-DIRECTIONS = np.array([row for row in product((-1.0, 0.0, 1.0), repeat=3) if any(row)])
-DIRECTIONS /= np.linalg.norm(DIRECTIONS, axis=1, keepdims=True)
 
 
 class Rows(NamedTuple):
@@ -141,3 +141,135 @@ def _different(arms: Array) -> tuple[Array, NDArray[np.intp]]:
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
     return arms[first[order]], rank[which.reshape(-1)]
+
+
+# [m] Differences of distances below this are none.
+_ROUNDING = 5e-4
+# [m] Parts nearer than this touch, or are meant to (`teo_motion.sentence.sign_size`); the nearest points of
+# the two then move by no more than this against each other: a finger's width on the other hand.
+_CONTACT, _SLIP = 0.025, 0.01
+# [m] Parts keep as far apart as most entries do, or as they were where they were nearer; parts within the
+# second distance are looked at.
+_CLEARANCE, _NEAR = 0.006, 0.06
+
+# [m] Ends of fingers within the first distance of the middle of the face show a place of the head, of which
+# they are a hand's breadth away at most: they move by less than the second, what is just seen of a place.
+_AT_HEAD, _PLACE = 0.24, 0.028
+# [m] By how much the middle of the face is below the middle of chin and crown, where a hand stops.
+_BELOW_MIDDLE = 0.0125
+
+
+class WordContacts:
+    """What is to go on touching, to stay apart, and to stay at the head.
+
+    Args:
+        robot: Not shared with another thread.
+        arms: Of the word.
+    """
+
+    def __init__(self, robot: Robot, arms: WordArms) -> None:
+        self._robot, self._arms, self._hand = robot, arms, HandGeometry(robot)
+        humanoid, hand = robot.humanoid, robot.humanoid.file.hand
+        right = (hand.thumb[-1], *(frames[-1] for frames in hand.fingers.values()))
+        self._tips = (*right, *map(humanoid.mirrored_name, right))
+        self._face_joint = (humanoid.head or humanoid.trunk)[-1:]
+        home = robot.joint_placements(robot.configuration({}), self._face_joint)[0]
+        heights = [float(find_place(humanoid, name).point[2]) for name in ("chin", "head_top")]
+        middle = np.array([*home[:2, 3], sum(heights) / 2.0 - _BELOW_MIDDLE])
+        self._face = home[:3, :3].T @ (middle - home[:3, 3])
+        self._touching = [self._near(posture, arms.postures) for posture in range(len(arms.postures))]
+
+    def rows(self, posture: int, postures: Array, palms: list[ArmPoses]) -> list[Rows]:
+        """What holds for changes of one of some postures. Shape (p, m)."""
+        return [*self._contact_rows(posture, postures, palms), *self._head_rows(posture, postures, palms)]
+
+    def kept(self, postures: Array) -> bool:
+        """Whether what touches still does, and nothing else comes nearer than `_CLEARANCE`. Shape (p, m)."""
+        for posture, before in enumerate(self._touching):
+            thumbs, captured = self._thumbs(postures[posture]), self._thumbs(self._arms.postures[posture])
+            if (thumbs < np.minimum(captured, 0.0) - _ROUNDING).any():
+                return False
+            now = _of_pairs(self._near(posture, postures))
+            least = min([_CLEARANCE, *(item.distance for item in before)])
+            if min((item.distance for item in now.values()), default=np.inf) < least - _ROUNDING:
+                return False
+            for item in self._nearest(before):
+                touching = now.get((item.first, item.second))
+                if touching is None or touching.distance > item.distance + _SLIP:
+                    return False
+        return True
+
+    def places_kept(self, postures: Array) -> bool:
+        """Whether fingers that show a place of the head still show it. Shape (p, m)."""
+        for posture in range(len(postures)):
+            captured, face = self._ends(posture, self._arms.postures)
+            now, _ = self._ends(posture, postures)
+            shows = np.linalg.norm(captured - face, axis=1) < _AT_HEAD
+            if (np.linalg.norm(now - captured, axis=1)[shows] > _PLACE).any():
+                return False
+        return True
+
+    def _contact_rows(self, posture: int, postures: Array, palms: list[ArmPoses]) -> list[Rows]:
+        found = []
+        before = _of_pairs(self._touching[posture])
+        meant = {(item.first, item.second) for item in self._nearest(self._touching[posture])}
+        for item in _of_pairs(self._near(posture, postures)).values():
+            moves = self._arms.moves(item.second, item.second_point, posture, palms) - self._arms.moves(
+                item.first, item.first_point, posture, palms
+            )
+            if not moves.any():
+                continue
+            captured = before.get((item.first, item.second))
+            least = min(_CLEARANCE, np.inf if captured is None else captured.distance)
+            found.append(
+                Rows((posture,), -(item.normal @ moves)[None], np.array([item.distance - least]), _SLIP)
+            )
+            if captured is not None and (item.first, item.second) in meant:
+                already = (item.second_point - item.first_point) - (
+                    captured.second_point - captured.first_point
+                )
+                found.append(Rows((posture,), DIRECTIONS @ moves, _SLIP - DIRECTIONS @ already, _SLIP))
+        return found
+
+    def _head_rows(self, posture: int, postures: Array, palms: list[ArmPoses]) -> list[Rows]:
+        """Fingers that show a place of the head go on showing it; that they bend too is small beside it."""
+        captured, face = self._ends(posture, self._arms.postures)
+        now, _ = self._ends(posture, postures)
+        found = []
+        for end in np.flatnonzero(np.linalg.norm(captured - face, axis=1) < _AT_HEAD).tolist():
+            moves = self._arms.moves(self._tips[end], now[end], posture, palms)
+            if moves.any():
+                bound = ALONG * _PLACE - DIRECTIONS @ (now[end] - captured[end])
+                found.append(Rows((posture,), DIRECTIONS @ moves, bound, _PLACE))
+        return found
+
+    def _ends(self, posture: int, postures: Array) -> tuple[Array, Array]:
+        """Ends of all fingers, and the middle of the face [m]. Shapes (tips, 3) and (3,)."""
+        q = self._arms.configuration(posture, postures)
+        head = self._robot.joint_placements(q, self._face_joint)[0]
+        return self._robot.placements(q, self._tips)[:, :3, 3], head[:3, :3] @ self._face + head[:3, 3]
+
+    def _near(self, posture: int, postures: Array) -> list[Contact]:
+        return self._robot.contacts(self._arms.configuration(posture, postures), _NEAR)
+
+    def _nearest(self, contacts: list[Contact]) -> list[Contact]:
+        """What touches: of each two of right arm, left arm and body the nearest parts, if they are near."""
+        arms = [self._robot.humanoid.arm(side) for side in SIDES]
+        found: dict[tuple[bool, ...], Contact] = {}
+        for item in sorted(contacts, key=lambda item: item.distance):
+            links = (item.first, item.second)
+            both = tuple(self._robot.carried_by(link, arm) > 0 for link in links for arm in arms)
+            if item.distance < _CONTACT and item.may_be_meant:
+                found.setdefault(both, item)
+        return list(found.values())
+
+    def _thumbs(self, posture: Array) -> Array:
+        """How far each thumb is from the fingers of its hand [m]."""
+        hands = [part[0, self._arms.arm :] for part in self._arms.of_each_side(posture[None])]
+        return np.concatenate([self._hand.thumb_clearances(self._hand.points(hand)) for hand in hands])
+
+
+def _of_pairs(contacts: list[Contact]) -> dict[tuple[str, str], Contact]:
+    """Of each two links the nearest of their shapes."""
+    farthest_first = sorted(contacts, key=lambda item: -item.distance)
+    return {(item.first, item.second): item for item in farthest_first}

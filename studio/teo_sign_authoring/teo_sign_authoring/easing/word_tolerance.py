@@ -17,13 +17,11 @@ from scipy.spatial.transform import Rotation
 from teo_common.arrays import Array
 from teo_description.hand_geometry import HandGeometry
 from teo_description.robot import Robot
-from teo_sign_authoring.easing.word_arms import ALONG, DIRECTIONS, Rows, WordArms
-from teo_sign_authoring.easing.word_contacts import WordContacts
+from teo_sign_authoring.easing.linear_program import BEND, DIRECTIONS, FOLDED, FOLDED_BEND, TURN
+from teo_sign_authoring.easing.word_arms import ALONG, Rows, WordArms, WordContacts
 from teo_sign_capture.retarget.arm_kinematics import ArmPoses, arm_bounds
 from teo_signs.sign import Sign
 
-# [rad] A palm turns by this much about any axis: what is just seen (`teo_signs.likeness`).
-TURN = np.radians(15.0)
 # [m] A palm shifts by this much along any axis: less than what is just seen of a place (28 mm).
 _SHIFT = 0.02
 # Share of a palm's way, and of its turn, from knot to knot by which these may change [1], and the least
@@ -31,9 +29,6 @@ _SHIFT = 0.02
 # tolerance is not seen where nothing moves.
 _SHARE = 0.25
 _LEAST_WAY, _LEAST_TURN, _LEAST_BEND = 0.01, np.radians(7.5), np.radians(4.0)
-# [m] The ends of fingers and thumb move by this much, of a finger folded by more than that [rad] by more:
-# as in letters (`letter_tolerance`).
-_BEND, _FOLDED_BEND, _FOLDED = 0.010, 0.015, np.radians(60.0)
 # Bends and turns of a hand's joint that are tried [rad].
 _TURNS = np.radians(np.arange(1.0, 31.0))
 
@@ -108,7 +103,7 @@ class WordTolerance:
         least, most = hand.copy(), hand.copy()
         for joint in range(self.arms.hand):
             finger = joint - 2
-            near = _FOLDED_BEND if finger >= 0 and hand[joint] > _FOLDED else _BEND
+            near = FOLDED_BEND if finger >= 0 and hand[joint] > FOLDED else BEND
             for way, found in ((-1.0, least), (1.0, most)):
                 for turn in _TURNS:
                     moved = hand.copy()
@@ -133,10 +128,7 @@ class WordTolerance:
             turned = Rotation.from_matrix(now.rotation[posture] @ captured.rotation[posture].T).as_rotvec()
             shifted = now.place[posture] - captured.place[posture]
             ways = now.point_jacobian(now.place)[posture]
-            for matrix, already, most in (
-                (now.axes[posture].T, turned, TURN),
-                (ways, shifted, _SHIFT),
-            ):
+            for matrix, already, most in ((now.axes[posture].T, turned, TURN), (ways, shifted, _SHIFT)):
                 rows = self.arms.of_side(number, DIRECTIONS @ matrix)
                 found.append(Rows((posture,), rows, ALONG * most - DIRECTIONS @ already, most))
         return found

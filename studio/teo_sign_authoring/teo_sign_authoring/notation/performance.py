@@ -9,7 +9,7 @@ Places on the body keep their names, so far as TEO and the person both have name
 those in the air are given from the part of the body that they are before. Arms, hands and heads of person and
 robot are of one size, so centimetres are centimetres; but TEO's shoulders are nearly twice as far apart, so
 what it does farther aside than its hands are long is nearer to the middle on a person. A person's finger
-joints bend one by one, and fingers spread: angles follow from looking at hands in these shapes.
+joints bend one by one, and fingers spread: handshapes are those of `teo_synthetic_signer.body.hand`.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ from teo_sign_capture.signing_space.places import (
     split_place,
     written_place,
 )
+from teo_synthetic_signer.body.hand import FINGERS, HAND_ANGLES
 
 # [m] From the middle: hands that meet or cross are as far apart on both.
 _ALIKE = 0.10
@@ -108,49 +109,15 @@ def _rounded(*ways: float) -> list[float]:
     return [round(way, 4) for way in ways]
 
 
-Bends = tuple[float, float, float]
-
-# Knuckle, middle and last joint [deg].
-_STRAIGHT = (2.0, 4.0, 3.0)
-_FOLDED = (82.0, 95.0, 60.0)
-_CROOKED = (8.0, 78.0, 48.0)
-_AT_THUMB = (56.0, 48.0, 24.0)
-
-# Spread of index to little finger towards the thumb [deg].
-_TOGETHER, _FAN = (2.0, 0.0, -2.0, -5.0), (12.0, 2.0, -9.0, -20.0)
-
-_SHAPES: dict[str, tuple[tuple[Bends, Bends, Bends, Bends], str, tuple[float, float, float, float]]] = {
-    "flat": ((_STRAIGHT,) * 4, "beside", _TOGETHER),
-    "open": ((_STRAIGHT,) * 4, "out", _FAN),
-    "relaxed": (((14, 20, 10), (16, 22, 11), (18, 23, 12), (20, 24, 12)), "relaxed", (6, 1, -4, -10)),
-    "bent": (((75, 8, 5),) * 4, "beside", _TOGETHER),
-    "cupped": (((26, 32, 18),) * 4, "relaxed", _TOGETHER),
-    "claw": (((25, 50, 35),) * 4, "out", _FAN),
-    "bunched": (((58, 38, 18), (62, 36, 16), (60, 40, 18), (58, 46, 22)), "opposed", (-4, 0, 4, 8)),
-    "fist": ((_FOLDED,) * 4, "over", _TOGETHER),
-    "thumb": ((_FOLDED,) * 4, "up", _TOGETHER),
-    "index": ((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "over", _TOGETHER),
-    "hook": ((_CROOKED, _FOLDED, _FOLDED, _FOLDED), "over", _TOGETHER),
-    "two": ((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across", (13, -10, -4, -6)),
-    "bent_two": ((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "across", (10, -8, -4, -6)),
-    "bent_thumb_two": ((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "up", (8, -4, -4, -6)),
-    "three": ((_STRAIGHT, _STRAIGHT, _STRAIGHT, _FOLDED), "across", (13, 0, -13, -8)),
-    "four": ((_STRAIGHT,) * 4, "across", _FAN),
-    "bent_four": (((75, 8, 5),) * 4, "across", _TOGETHER),
-    "little": ((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "over", _TOGETHER),
-    "horns": ((_STRAIGHT, _FOLDED, _FOLDED, _STRAIGHT), "over", (6, 0, -2, -12)),
-    "thumb_little": ((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "up", (2, 0, -2, -14)),
-    "l": ((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "up", _TOGETHER),
-    "thumb_two": ((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "up", (8, -4, -4, -6)),
-    "pinch": ((_AT_THUMB, _FOLDED, _FOLDED, _FOLDED), "opposed", _TOGETHER),
-    "ring": ((_AT_THUMB, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
-    "middle_flick": ((_STRAIGHT, _AT_THUMB, _STRAIGHT, _STRAIGHT), "opposed", (8, 0, -8, -16)),
-    "ring_flick": ((_STRAIGHT, _STRAIGHT, _AT_THUMB, _STRAIGHT), "opposed", (8, 4, 0, -14)),
-    "two_flick": ((_AT_THUMB, _AT_THUMB, _FOLDED, _FOLDED), "opposed", _TOGETHER),
-    "three_flick": ((_AT_THUMB, _AT_THUMB, _AT_THUMB, _FOLDED), "opposed", _TOGETHER),
+# Handshapes that the synthetic signer has under another name.
+_RENAMED = {
+    "relaxed": "loose",
+    "hook": "crooked",
+    "two": "v",
+    "three": "w",
+    "thumb": "thumb_up",
+    "thumb_little": "y",
 }
-
-FINGERS = ("index", "middle", "ring", "little")
 
 # Shares of the angle by which a finger goes to and fro, by joint: the last joint follows the middle one at
 # half, as they share a tendon.
@@ -159,26 +126,26 @@ _SHARES = (1.0, 1.0, 0.5)
 _FAR_BENT = 50.0
 
 
-def _person_shape(name: str, bent: dict[str, float]) -> dict[str, Any]:
-    """A handshape as scripts of the synthetic signer write it.
+def _person_shape(name: str, bent: dict[str, float]) -> str | dict[str, Any]:
+    """A handshape as scripts of the synthetic signer write it: its name, or in full where fingers are bent.
 
     Args:
         name: One of `handshapes.NAMES`.
         bent: By how much fingers, or the thumb, are bent further, or opened if bent far [deg].
     """
-    fingers, thumb, spread = _SHAPES[name]
+    name = _RENAMED.get(name, name)
+    if not bent:
+        return name
+    angles = HAND_ANGLES[name]
     shape: dict[str, Any] = {}
-    for finger, bends in zip(FINGERS, fingers, strict=True):
+    for finger, bends in zip(FINGERS, angles.fingers, strict=True):
         # A folded finger cannot be folded further: it goes to and fro by opening.
         further = bent.get(finger, 0.0) * (-1.0 if bends[0] > _FAR_BENT else 1.0)
         shape[finger] = [
             round(angle + share * further, 1) for angle, share in zip(bends, _SHARES, strict=True)
         ]
-    shape["spread"] = list(map(float, spread))
-    shape["thumb"] = thumb
-    if "thumb" in bent:
-        shape["thumb_bent"] = bent["thumb"]
-    return shape
+    shape |= {"spread": list(map(float, angles.spread)), "thumb": angles.thumb}
+    return shape | ({"thumb_bent": bent["thumb"]} if "thumb" in bent else {})
 
 
 # [s] The hands hang before and after a sign: longer than any hold, so that rest is told from sign.

@@ -1,23 +1,144 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The file of a score: YAML, every error with its line and field.
+"""The file of a score: YAML, every error with its line and field; compounds and inflected forms.
 
 A score may be made of others: a compound, or one sign under a second name.
+
+A verb that agrees goes from person to person, and a sign may be made at a place of the body. The movement
+begins at the place of who acts and ends at that of whom it is done to; a hand that turns shows its back
+to the one, palm or finger tips to the other (GramLSE, Costello and Villameriel 2023, Lexicon 3.2.2.1). A
+score with `forms` says that way once, with `giver`, `receiver`, `onward` and `homeward` in its places and
+directions, or `there` for a place of the body; here they become ordinary words for every pair of persons,
+or every place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import permutations
 from pathlib import Path
 
-import yaml
+import numpy as np
 from pydantic import ValidationError
 
-from teo_sign_authoring.notation.inflection import inflected_scores
-from teo_sign_authoring.notation.score_schema import Compound, HandScore, HeadScore, Score, Step, flattened
+from teo_sign_authoring.notation.score_schema import (
+    Compound,
+    Forms,
+    HandScore,
+    HeadScore,
+    Score,
+    Step,
+    flattened,
+)
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
 from teo_signs.errors import LutError
 from teo_signs.sign import gloss_key
+from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.yaml_lines import YamlLines
+
+# Where persons are: the first before the signer's chest, the second farther away, the third to the right,
+# as far as the arm reaches without help of the trunk (GramLSE, Morphology 3.1.1.1: a place of the signing
+# space that is neither the signer's nor the addressee's). Each a place, and its distance from it in
+# centimetres.
+_PERSONS = {"1": "space 4 back", "2": "space 14 front 2 up", "3": "space 6 front 20 out 4 up"}
+# The same seen from above [cm]: front, out. Only their directions from each other are used.
+_SEEN_FROM_ABOVE = {"1": (-4.0, 0.0), "2": (14.0, 0.0), "3": (6.0, 20.0)}
+
+# What is out for the right hand is in for the left one beside it.
+_MIRROR = {"out": "in", "in": "out"}
+
+# Where the part of the body is that a gloss names.
+BODY_PLACES = {
+    "CABEZA": "forehead 2 front",
+    "FRENTE": "forehead 2 front",
+    "OJO": "eye 2 front",
+    "OÍDO": "ear 3 front 3 out",
+    "OREJA": "ear 3 front 3 out",
+    "NARIZ": "nose 2 front",
+    "BOCA": "mouth 2 front",
+    "DIENTE": "mouth 2 front 3 out",
+    "MUELA": "cheek 2 front 1 down",
+    "CUELLO": "throat 8 front 4 out",
+    "GARGANTA": "throat 8 front",
+    "HOMBRO": "other_shoulder 5 front",
+    "PECHO": "chest 5 front",
+    "CORAZÓN": "other_chest 5 front",
+    "ESTÓMAGO": "belly 7 front 6 up",
+    "BARRIGA": "belly 7 front",
+    "TRIPA": "belly 7 front",
+}
+
+
+def inflected_scores(score: Score) -> dict[str, Score]:
+    """The forms of a score, each as a score of its own, by inflection; none of a score without `forms`."""
+    if score.forms is None:
+        return {}
+    return {
+        inflection: score.model_copy(
+            update={
+                "hands": score.forms.hands or score.hands,
+                "steps": [_worded(step, words) for step in flattened(score.forms.steps)],
+                "forms": None,
+            }
+        )
+        for inflection, words in _wordings(score.forms).items()
+    }
+
+
+def _wordings(forms: Forms) -> Mapping[str, Mapping[str, str]]:
+    """For each inflection what the words stand for."""
+    if forms.along == "body":
+        return {gloss: {"there": place} for gloss, place in BODY_PLACES.items()}
+    made = {}
+    for giver, receiver in permutations(_PERSONS, 2):
+        if forms.only is not None and f"{giver}>{receiver}" not in forms.only:
+            continue
+        way = np.subtract(_SEEN_FROM_ABOVE[receiver], _SEEN_FROM_ABOVE[giver])
+        front, out = way / np.linalg.norm(way)
+        made[f"{giver}>{receiver}"] = {
+            "giver": _PERSONS[giver],
+            "receiver": _PERSONS[receiver],
+            "onward": _words(front, out),
+            "homeward": _words(-front, -out),
+        }
+    return made
+
+
+def _words(front: float, out: float) -> str:
+    """A direction in words, e.g. `0.8 front 0.6 in`."""
+    said = [(front, "front", "back"), (out, "out", "in")]
+    return " ".join(f"{abs(size):.2f} {ahead if size > 0 else behind}" for size, ahead, behind in said)
+
+
+def _worded(step: Step, words: Mapping[str, str]) -> Step:
+    """A step with each of the words replaced by what it stands for."""
+    said = step.model_dump(exclude_unset=True)
+    across = {
+        word: " ".join(_MIRROR.get(part, part) for part in text.split()) for word, text in words.items()
+    }
+    for side, own in (("right", words), ("left", across)):
+        for field in ("place", "palm", "fingers"):
+            if said.get(side) and said[side].get(field):
+                said[side][field] = _replaced(said[side][field], own)
+    if said.get("arc"):
+        said["arc"] = _replaced(said["arc"], words)
+    return Step.model_validate(said)
+
+
+def _replaced(text: str, words: Mapping[str, str]) -> str:
+    """Text with words replaced; a number before a direction multiplies it: `2 onward up`."""
+
+    def said(match: re.Match[str]) -> str:
+        factor, word = match[1], match[2]
+        if word not in words:
+            return match[0]
+        if factor is None:
+            return words[word]
+        return re.sub(r"[\d.]+", lambda number: f"{float(factor) * float(number[0]):.2f}", words[word])
+
+    return re.sub(r"(?:([\d.]+) )?\b([a-z_]+)\b", said, text)
+
 
 # [s] From one part to the next. In the dictionary's compounds (BUENOS_DÍAS and the like) 0.2 s to 0.4 s.
 _BETWEEN = 0.3
@@ -106,73 +227,53 @@ def read_score(path: Path) -> Score:
 def _read(path: Path, within: tuple[str, ...]) -> Score:
     """Read a score that is part of compounds of those names."""
     try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise LutError(
-            "unreadable", f"{path.name}: expected a file to read, got: {error.strerror}"
-        ) from error
-    if len(data) > _MOST_BYTES:
-        raise LutError("too_large", f"{path.name}: expected at most {_MOST_BYTES} bytes, got {len(data)}")
-    try:
-        text = data.decode("utf-8")
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
-        content = yaml.safe_load(text)
-    except UnicodeDecodeError as error:
-        raise LutError("not_utf8", f"{path.name}: expected UTF-8, got byte {data[error.start]:#x}") from error
-    except yaml.YAMLError as error:
-        raise LutError(
-            "not_yaml", f"{path.name}: expected YAML, got: {' '.join(str(error).split())}"
-        ) from error
-    if not isinstance(root, yaml.MappingNode):
-        raise LutError("bad_score", f"{path.name}:1: expected fields such as 'gloss: YO', got none")
-    compound = any(key.value == "signs" for key, _ in root.value)
+        lines = YamlLines(path, most_bytes=_MOST_BYTES, fields="fields such as 'gloss: YO'")
+    except SyntheticError as error:
+        code = "bad_score" if error.code == "no_fields" else error.code
+        raise LutError(code, error.sentence) from error
     score: Compound | Score
     try:
-        score = (Compound if compound else Score).model_validate(content)
+        score = (Compound if "signs" in lines.content else Score).model_validate(lines.content)
     except ValidationError as error:
         first = error.errors()[0]
-        where = [part for part in first["loc"] if not (isinstance(part, str) and part in _UNION_NAMES)]
-        field = ".".join(map(str, where)) or "score"
-        expected = first["msg"].removeprefix("Value error, ")
-        raise LutError("bad_score", f"{path.name}:{_line(root, where)}: {field}: {expected}") from error
+        where = [part for part in first["loc"] if part not in _UNION_NAMES]
+        raise _refusal(lines, where, first["msg"]) from error
     if gloss_key(score.gloss) != path.stem:
         message = f"{path.name}:1: gloss: expected {path.stem!r}, the file's name, got {score.gloss!r}"
         raise LutError("gloss_mismatch", message)
     if isinstance(score, Score):
-        _check_forms(path, root, score)
+        try:
+            for form in inflected_scores(score).values():
+                Score.model_validate(form.model_dump(exclude_unset=True))
+        except ValidationError as error:  # words of the forms that mean nothing once persons are filled in
+            raise _refusal(lines, ["forms"], error.errors()[0]["msg"]) from error
         return score
-    return performed(score, [_part(path, root, score, index, within) for index in range(len(score.signs))])
+    return performed(score, [_part(path, lines, score, index, within) for index in range(len(score.signs))])
 
 
-def _check_forms(path: Path, root: yaml.Node, score: Score) -> None:
-    """Refuse forms whose words mean nothing: they are filled in for each person or place."""
-    try:
-        for form in inflected_scores(score).values():
-            Score.model_validate(form.model_dump(exclude_unset=True))
-    except ValidationError as error:
-        expected = error.errors()[0]["msg"].removeprefix("Value error, ")
-        line = _line(root, ["forms"])
-        raise LutError("bad_score", f"{path.name}:{line}: forms: {expected}") from error
+def _refusal(lines: YamlLines, where: list[int | str], expected: str) -> LutError:
+    field = ".".join(map(str, where)) or "score"
+    return LutError("bad_score", f"{lines.place(where)}: {field}: {expected.removeprefix('Value error, ')}")
 
 
-def _part(path: Path, root: yaml.Node, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
+def _part(path: Path, lines: YamlLines, compound: Compound, index: int, within: tuple[str, ...]) -> Score:
+    """The score of one of a compound's signs, which is beside it."""
     gloss = compound.signs[index]
+    where: list[int | str] = ["signs", index]
     beside = path.with_name(f"{gloss_key(gloss)}.yaml")
-    where = f"{path.name}:{_line(root, ['signs', index])}: signs.{index}"
     within = (*within, compound.gloss)
     if gloss in within:
-        raise LutError("bad_score", f"{where}: expected a sign that is not made of itself, got {gloss!r}")
+        raise _refusal(lines, where, f"expected a sign that is not made of itself, got {gloss!r}")
     if not beside.is_file():
-        raise LutError("bad_score", f"{where}: expected a sign with a score beside this one, got {gloss!r}")
+        raise _refusal(lines, where, f"expected a sign with a score beside this one, got {gloss!r}")
     part = _read(beside, within)
     if not compound.inflection:
         return part
     forms = inflected_scores(part)
     if compound.inflection not in forms:
         there = ", ".join(forms) or "none"
-        raise LutError(
-            "bad_score", f"{where}: expected a form of {gloss} ({there}), got {compound.inflection!r}"
-        )
+        message = f"expected a form of {gloss} ({there}), got {compound.inflection!r}"
+        raise _refusal(lines, where, message)
     return forms[compound.inflection]
 
 
@@ -186,20 +287,3 @@ def read_scores(directory: Path) -> Iterator[Score]:
         raise LutError("no_directory", f"expected a directory of scores, got {directory}")
     for path in sorted(directory.glob("*.yaml")):
         yield read_score(path)
-
-
-def _line(node: yaml.Node, path: list[int | str]) -> int:
-    """Line of the deepest part of a path that the text has, from 1."""
-    line = node.start_mark.line + 1
-    for part in path:
-        if isinstance(node, yaml.MappingNode):
-            found = next((pair for pair in node.value if pair[0].value == part), None)
-            if found is None:
-                break
-            line, node = found[0].start_mark.line + 1, found[1]
-        elif isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
-            node = node.value[part]
-            line = node.start_mark.line + 1
-        else:
-            break
-    return line

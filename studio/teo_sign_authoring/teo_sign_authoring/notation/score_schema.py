@@ -26,9 +26,9 @@ def _checked(check: object) -> AfterValidator:
     return AfterValidator(validate)
 
 
-Shape = Annotated[str, _checked(written_shape)]
-Direction = Annotated[str, _checked(direction)]
-Displacement = Annotated[str, _checked(displacement)]
+_Shape = Annotated[str, _checked(written_shape)]
+_Direction = Annotated[str, _checked(direction)]
+_Displacement = Annotated[str, _checked(displacement)]
 _PlaceText = Annotated[str, _checked(split_place)]
 Seconds = Annotated[float, Field(ge=0.0, le=10.0, description="[s]")]
 
@@ -43,13 +43,13 @@ class HandScore(BaseModel):
 
     model_config = _STRICT
 
-    shape: Shape | None = Field(None, description="Handshape by name.")
+    shape: _Shape | None = Field(None, description="Handshape by name.")
     place: _PlaceText | None = Field(
         None, description="Where: a place, then centimetres from it: 'mouth 3 front'."
     )
     part: Part | None = Field(None, description="Part of the hand that is there; 'palm' if never said.")
-    palm: Direction | None = Field(None, description="Way the palm faces, e.g. 'back' is to the signer.")
-    fingers: Direction | None = Field(None, description="Way from wrist to knuckles.")
+    palm: _Direction | None = Field(None, description="Way the palm faces, e.g. 'back' is to the signer.")
+    fingers: _Direction | None = Field(None, description="Way from wrist to knuckles.")
 
 
 class Circle(BaseModel):
@@ -62,7 +62,7 @@ class Circle(BaseModel):
     )
     radius: float = Field(gt=0.0, le=20.0, description="[cm]")
     turns: float = Field(gt=0.0, le=6.0, description="How often round.")
-    start: Direction = Field("up", description="Where on the circle it begins.")
+    start: _Direction = Field("up", description="Where on the circle it begins.")
     clockwise: bool = Field(
         True, description="As the signer sees it; in plane side from the hand's own side, in top from above."
     )
@@ -107,7 +107,7 @@ class Step(BaseModel):
     right: HandScore | None = None
     left: HandScore | None = None
     head: HeadScore | None = None
-    arc: Displacement | None = Field(
+    arc: _Displacement | None = Field(
         None, description="How far the way here swings out in its middle, e.g. '5 up'."
     )
     circle: Circle | None = Field(None, description="Made after the posture is reached.")
@@ -155,7 +155,7 @@ class Compound(_Heading):
         return self
 
 
-class FormHand(HandScore):
+class _FormHand(HandScore):
     """What one hand does in a step of the forms; checked when persons and places are filled in."""
 
     place: str | None = Field(None, description="As of a hand; also 'giver', 'receiver', or 'there'.")
@@ -166,8 +166,8 @@ class FormHand(HandScore):
 class FormStep(Step):
     """A step of the forms."""
 
-    right: FormHand | None = None
-    left: FormHand | None = None
+    right: _FormHand | None = None
+    left: _FormHand | None = None
     arc: str | None = Field(None, description="As of a step; also 'onward', 'homeward'.")
 
 
@@ -192,8 +192,7 @@ class Forms(BaseModel):
         None, description="Forms along persons that TEO can make; all without it."
     )
     hands: Literal["right", "both"] | None = Field(
-        None,
-        description="Hands of the forms, if the score mirrors them: two that go to one side are both.",
+        None, description="Hands of the forms, if the score mirrors them: two that go to one side are both."
     )
     steps: list[FormStep | FormRepeat] = Field(min_length=1)
 

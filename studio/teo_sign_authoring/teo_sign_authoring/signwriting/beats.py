@@ -11,8 +11,15 @@ import numpy as np
 
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Part
+from teo_sign_authoring.signwriting.hand_symbols import (
+    CLOSED,
+    OPENED,
+    Orientation,
+    Side,
+    displacement_words,
+    for_hand,
+)
 from teo_sign_authoring.signwriting.hands import WrittenHand
-from teo_sign_authoring.signwriting.handshapes import closed, opened
 from teo_sign_authoring.signwriting.movement import (
     Circling,
     Closing,
@@ -22,7 +29,6 @@ from teo_sign_authoring.signwriting.movement import (
     Swinging,
     Turning,
 )
-from teo_sign_authoring.signwriting.page import Orientation, Side, displacement_words, for_hand
 from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_sign_capture.signing_space.places import OTHER_HAND as OTHER_HAND_NAMES
 from teo_sign_capture.signing_space.places import split_place, written_place
@@ -347,11 +353,11 @@ def circle_spots(beat: Beat) -> list[Spot]:
 def _with_closing(beats: list[Beat], closing: Closing) -> list[Beat]:
     """A hand that opens or closes on its way, or where it is."""
     drawn = beats[0].shape
-    change = opened if closing.opens else closed
-    after = change(drawn)
+    change, back = (OPENED, CLOSED) if closing.opens else (CLOSED, OPENED)
+    after = change.get(drawn)
     if after is None or (not closing.opens and drawn in ("fist", "bunched", "pinch", "two_flick", "ring")):
         # The hand is drawn as it is in the end.
-        before = (closed if closing.opens else opened)(drawn)
+        before = back.get(drawn)
         assert before is not None, "every hand opens or closes"
         before, after = before, drawn
     else:

@@ -13,7 +13,6 @@ from pydantic import ValidationError
 
 from teo_common.arrays import Array
 from teo_sign_authoring.notation.score_schema import Circle, HandScore, HeadScore, Score, Step, Wiggle
-from teo_sign_authoring.signwriting import symbol_groups as groups
 from teo_sign_authoring.signwriting.beats import (
     OTHER_HAND,
     Beat,
@@ -23,15 +22,73 @@ from teo_sign_authoring.signwriting.beats import (
     circle_spots,
     sorted_movements,
 )
-from teo_sign_authoring.signwriting.contact import read_contacts
+from teo_sign_authoring.signwriting.hand_symbols import (
+    SIDES,
+    Side,
+    direction_words,
+    displacement_words,
+    handshape_of,
+)
 from teo_sign_authoring.signwriting.hands import WrittenHands, read_hands
-from teo_sign_authoring.signwriting.handshapes import handshape_of
-from teo_sign_authoring.signwriting.head import face_words, head_postures
 from teo_sign_authoring.signwriting.movement import Circling, Hands, Movement, is_finger_movement, movement_of
-from teo_sign_authoring.signwriting.page import SIDES, Side, direction_words, displacement_words
 from teo_sign_authoring.signwriting.place import read_landmarks
-from teo_sign_authoring.signwriting.stances import are_mirrored, read_stances
-from teo_sign_authoring.signwriting.written_sign import Symbol, UnreadableError, read_fsw
+from teo_sign_authoring.signwriting.stances import are_mirrored, read_contacts, read_stances
+from teo_sign_authoring.signwriting.written_sign import (
+    ALTERNATING,
+    EARS,
+    EVERY_OTHER_TIME,
+    FAST,
+    HANDS,
+    HEAD_MOVEMENTS,
+    HEAD_RIM,
+    HEADS,
+    LIMBS,
+    MOVEMENTS,
+    NOSE,
+    SLOW,
+    Symbol,
+    UnreadableError,
+    read_fsw,
+    symbols_of,
+)
+
+# [deg] A nod and a turn that are seen; TEO bows by 10 at most.
+_BOW, _TURN = 8.0, 25.0
+_STRAIGHT, _FLOOR_STRAIGHT, _CURVE, _FLOOR_CURVE = 0x301, 0x303, 0x304, 0x305
+
+
+def _head_postures(symbols: tuple[Symbol, ...]) -> tuple[list[tuple[float, float]], tuple[str, ...]]:
+    """Turns and bows of the head, one after the other [deg], and what of its movements TEO cannot make.
+
+    A turn is to the right, a bow forward. With fill 0 the movement is made once, with 1 twice.
+    """
+    postures: list[tuple[float, float]] = []
+    losses: list[str] = []
+    for symbol in symbols_of(symbols, HEAD_MOVEMENTS):
+        posture = _posture(symbol)
+        if posture is None:
+            losses.append(f"{symbol.key}, {symbol.name}: TEO's head turns and bows only")
+        else:
+            postures += [posture, (0.0, 0.0)] * (1 + min(symbol.fill, 2))
+    return postures, tuple(losses)
+
+
+def _posture(symbol: Symbol) -> tuple[float, float] | None:
+    if symbol.rotation in (0, 4) and symbol.base in (_STRAIGHT, _FLOOR_STRAIGHT):
+        up = symbol.rotation == 0
+        forward = up if symbol.base == _FLOOR_STRAIGHT else not up
+        return 0.0, _BOW if forward else -_BOW
+    if symbol.rotation in (2, 6) and symbol.base in (_FLOOR_STRAIGHT, _CURVE, _FLOOR_CURVE):
+        return (_TURN if symbol.rotation == 6 else -_TURN), 0.0
+    return None
+
+
+def _face_words(symbols: tuple[Symbol, ...]) -> str:
+    """What the face does, by the names of its symbols."""
+    bare = {0x2FF, HEAD_RIM, EARS, *HEAD_MOVEMENTS, *NOSE, 0x33B, 0x36A}
+    names = [symbol.name for symbol in symbols_of(symbols, HEADS) if symbol.base not in bare]
+    return ", ".join(dict.fromkeys(names))
+
 
 # SignWriting gives no durations. Measured signs move at about half a metre a second, and no movement takes
 # less than 0.2 s; symbols of dynamics are a third faster or two thirds slower than that.
@@ -84,17 +141,17 @@ def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> 
             "limb", "posture".
     """
     symbols = read_fsw(fsw)
-    hands = read_hands(groups.of(symbols, groups.HANDS), _arrows(symbols))
+    hands = read_hands(symbols_of(symbols, HANDS), _arrows(symbols))
     movements = _read_movements(symbols, hands)
     landmarks = read_landmarks(symbols)
     contacts, losses = read_contacts(symbols, hands, landmarks)
-    face = face_words(symbols)
-    turns, head_losses = head_postures(symbols)
+    face = _face_words(symbols)
+    turns, head_losses = _head_postures(symbols)
     losses += (*_handshape_losses(symbols), *_limb_losses(symbols, hands), *head_losses)
     if face:
         losses += (f"TEO has no face: {face}",)
     stances = read_stances(hands, contacts, landmarks, gap)
-    alternating = any(symbol.base in (groups.ALTERNATING, groups.EVERY_OTHER_TIME) for symbol in symbols)
+    alternating = any(symbol.base in (ALTERNATING, EVERY_OTHER_TIME) for symbol in symbols)
     main: Side = "right" if hands.right else "left"
     moves = {side: _moves_of(side, hands, movements) for side in SIDES if hands.of(side)}
     for each in moves.values():
@@ -135,7 +192,7 @@ def compile_fsw(gloss: str, fsw: str, *, source: str, gap: float = TOUCHING) -> 
 
 
 def _arrows(symbols: tuple[Symbol, ...]) -> tuple[Movement, ...]:
-    found = (movement_of(symbol) for symbol in groups.of(symbols, groups.MOVEMENTS))
+    found = (movement_of(symbol) for symbol in symbols_of(symbols, MOVEMENTS))
     return tuple(movement for movement in found if movement is not None)
 
 
@@ -146,7 +203,7 @@ def _read_movements(symbols: tuple[Symbol, ...], hands: WrittenHands) -> tuple[M
         UnreadableError: "movement" for a symbol that is not read.
     """
     movements: list[Movement] = []
-    for symbol in groups.of(symbols, groups.MOVEMENTS):
+    for symbol in symbols_of(symbols, MOVEMENTS):
         movement = movement_of(symbol)
         if movement is None:
             raise UnreadableError("movement", f"{symbol.key}, {symbol.name}: a movement that is not read")
@@ -171,7 +228,7 @@ def _moves_of(side: Side, hands: WrittenHands, movements: tuple[Movement, ...]) 
 
 def _handshape_losses(symbols: tuple[Symbol, ...]) -> tuple[str, ...]:
     losses = []
-    for symbol in groups.of(symbols, groups.HANDS):
+    for symbol in symbols_of(symbols, HANDS):
         shape = handshape_of(symbol.base)
         if shape is not None and shape.loss:
             losses.append(f"{symbol.key}, {symbol.name}: TEO's hand does not show {shape.loss}")
@@ -179,7 +236,7 @@ def _handshape_losses(symbols: tuple[Symbol, ...]) -> tuple[str, ...]:
 
 
 def _limb_losses(symbols: tuple[Symbol, ...], hands: WrittenHands) -> tuple[str, ...]:
-    limbs = groups.of(symbols, groups.LIMBS)
+    limbs = symbols_of(symbols, LIMBS)
     if limbs and not (hands.right and hands.left):
         raise UnreadableError("limb", f"{limbs[0].key}, {limbs[0].name}: an arm without its hand")
     return tuple(f"{symbol.key}, {symbol.name}: the forearm goes where TEO's arm has it" for symbol in limbs)
@@ -193,7 +250,7 @@ def _spot_losses(rights: list[Beat], lefts: list[Beat], stances: tuple[Stance, .
 
 def _pace(symbols: tuple[Symbol, ...]) -> float:
     bases = {symbol.base for symbol in symbols}
-    return _FAST if groups.FAST in bases else _SLOW if groups.SLOW in bases else 1.0
+    return _FAST if FAST in bases else _SLOW if SLOW in bases else 1.0
 
 
 def _alike(rights: list[Beat], lefts: list[Beat]) -> bool:

@@ -105,8 +105,7 @@ def _tsv(path: Path, data: bytes) -> list[DictionaryEntry]:
     for number, row in enumerate(rows, start=1):
         if len(row) != len(_COLUMNS):
             raise LutError(
-                "not_tsv",
-                f"{path.name}: entry {number}: expected term, tab, FSW; got {len(row)} columns",
+                "not_tsv", f"{path.name}: entry {number}: expected term, tab, FSW; got {len(row)} columns"
             )
         entries.append(DictionaryEntry(term=row[0].strip(), fsw=row[1].strip(), number=number))
     return entries

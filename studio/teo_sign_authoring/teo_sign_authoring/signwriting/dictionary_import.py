@@ -25,7 +25,6 @@ from teo_sign_authoring.notation.score_retarget import score_sign
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.signwriting.compiler import TOUCHING, Compilation, compile_fsw
 from teo_sign_authoring.signwriting.dictionary_file import DictionaryEntry, GlossNames, numbered
-from teo_sign_authoring.signwriting.written_sign import UnreadableError
 from teo_signs.errors import LutError
 from teo_signs.look_up_table import held_entry
 from teo_signs.sign import Sign
@@ -199,7 +198,7 @@ def _import_entry(job: ImportJob, settings: ImportSettings) -> ImportOutcome:
             settings.scores.mkdir(parents=True, exist_ok=True)
             write_atomically(settings.scores / f"{job.gloss}.yaml", score_text(compilation.score).encode())
         save_sign(settings.table, sign, replace=settings.replace)
-    except (UnreadableError, LutError) as error:
+    except LutError as error:
         return _refused(job, error.code, str(error))
     except OSError as error:
         return _refused(job, "not_written", f"expected a place to write to, got: {error}")
@@ -214,7 +213,7 @@ def _made(job: ImportJob, gloss: str, settings: ImportSettings) -> tuple[Compila
     """The score and the sign, with hands as near to what they touch as TEO can hold them.
 
     Raises:
-        UnreadableError, LutError: Why it cannot be made.
+        LutError: Why it cannot be made.
     """
     for gap in _GAPS:
         compilation = compile_fsw(

@@ -9,9 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_authoring.signwriting.handshapes import handshape_of
+from teo_sign_authoring.signwriting.hand_symbols import (
+    EDGE_SHOWN,
+    Orientation,
+    Side,
+    handshape_of,
+    orientation_of,
+    written_side,
+)
 from teo_sign_authoring.signwriting.movement import Closing, Movement, Path
-from teo_sign_authoring.signwriting.page import EDGE_SHOWN, Orientation, Side, orientation_of, written_side
 from teo_sign_authoring.signwriting.written_sign import Symbol, UnreadableError, looks_like_other_side
 
 # [px] Hands that are drawn alike on one level, at least a hand's width apart, are two.

@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_authoring.signwriting.page import CM_PER_PIXEL, Plane, in_space, turned
+from teo_sign_authoring.signwriting.hand_symbols import CM_PER_PIXEL, Plane, in_space, turned
 from teo_sign_authoring.signwriting.written_sign import Symbol, symbol_size
 
 Hands = Literal["right", "left", "both"]

@@ -10,15 +10,22 @@ nothing are in the air, as far from head, bar or the middle of the page as they 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
 from teo_common.arrays import Array
-from teo_sign_authoring.signwriting import symbol_groups as groups
+from teo_sign_authoring.signwriting.hand_symbols import CM_PER_PIXEL, Side, displacement_words, drawn_tip
 from teo_sign_authoring.signwriting.hands import WrittenHand
-from teo_sign_authoring.signwriting.page import CM_PER_PIXEL, Side, displacement_words, drawn_tip
-from teo_sign_authoring.signwriting.written_sign import Symbol
+from teo_sign_authoring.signwriting.written_sign import (
+    EARS,
+    HEAD_RIM,
+    HEADS,
+    MOUTH,
+    NOSE,
+    SHOULDERS,
+    Symbol,
+    symbols_of,
+)
 from teo_sign_capture.signing_space.places import written_place
 
 _HEAD_RADIUS = 18.0  # [px]
@@ -29,8 +36,6 @@ _CHEST_BELOW, _BELLY_BELOW = 16.0, 52.0
 _ASIDE, _AT_SHOULDER = 7.0, 15.0
 # [px] A box that is so near to the head's circle overlaps it or is drawn against it.
 _BEFORE_HEAD = 6.0
-
-Anchor = Literal["head", "trunk", "page"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,18 +61,16 @@ class Landmarks:
 
 def read_landmarks(symbols: tuple[Symbol, ...]) -> Landmarks:
     """What of the body a sign shows."""
-    heads = [
-        symbol for symbol in groups.of(symbols, groups.HEADS) if symbol.size.min() >= 2.0 * _HEAD_RADIUS - 4.0
-    ]
-    bars = groups.of(symbols, groups.SHOULDERS)
-    rims = [symbol.rotation for symbol in symbols if symbol.base == groups.HEAD_RIM]
+    heads = [symbol for symbol in symbols_of(symbols, HEADS) if symbol.size.min() >= 2.0 * _HEAD_RADIUS - 4.0]
+    bars = symbols_of(symbols, SHOULDERS)
+    rims = [symbol.rotation for symbol in symbols if symbol.base == HEAD_RIM]
     bases = {symbol.base for symbol in symbols}
     return Landmarks(
         head=_head_middle(heads[0]) if heads else None,
         bar=bars[0].corner + np.array([bars[0].size[0] / 2.0, 2.0]) if bars else None,
-        nose=bool(bases & groups.NOSE),
-        ears=groups.EARS in bases,
-        mouth=bool(bases & groups.MOUTH),
+        nose=bool(bases & NOSE),
+        ears=EARS in bases,
+        mouth=bool(bases & MOUTH),
         rim=rims[0] if rims else None,
     )
 

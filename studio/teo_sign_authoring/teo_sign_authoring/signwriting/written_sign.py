@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Formal SignWriting: the symbols of a sign, and where each is drawn.
+"""Formal SignWriting: the symbols of a sign, what kind of thing each means, and where it is drawn.
 
 A page is seen as the signer sees the own hands: right is right. FSW gives the upper left corner of a symbol
-in pixels, the middle of the sign at (500, 500).
+in pixels, the middle of the sign at (500, 500). Groups of bases are those of the reference of ISWA 2010.
 """
 
 from __future__ import annotations
@@ -21,16 +21,8 @@ from teo_common.arrays import Array
 from teo_signs.errors import LutError
 
 
-class UnreadableError(Exception):
-    """A sign that cannot be read.
-
-    Attributes:
-        code: Stable name of the reason, such as "movement".
-    """
-
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(message)
-        self.code = code
+class UnreadableError(LutError):
+    """A sign that cannot be read; its code is the stable name of the reason, such as "movement"."""
 
 
 # One sign: a sequence for sorting, if any, then the box and its symbols.
@@ -148,3 +140,35 @@ def _symbol(key: str, corner: tuple[int, int]) -> Symbol:
 def _drawn_size(key: str) -> tuple[int, int]:
     width, height = get_symbol_size(key)
     return int(width), int(height)
+
+
+def _span(first: int, last: int) -> frozenset[int]:
+    return frozenset(range(first, last + 1))
+
+
+HANDS = _span(0x100, 0x204)
+CONTACTS = _span(0x205, 0x213)
+MOVEMENTS = _span(0x216, 0x2F4)
+# A circle of 36 px, empty or with a part of the face.
+HEADS = _span(0x2FF, 0x36A)
+HEAD_MOVEMENTS = _span(0x301, 0x306)
+HEAD_RIM = 0x300
+SHOULDERS = _span(0x36D, 0x36E)
+LIMBS = _span(0x376, 0x37D)
+
+BRUSH, RUB = _span(0x20E, 0x210), _span(0x211, 0x213)
+# Of each kind of contact: once, several times, between the fingers.
+MULTIPLE_CONTACTS = frozenset({0x206, 0x209, 0x20C, 0x20F, 0x212})
+CONTACTS_BETWEEN = frozenset({0x207, 0x20A, 0x20D, 0x210, 0x213})
+
+FAST, SLOW = 0x2F7, 0x2F8
+ALTERNATING, EVERY_OTHER_TIME = 0x2FC, 0x2FD
+
+NOSE = _span(0x331, 0x334)
+EARS = 0x330
+MOUTH = _span(0x33B, 0x367)
+
+
+def symbols_of(symbols: tuple[Symbol, ...], group: frozenset[int]) -> tuple[Symbol, ...]:
+    """Those of a group, in the order in which they are written."""
+    return tuple(symbol for symbol in symbols if symbol.base in group)

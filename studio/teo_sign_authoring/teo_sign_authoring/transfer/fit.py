@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from teo_sign_authoring.transfer.table_transfer import language_signs, map_signs, played_alone
+from teo_sign_authoring.transfer.language_signs import language_signs, map_signs, played_alone
 from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
 from teo_signs.sign import Sign

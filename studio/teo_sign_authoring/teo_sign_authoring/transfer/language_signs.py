@@ -1,36 +1,46 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The signs of a language for a robot, each from what it is known by.
+"""The signs of a language for a robot, each from what it is known by, and a whole table of them.
 
-A letter from its recording, a word or number from its score; a sign that another robot alone has, from what
-that shows, with less evidence.
+A letter from its recording, a word or number from its score; a sign that another robot alone has, from
+what that shows, with less evidence. A table is made by several processes. What is there already stays, so
+that a run that was stopped goes on where it was. A sign that the robot cannot make is told with its
+reason and leaves no entry, so that it is spelled, or refused, when somebody asks for it.
 """
 
 from __future__ import annotations
 
 import datetime
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
+import functools
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import as_completed
+from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
 from teo_common.arrays import Array
 from teo_description.hand_geometry import hand_table
 from teo_description.robot import Robot
+from teo_motion.planner import Planner
+from teo_motion.sentence.plan import Plan
 from teo_sign_authoring.alphabet.letters import RecordedAlphabet, capture_letter, letter_bends, read_alphabet
-from teo_sign_authoring.notation.posture_motion import posture_figures, posture_motion
 from teo_sign_authoring.notation.score_file import read_scores
-from teo_sign_authoring.notation.score_retarget import score_sign
+from teo_sign_authoring.notation.score_retarget import posture_figures, posture_motion, score_sign
 from teo_sign_authoring.notation.score_schema import Score
 from teo_sign_authoring.transfer.entry_postures import entry_postures
+from teo_sign_capture.entries.batch import workers
 from teo_sign_capture.signing_space.hand_points import finger_rows
 from teo_sign_capture.signing_space.places import WRITTEN_FOR
-from teo_sign_languages import Language
-from teo_signs.errors import LutError
+from teo_sign_languages import Language, load_language
+from teo_signs.errors import LutError, PlanError
 from teo_signs.look_up_table import Lut
-from teo_signs.sign import Sign
+from teo_signs.sign import Sign, gloss_key
+from teo_signs.sign_file import save_sign
 from teo_signs.sign_schema import STANDINGS, Standing
+from teo_signs.tokens import Kind, Token
 
 _FINGERS = ("index", "middle", "ring", "little")
 # [rad] A finger that is bent less in all is seen beside a fist: one that a hand lacks is missed then. The
@@ -155,3 +165,102 @@ class LanguageSigns:
 def _less(standing: Standing) -> Standing:
     """One level less well founded."""
     return STANDINGS[min(STANDINGS.index(standing) + 1, len(STANDINGS) - 1)]
+
+
+Result = TypeVar("Result")
+
+# Fewer signs are done before another process has loaded what it needs.
+_WORTH_PROCESSES = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Transferred:
+    """What became of a sign.
+
+    Attributes:
+        gloss: The sign.
+        code: "made", "unchanged", or the reason for which it was not made.
+        message: The reason in a sentence; empty of signs that were made or are there.
+    """
+
+    gloss: str
+    code: str
+    message: str = ""
+
+    @property
+    def refused(self) -> bool:
+        """Whether there is no entry of the sign."""
+        return self.code not in ("made", "unchanged")
+
+
+def transfer_table(
+    language: str,
+    robot: str,
+    glosses: Sequence[str],
+    out: Path,
+    *,
+    replace: bool,
+    jobs: int,
+    done: Callable[[Transferred], None],
+) -> list[Transferred]:
+    """Make the signs of a table.
+
+    Args:
+        language: Code of the sign language.
+        robot: Name of the robot.
+        glosses: Which signs.
+        out: Directory of the table; made if it is not there.
+        replace: Whether entries that are there are made anew.
+        jobs: How many processes.
+        done: Called with each sign as it is done.
+
+    Returns:
+        What became of each, in the order of `glosses`.
+    """
+    there = [] if replace else [gloss for gloss in glosses if (out / f"{gloss_key(gloss)}.json").exists()]
+    found = {gloss: Transferred(gloss=gloss, code="unchanged") for gloss in there}
+    for unchanged in found.values():
+        done(unchanged)
+    wanted = [gloss for gloss in glosses if gloss not in found]
+    work = functools.partial(_transfer, language, robot, out, replace)
+    for made in map_signs(work, wanted, jobs):
+        found[made.gloss] = made
+        done(made)
+    return [found[gloss] for gloss in glosses]
+
+
+def map_signs(work: Callable[[str], Result], glosses: Sequence[str], jobs: int) -> Iterator[Result]:
+    """Do work for each sign, in this process or in several, and yield what comes of it as it is done."""
+    if jobs == 1 or len(glosses) < _WORTH_PROCESSES:
+        yield from map(work, glosses)
+        return
+    with workers(min(jobs, len(glosses)), None) as executor:
+        for future in as_completed([executor.submit(work, gloss) for gloss in glosses]):
+            yield future.result()
+
+
+def _transfer(language: str, robot: str, out: Path, replace: bool, gloss: str) -> Transferred:
+    signs = language_signs(language, robot)
+    try:
+        sign = signs.sign(gloss)
+        played_alone(signs.robot, sign)
+        save_sign(out, sign, replace=replace)
+    except (LutError, PlanError) as error:
+        return Transferred(gloss=gloss, code=error.code, message=str(error))
+    return Transferred(gloss=gloss, code="made")
+
+
+def played_alone(robot: Robot, sign: Sign) -> Plan:
+    """What the planner makes of a sign from rest to rest.
+
+    Raises:
+        PlanError: It cannot be played.
+    """
+    planner = Planner({sign.gloss: sign}, robot=robot, least_standing="sketched")
+    return planner.plan([Token(gloss=sign.gloss, kind=Kind[sign.kind.upper()])])
+
+
+@functools.cache
+def language_signs(language: str, robot: str) -> LanguageSigns:
+    """The signs of a language for a robot, prepared once in each process."""
+    return LanguageSigns(load_language(language), Robot.load(robot))

@@ -11,7 +11,7 @@ import pytest
 
 from teo_description.robot import Robot
 from teo_motion.planner import Planner
-from teo_sign_authoring.easing.easy_table import EasyTable
+from teo_sign_authoring.easing.easy_words import EasyTable
 from teo_signs.look_up_table import Lut, default_lut_directory
 from teo_signs.sign import Sign
 from teo_signs.tokens import Token

@@ -62,9 +62,6 @@ def test_terms_become_spanish_glosses_or_are_passed_over(
         assert names.gloss(term) in ("QUIÉN", "QUIEN")
     else:
         assert names.gloss(term) == gloss
-
-
-def test_variants_are_numbered() -> None:
     assert numbered(["SOL", None, "SOL", "LUNA", "SOL"]) == ["SOL", None, "SOL_2", "LUNA", "SOL_3"]
 
 
@@ -128,6 +125,10 @@ def test_what_can_be_read_is_written_the_rest_reported_and_a_second_run_keeps_it
     written = (table / "BANDEJA.json").stat().st_mtime_ns
     second = run(*words)
     assert "1 as before" in second.output
+    nothing = run(
+        "--signwriting", dictionary(tmp_path, f"lazo\t{LOOP}"), "--lut", tmp_path / "no", "--jobs", 1
+    )
+    assert nothing.exit_code == 1 and "movement" in nothing.output
     assert (table / "BANDEJA.json").stat().st_mtime_ns == written
 
 
@@ -146,11 +147,3 @@ def test_a_clip_or_a_dictionary_is_wanted_not_both_nor_none(words: tuple[str, ..
     refused = run(*words)
     assert refused.exit_code == 1
     assert "bad_arguments" in refused.output
-
-
-def test_nothing_that_can_be_read_is_a_failure(tmp_path: Path) -> None:
-    refused = run(
-        "--signwriting", dictionary(tmp_path, f"lazo\t{LOOP}"), "--lut", tmp_path / "lut", "--jobs", 1
-    )
-    assert refused.exit_code == 1
-    assert "movement" in refused.output

@@ -13,7 +13,7 @@ import pytest
 import typer
 from typer.testing import CliRunner, Result
 
-from teo_sign_authoring.cli.draw_signwriting import draw_signwriting
+from teo_sign_authoring.cli.signwriting import draw_signwriting
 from teo_sign_authoring.signwriting.drawing import named_term
 from teo_signs.look_up_table import default_lut_directory
 

@@ -1,14 +1,16 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Movements, as the names of the symbols in Unicode say them and their drawings show."""
+"""Movements, as symbols are named in Unicode and drawn; how a hand is held, as SignWriting is taught."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from teo_sign_authoring.signwriting.hand_symbols import orientation_of, written_side
 from teo_sign_authoring.signwriting.movement import Circling, Path, Swinging, movement_of
 from teo_sign_authoring.signwriting.written_sign import read_fsw
+from teo_sign_capture.signing_space.places import direction
 
 UP, DOWN, LEFT, RIGHT = (0, 0, 1), (0, 0, -1), (0, 1, 0), (0, -1, 0)
 FRONT, BACK = (1, 0, 0), (-1, 0, 0)
@@ -64,11 +66,6 @@ def test_arrowheads_say_whose_movement_it_is(symbol: str, hands: str) -> None:
     assert movement is not None and movement.hands == hands
 
 
-def test_a_curve_over_the_floor_swings_up() -> None:
-    (segment,) = path("S2b700").segments
-    assert segment.bulge[2] > 0.0
-
-
 @pytest.mark.parametrize(
     ("symbol", "begins", "goes"),
     [
@@ -87,7 +84,38 @@ def test_circles_begin_and_turn_as_drawn(
     np.testing.assert_allclose(movement.kind.then / np.linalg.norm(movement.kind.then), goes, atol=1e-9)
 
 
-def test_fingers_that_beat_are_a_swing_and_a_jaw_is_nothing_a_hand_does() -> None:
+@pytest.mark.parametrize(
+    ("symbol", "side", "palm", "fingers"),
+    [
+        ("S15a00", "right", "back", "up"),  # white, upright: one sees the own palm
+        ("S15a20", "right", "front", "up"),  # black: the palm faces the addressee
+        ("S15a10", "right", "in", "up"),  # half white, on the left: the right palm faces left
+        ("S15a18", "left", "in", "up"),  # its mirror
+        ("S15a02", "right", "back", "in"),  # turned by 90 deg counterclockwise: before the chest
+        ("S15a0a", "left", "back", "in"),
+        ("S15a30", "right", "up", "front"),  # white with a gap: palm up
+        ("S15a50", "right", "down", "front"),
+        ("S15a40", "right", "in", "front"),
+        ("S15a52", "right", "down", "in"),
+        ("S15a14", "right", "out", "down"),
+        ("S15a01", "right", "back", "up in"),
+    ],
+)
+def test_fill_and_rotation_say_palm_and_fingers(symbol: str, side: str, palm: str, fingers: str) -> None:
+    (hand,) = read_fsw(f"M520x520{symbol}480x480")
+    assert written_side(hand) == side
+    held = orientation_of(hand, written_side(hand))
+    np.testing.assert_allclose(held.palm, direction(palm), atol=1e-9)
+    np.testing.assert_allclose(held.fingers, direction(fingers), atol=1e-9)
+
+
+def test_the_thumb_of_an_upright_right_palm_points_out() -> None:
+    (hand,) = read_fsw("M520x520S15a00480x480")
+    np.testing.assert_allclose(orientation_of(hand, "right").thumb_side, direction("out"), atol=1e-9)
+
+
+def test_fingers_that_beat_are_a_swing_and_a_loop_is_not_read() -> None:
     movement = movement_of(read_fsw("M520x520S22504480x480")[0])
     assert movement is not None and isinstance(movement.kind, Swinging)
-    assert movement_of(read_fsw("M520x520S29600480x480")[0]) is None  # a loop is not read
+    assert movement_of(read_fsw("M520x520S29600480x480")[0]) is None
+    assert path("S2b700").segments[0].bulge[2] > 0.0  # a curve over the floor swings up

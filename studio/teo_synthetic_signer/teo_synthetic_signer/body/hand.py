@@ -1,20 +1,154 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""One hand of a body: from a hand shape to the places of its bones and of points that go to a place."""
+"""One hand of a body: the shapes it takes in signing, and where its bones and points are in each.
+
+Angles of the shapes follow from looking at hands, not from a source: a signer would recognise them, and
+the truth of a take comes from the pose, not from them.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_synthetic_signer.body.hand_shapes import FINGERS, HAND_SHAPES, HandShape
 from teo_synthetic_signer.body.rig import Rig
 from teo_synthetic_signer.body.rotations import about, cross, frame, perpendicular, turn, unit
 from teo_synthetic_signer.errors import unknown_name
+
+FINGERS = ("index", "middle", "ring", "little")
+
+
+@dataclass(frozen=True)
+class HandShape:
+    """A hand as numbers that can be blended.
+
+    Attributes:
+        flexion: Of the knuckle, middle and last joint of index, middle, ring and little finger; 0 is
+            straight [rad]. Shape (4, 3).
+        spread: Of these fingers towards the thumb, in the plane of the palm [rad]. Shape (4,).
+        thumb: Directions in the hand's own axes (along the fingers, out of the palm, towards the thumb's
+            side): where the thumb's metacarpal points, and towards where the thumb bends. Shape (2, 3).
+        thumb_flexion: Of the thumb's two outer joints [rad]. Shape (2,).
+    """
+
+    flexion: FloatArray
+    spread: FloatArray
+    thumb: FloatArray
+    thumb_flexion: FloatArray
+
+    def blend(self, other: HandShape, share: float) -> HandShape:
+        """Give the shape on the way to another; a share of 0 is this one, 1 the other."""
+        pairs = [
+            (self.flexion, other.flexion),
+            (self.spread, other.spread),
+            (self.thumb, other.thumb),
+            (self.thumb_flexion, other.thumb_flexion),
+        ]
+        return HandShape(*((1.0 - share) * mine + share * its for mine, its in pairs))
+
+
+Bends = tuple[float, float, float]
+
+# Flexion of knuckle, middle and last joint [deg].
+_STRAIGHT: Bends = (2.0, 4.0, 3.0)
+_RELAXED: Bends = (22.0, 28.0, 15.0)
+_FOLDED: Bends = (82.0, 95.0, 60.0)
+_HOOK: Bends = (8.0, 80.0, 50.0)
+_CROOKED: Bends = (8.0, 78.0, 48.0)
+_BENT: Bends = (75.0, 8.0, 5.0)
+_ROUND: Bends = (45.0, 48.0, 30.0)
+_CLAW: Bends = (25.0, 50.0, 35.0)
+_PINCH: Bends = (55.0, 50.0, 25.0)
+_AT_THUMB: Bends = (56.0, 48.0, 24.0)
+
+# Where the thumb's metacarpal points, towards where it bends, and how far in its two outer joints [deg].
+THUMBS: dict[str, tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float]]] = {
+    "out": ((0.70, 0.30, 0.65), (0.75, 0.15, -0.65), (0.0, 0.0)),
+    "beside": ((0.90, 0.30, 0.32), (0.35, 0.35, -0.87), (8.0, 5.0)),
+    "relaxed": ((0.80, 0.45, 0.40), (0.30, 0.45, -0.84), (18.0, 15.0)),
+    "across": ((0.72, 0.62, 0.30), (0.10, 0.30, -0.95), (42.0, 38.0)),
+    "over": ((0.70, 0.66, 0.28), (0.15, 0.25, -0.95), (45.0, 50.0)),
+    "up": ((0.35, 0.25, 0.90), (0.80, 0.20, -0.50), (-5.0, -10.0)),
+    "opposed": ((0.68, 0.72, 0.15), (0.45, 0.20, -0.87), (22.0, 25.0)),
+}
+
+
+def hand_thumb(name: str) -> tuple[FloatArray, FloatArray]:
+    """Give a thumb of `THUMBS`: `HandShape.thumb` and `HandShape.thumb_flexion`."""
+    points, bends, angles = THUMBS[name]
+    return np.array([points, bends]), np.radians(np.array(angles))
+
+
+class HandAngles(NamedTuple):
+    """A hand shape in degrees.
+
+    Attributes:
+        fingers: Flexion of knuckle, middle and last joint of index, middle, ring and little finger.
+        thumb: One of `THUMBS`.
+        spread: Of index to little finger towards the thumb.
+    """
+
+    fingers: tuple[Bends, Bends, Bends, Bends]
+    thumb: str
+    spread: tuple[float, float, float, float] = (2.0, 0.0, -2.0, -5.0)
+
+    def shape(self) -> HandShape:
+        """Give the shape in radians."""
+        return HandShape(
+            np.radians(np.array(self.fingers)), np.radians(np.array(self.spread)), *hand_thumb(self.thumb)
+        )
+
+
+_FAN = (12.0, 2.0, -9.0, -20.0)  # spread of an open hand [deg]
+_TWO_APART = (8.0, -4.0, -4.0, -6.0)
+
+HAND_ANGLES: dict[str, HandAngles] = {
+    "relaxed": HandAngles((_RELAXED, (26, 32, 18), (30, 34, 18), (32, 34, 18)), "relaxed"),
+    "open": HandAngles((_STRAIGHT,) * 4, "out", _FAN),
+    "flat": HandAngles((_STRAIGHT,) * 4, "beside"),
+    "fist": HandAngles((_FOLDED,) * 4, "over"),
+    "index": HandAngles((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "over"),
+    "middle": HandAngles((_FOLDED, _STRAIGHT, _FOLDED, _FOLDED), "over"),
+    "little": HandAngles((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "over"),
+    "v": HandAngles((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across", (13, -10, -4, -6)),
+    "u": HandAngles((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "across"),
+    "w": HandAngles((_STRAIGHT, _STRAIGHT, _STRAIGHT, _FOLDED), "across", (13, 0, -13, -8)),
+    "b": HandAngles((_STRAIGHT,) * 4, "across"),
+    "l": HandAngles((_STRAIGHT, _FOLDED, _FOLDED, _FOLDED), "up"),
+    "y": HandAngles((_FOLDED, _FOLDED, _FOLDED, _STRAIGHT), "up", (2, 0, -2, -14)),
+    "horns": HandAngles((_STRAIGHT, _FOLDED, _FOLDED, _STRAIGHT), "over", (6, 0, -2, -12)),
+    "thumb_up": HandAngles((_FOLDED,) * 4, "up"),
+    "c": HandAngles((_ROUND,) * 4, "opposed"),
+    "o": HandAngles(((58, 56, 35), (58, 58, 36), (60, 58, 36), (62, 58, 36)), "opposed"),
+    "claw": HandAngles((_CLAW,) * 4, "out", _FAN),
+    "hook": HandAngles((_HOOK, _FOLDED, _FOLDED, _FOLDED), "over"),
+    "bent": HandAngles((_BENT,) * 4, "beside"),
+    "f": HandAngles((_PINCH, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
+    # More handshapes of sign scores; the others of theirs have names above.
+    "loose": HandAngles(((14, 20, 10), (16, 22, 11), (18, 23, 12), (20, 24, 12)), "relaxed", (6, 1, -4, -10)),
+    "cupped": HandAngles(((26, 32, 18),) * 4, "relaxed"),
+    "bunched": HandAngles(((58, 38, 18), (62, 36, 16), (60, 40, 18), (58, 46, 22)), "opposed", (-4, 0, 4, 8)),
+    "crooked": HandAngles((_CROOKED, _FOLDED, _FOLDED, _FOLDED), "over"),
+    "bent_two": HandAngles((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "across", (10, -8, -4, -6)),
+    "bent_thumb_two": HandAngles((_CROOKED, _CROOKED, _FOLDED, _FOLDED), "up", _TWO_APART),
+    "four": HandAngles((_STRAIGHT,) * 4, "across", _FAN),
+    "bent_four": HandAngles((_BENT,) * 4, "across"),
+    "thumb_two": HandAngles((_STRAIGHT, _STRAIGHT, _FOLDED, _FOLDED), "up", _TWO_APART),
+    "pinch": HandAngles((_AT_THUMB, _FOLDED, _FOLDED, _FOLDED), "opposed"),
+    "ring": HandAngles((_AT_THUMB, _STRAIGHT, _STRAIGHT, _STRAIGHT), "opposed", (0, 4, -7, -18)),
+    "middle_flick": HandAngles((_STRAIGHT, _AT_THUMB, _STRAIGHT, _STRAIGHT), "opposed", (8, 0, -8, -16)),
+    "ring_flick": HandAngles((_STRAIGHT, _STRAIGHT, _AT_THUMB, _STRAIGHT), "opposed", (8, 4, 0, -14)),
+    "two_flick": HandAngles((_AT_THUMB, _AT_THUMB, _FOLDED, _FOLDED), "opposed"),
+    "three_flick": HandAngles((_AT_THUMB, _AT_THUMB, _AT_THUMB, _FOLDED), "opposed"),
+}
+HAND_SHAPES: dict[str, HandShape] = {name: angles.shape() for name, angles in HAND_ANGLES.items()}
+
 
 # By how much flexed fingers turn towards the thumb [rad]: they all point to the scaphoid bone.
 _CONVERGENCE = dict(zip(FINGERS, np.radians([-2.0, 3.0, 9.0, 16.0]), strict=True))

@@ -14,15 +14,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.table import Table
 
 from teo_synthetic_signer.body.body_shapes import BODIES
-from teo_synthetic_signer.camera.painter import LIGHTS
+from teo_synthetic_signer.camera.renderer import LIGHTS
 from teo_synthetic_signer.camera.sensors import SENSORS
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.scripts import SCRIPTS, about
 from teo_synthetic_signer.take.furniture import SCENES
 from teo_synthetic_signer.take.take import Companion, Take, TakeOptions
-from teo_synthetic_signer.take.take_bag import write_take
-from teo_synthetic_signer.take.take_film import FILM_SUFFIX, write_film
-from teo_synthetic_signer.take.take_messages import JPEG_QUALITY
+from teo_synthetic_signer.take.take_files import FILM_SUFFIX, JPEG_QUALITY, write_film, write_take
 
 _DEFAULTS = TakeOptions()
 # A hand that is nearer than this to its place is there [m].
@@ -83,7 +81,7 @@ def _synthesize(
         return
     if out is None:
         raise typer.BadParameter("expected a folder for the bag: --out FOLDER")
-    width, height = _parsed(size)
+    width, height = parsed_size(size)
     try:
         options = TakeOptions(
             script=script,
@@ -108,10 +106,6 @@ def _synthesize(
     count = min(frames, len(take)) if frames else len(take)
     rendered = (take.truth(i) if truth_only else take.frame(i) for i in range(count))
     columns = (TextColumn("rendering"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    about_it = {
-        "synthetic signer": f"{Path(script).name} by {body} in {scene} before {sensor} at {distance:g} m",
-        "script": take.about,
-    }
     try:
         with Progress(*columns, console=_err) as progress:
             task = progress.add_task("", total=count)
@@ -119,7 +113,7 @@ def _synthesize(
                 written = write_film((take.frame(i) for i in range(count)), out)
             else:
                 written = write_take(
-                    rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=about_it
+                    rendered, out, raw=raw, truth_only=truth_only, quality=jpeg_quality, about=take.about_it
                 )
             for number in written:
                 progress.update(task, completed=number)
@@ -153,7 +147,8 @@ def _companion(words: str) -> Companion:
         ) from None
 
 
-def _parsed(size: str) -> tuple[int, int]:
+def parsed_size(size: str) -> tuple[int, int]:
+    """Read "columns x rows" of images [px]."""
     width, cross, height = size.lower().partition("x")
     if not (cross and width.isdigit() and height.isdigit()):
         raise typer.BadParameter(f"--size: expected columns x rows such as 640x480, got {size!r}")

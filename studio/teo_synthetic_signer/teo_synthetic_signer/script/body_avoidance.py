@@ -16,9 +16,8 @@ from scipy.spatial import cKDTree
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.body_data import load_body_data
 from teo_synthetic_signer.body.hand import hand_point
-from teo_synthetic_signer.body.places import arm_share
 from teo_synthetic_signer.body.pose import ArmPose, Poser
-from teo_synthetic_signer.body.rig import SIDES
+from teo_synthetic_signer.body.rig import SIDES, arm_share
 from teo_synthetic_signer.body.rotations import unit
 from teo_synthetic_signer.body.surface import vertex_normals
 

@@ -10,12 +10,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from teo_skeleton_retriever.arrays import FloatArray
-from teo_synthetic_signer.body.hand import OTHER_HAND, hand_point
-from teo_synthetic_signer.body.hand_shapes import HandShape, hand_shape
-from teo_synthetic_signer.body.places import PLACES, Places
+from teo_synthetic_signer.body.hand import HAND_SHAPES, OTHER_HAND, HandShape, hand_point
 from teo_synthetic_signer.body.pose import ArmPose, Poser
+from teo_synthetic_signer.body.rig import PLACES
 from teo_synthetic_signer.body.rotations import about, cross, frame, turn
-from teo_synthetic_signer.errors import unknown_name
+from teo_synthetic_signer.errors import named, unknown_name
 
 # Forwards, outwards (away from the body's middle, on the hand's side) and up.
 Vector = tuple[float, float, float]
@@ -112,7 +111,6 @@ class KeyResolver:
     def __init__(self, poser: Poser) -> None:
         self._poser = poser
         self.shortfall = 0.0
-        self._places = Places(poser.rig)
         self._scale = (poser.arms["R"].upper + poser.arms["R"].fore) / _ARM_LENGTH
 
     def swung_out(self, side: str, bulge: Vector) -> FloatArray:
@@ -133,7 +131,7 @@ class KeyResolver:
         Raises:
             SyntheticError: A place, point or shape that does not exist.
         """
-        shape = hand_shape(key.shape) if isinstance(key.shape, str) else key.shape
+        shape = named("hand_shape", key.shape, HAND_SHAPES) if isinstance(key.shape, str) else key.shape
         hand = self._poser.hands[side]
         outwards = np.array([1.0, -1.0 if side == "R" else 1.0, 1.0])
         rotation = (
@@ -163,7 +161,7 @@ class KeyResolver:
 
     def _anchor(self, side: str, at: str, other: ArmPose | None) -> FloatArray:
         if at in PLACES:
-            return self._places.at(at, side)
+            return self._poser.places.at(at, side)
         if at in OTHER_HAND and other is not None:
             hand = self._poser.hands["L" if side == "R" else "R"]
             point = hand_point(hand, other.shape, OTHER_HAND[at])

@@ -69,7 +69,7 @@ _NOD = ((0.012, 0.31), (0.010, 0.43), (0.008, 0.17))
 _BLINK_EVERY, _BLINK_FOR = 3.4, 0.2  # [s]
 
 
-def minimum_jerk(share: float) -> float:
+def _minimum_jerk(share: float) -> float:
     """Give how far a movement is along its way after a share of its time.
 
     Source: Flash and Hogan, The coordination of arm movements, J. Neurosci. 5(7), 1985.
@@ -202,7 +202,7 @@ class Motion:
                 side: self._between(side, before.arms[side], stage.arms[side], share, path.wrist(side, time))
                 for side in SIDES
             }
-        share = minimum_jerk(min(1.0, max(0.0, (time - stage.start) / stage.key.move)))
+        share = _minimum_jerk(min(1.0, max(0.0, (time - stage.start) / stage.key.move)))
         return share, {
             side: self._arm(side, before.arms[side], stage.arms[side], share, stage.key) for side in SIDES
         }

@@ -11,7 +11,7 @@ import numpy as np
 from teo_skeleton_retriever.arrays import FloatArray
 from teo_synthetic_signer.body.body_shapes import Color
 from teo_synthetic_signer.body.surface import Material, Surface
-from teo_synthetic_signer.errors import unknown_name
+from teo_synthetic_signer.errors import named
 
 Span = tuple[float, float]
 _CORNERS = np.array([[i >> 2 & 1, i >> 1 & 1, i & 1] for i in range(8)])
@@ -123,9 +123,7 @@ def furnish(name: str) -> tuple[FloatArray, Surface]:
     Raises:
         SyntheticError: No room has that name.
     """
-    if name not in SCENES:
-        raise unknown_name("scene", name, SCENES)
-    boxes = SCENES[name]
+    boxes = named("scene", name, SCENES)
     spans = np.array([[box.x, box.y, box.z] for box in boxes])
     vertices = np.concatenate([low_high[np.arange(3), _CORNERS[_SIDES.ravel()]] for low_high in spans])
     triangles = np.concatenate([_FACES + 24 * i for i in range(len(boxes))])

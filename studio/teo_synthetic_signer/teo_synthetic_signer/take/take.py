@@ -8,25 +8,85 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_skeleton_retriever.arrays import DepthArray, FloatArray
+from teo_skeleton_retriever.arrays import BoolArray, DepthArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.body.surface import RayCaster
-from teo_synthetic_signer.camera.depth_model import DepthModel
-from teo_synthetic_signer.camera.painter import light_named
-from teo_synthetic_signer.camera.renderer import Rendered, Renderer
+from teo_synthetic_signer.camera.renderer import LIGHTS, Rendered, Renderer
+from teo_synthetic_signer.camera.sensors import DepthModel
 from teo_synthetic_signer.camera.sensors import sensor as sensor_named
 from teo_synthetic_signer.camera.visibility import visible
-from teo_synthetic_signer.errors import SyntheticError
+from teo_synthetic_signer.errors import SyntheticError, named
 from teo_synthetic_signer.script.motion import Motion
 from teo_synthetic_signer.script.script_file import script_of
 from teo_synthetic_signer.take.furniture import furnish
-from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Truth:
+    """Where the keypoints of the rendered person are, and which of them the camera could see.
+
+    Places are in the camera's optical frame (x right, y down, z forward) [m]; all are known, also of those
+    that are hidden or outside the image. A keypoint is visible if it is in the image and nothing lies
+    between it and the camera but its own skin.
+
+    Attributes:
+        body: Of BODY_25. Shape (25, 3).
+        left_hand: Of HAND_21, the person's own left. Shape (21, 3).
+        right_hand: Likewise.
+        face: Of FACE_70. Shape (70, 3).
+        body_visible: Shape (25,).
+        left_hand_visible: Shape (21,).
+        right_hand_visible: Shape (21,).
+        face_visible: Shape (70,).
+    """
+
+    body: FloatArray
+    left_hand: FloatArray
+    right_hand: FloatArray
+    face: FloatArray
+    body_visible: BoolArray
+    left_hand_visible: BoolArray
+    right_hand_visible: BoolArray
+    face_visible: BoolArray
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TruthFrame:
+    """What is true at one moment, with or without an image of it.
+
+    Attributes:
+        stamp: Since the start of the take [s].
+        camera: That looks.
+        truth: Where the keypoints of the signer are.
+        others: And those of each companion.
+    """
+
+    stamp: float
+    camera: CameraModel
+    truth: Truth
+    others: tuple[Truth, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SyntheticFrame(TruthFrame):
+    """One rendered image.
+
+    Attributes:
+        color: Red, green, blue. Shape (height, width, 3).
+        depth: Along the optical axis, as the sensor model measures it [m]; NaN where it measures nothing.
+            Shape (height, width), aligned to the colour image.
+    """
+
+    color: NDArray[np.uint8]
+    depth: DepthArray
+
 
 # Between camera and person [m]: nearer the camera is inside the person, farther behind the room.
 DISTANCES = (0.2, 6.0)
@@ -141,7 +201,7 @@ class Take:
         vertices, self._room = furnish(options.scene)
         actor = _Actor(options.body, options.script, (0.0, 0.0))
         self.about, self.motion = actor.about, actor.motion
-        self._light = light_named(options.light)
+        self._light = named("light", options.light, LIGHTS)
         self._actors = (
             actor,
             *(_Actor(one.body, one.script, (-one.behind, one.aside)) for one in options.companions),
@@ -149,6 +209,18 @@ class Take:
         self._rotation, self._position = self._camera_pose(actor.signer.height)
         self._surfaces = [one.signer.dress.surface for one in self._actors]
         self._walls = self._seen(vertices)
+
+    @property
+    def about_it(self) -> dict[str, str]:
+        """What the metadata of a bag say of the take."""
+        options = self._options
+        script, distance = Path(options.script).name, f"{options.distance:g} m"
+        return {
+            "synthetic signer": (
+                f"{script} by {options.body} in {options.scene} before {options.sensor} at {distance}"
+            ),
+            "script": self.about,
+        }
 
     def __len__(self) -> int:
         """Tell how many frames the take has."""

@@ -12,7 +12,7 @@ from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.script.body_avoidance import Clearing
 from teo_synthetic_signer.script.keys import ArmKey, Key, KeyResolver
 from teo_synthetic_signer.script.motion import Motion
-from teo_synthetic_signer.script.signs import HANGING
+from teo_synthetic_signer.script.scripts import HANGING
 
 TO_SELF = ArmKey(at="sternum", fingers=(0.1, -1.0, 0.3), palm=(-1.0, 0.0, 0.0), shape="flat")
 

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from teo_synthetic_signer.body.hand_shapes import HandShape
+from teo_synthetic_signer.body.hand import HandShape
 from teo_synthetic_signer.body.signer import Signer
 from teo_synthetic_signer.errors import SyntheticError
 from teo_synthetic_signer.script.motion import Motion

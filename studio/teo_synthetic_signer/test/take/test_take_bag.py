@@ -16,7 +16,7 @@ from teo_skeleton_retriever.camera.image_messages import camera_of, color_of, de
 from teo_synthetic_signer import SyntheticFrame, render_take
 from teo_synthetic_signer.cli.synthesize_cli import _app
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.take.take_bag import START, write_take
+from teo_synthetic_signer.take.take_files import START, write_take
 
 MESSAGES = Path(__file__).parents[4] / "src" / "teo_sign_msgs" / "msg"
 COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
@@ -61,6 +61,10 @@ def test_images_camera_and_truth_come_back(tmp_path: Path, frames: list[Syntheti
         assert (camera.fx, camera.fy, camera.cx, camera.cy) == pytest.approx(
             (frame.camera.fx, frame.camera.fy, frame.camera.cx, frame.camera.cy)
         )
+        for messages in found.values():
+            stamp, header = messages[i][0], messages[i][1].header
+            assert header.stamp.sec * 10**9 + header.stamp.nanosec == stamp
+            assert header.frame_id == "camera_color_optical_frame"
         skeleton = found["/truth/skeletons"][i][1].skeletons[0]
         points = np.array([[k.position.x, k.position.y, k.position.z] for k in skeleton.body])
         np.testing.assert_allclose(points, frame.truth.body)
@@ -70,33 +74,14 @@ def test_images_camera_and_truth_come_back(tmp_path: Path, frames: list[Syntheti
         assert skeleton.is_signer
 
 
-def test_all_parts_of_a_frame_have_its_stamp(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
-    list(write_take(frames, tmp_path / "take"))
-    for messages in read(tmp_path / "take").values():
-        for time, message in messages:
-            assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == time
-            assert message.header.frame_id == "camera_color_optical_frame"
-
-
-def test_the_same_take_gives_the_same_messages(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
-    for name in ("a", "b"):
-        list(write_take(frames, tmp_path / name))
-    a, b = (read(tmp_path / name) for name in ("a", "b"))
-    for topic in (f"{COLOR}/compressed", f"{DEPTH}/compressedDepth"):
-        for (_, first), (_, second) in zip(a[topic], b[topic], strict=True):
-            np.testing.assert_array_equal(first.data, second.data)
-
-
-def test_a_folder_that_exists_is_left_alone(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
+@pytest.mark.parametrize(("folder", "code"), [("take", "output_exists"), ("nowhere/take", "missing_folder")])
+def test_a_folder_that_exists_or_has_no_parent_is_refused(
+    tmp_path: Path, frames: list[SyntheticFrame], folder: str, code: str
+) -> None:
     (tmp_path / "take").mkdir()
-    with pytest.raises(SyntheticError, match="output_exists"):
-        list(write_take(frames, tmp_path / "take"))
+    with pytest.raises(SyntheticError, match=code):
+        list(write_take(frames, tmp_path / folder))
     assert list(tmp_path.rglob("*")) == [tmp_path / "take"]
-
-
-def test_a_missing_parent_is_named(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
-    with pytest.raises(SyntheticError, match=r"missing_folder.*nowhere"):
-        list(write_take(frames, tmp_path / "nowhere" / "take"))
 
 
 def test_a_take_that_is_stopped_leaves_nothing_behind(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
@@ -111,25 +96,19 @@ def run(*words: str) -> tuple[int, str]:
     return result.exit_code, result.output
 
 
-def test_synthesize_writes_a_bag(tmp_path: Path) -> None:
-    out = tmp_path / "take"
-    code, output = run(
-        *("--out", str(out), "--script", "hello", "--sensor", "D435", "--scene", "studio"),
-        *("--size", "160x120", "--rate", "10", "--frames", "2", "--seed", "5"),
-    )
-    assert code == 0, output
-    assert "2 frames" in output
-    assert len(read(out)["/truth/skeletons"]) == 2
-
-
-def test_the_truth_alone_is_that_of_the_images(tmp_path: Path, frames: list[SyntheticFrame]) -> None:
-    out = tmp_path / "truth"
-    code, output = run(
-        *("--out", str(out), "--truth-only", "--scene", "studio", "--size", "160x120"),
-        *("--rate", "10", "--frames", "3"),
-    )
-    assert code == 0, output
-    found = read(out)
+def test_synthesize_gives_the_same_images_for_the_same_seed_and_their_truth_alone(
+    tmp_path: Path, frames: list[SyntheticFrame]
+) -> None:
+    common = ("--sensor", "D435", "--scene", "studio", "--size", "160x120", "--rate", "10", "--frames", "3")
+    code, output = run("--out", str(tmp_path / "take"), *common)
+    assert code == 0 and "3 frames" in output, output
+    list(write_take(frames, tmp_path / "again"))
+    take, again = read(tmp_path / "take"), read(tmp_path / "again")
+    for topic in (f"{COLOR}/compressed", f"{DEPTH}/compressedDepth"):
+        for (_, first), (_, second) in zip(take[topic], again[topic], strict=True):
+            np.testing.assert_array_equal(first.data, second.data)
+    assert run("--out", str(tmp_path / "truth"), "--truth-only", *common)[0] == 0
+    found = read(tmp_path / "truth")
     assert set(found) == {"/truth/skeletons"}
     for (time, message), frame in zip(found["/truth/skeletons"], frames, strict=True):
         assert time == START + round(frame.stamp * 1e9)
@@ -137,20 +116,6 @@ def test_the_truth_alone_is_that_of_the_images(tmp_path: Path, frames: list[Synt
         points = np.array([[k.position.x, k.position.y, k.position.z] for k in hand])
         np.testing.assert_allclose(points, frame.truth.right_hand)
         assert [k.status == 1 for k in hand] == frame.truth.right_hand_visible.tolist()
-
-
-def test_a_mistake_in_a_script_is_named_with_line_and_field(tmp_path: Path) -> None:
-    (tmp_path / "x.yaml").write_text("about: x\nkeys:\n- {right: hanging, left: hangin}\n- {}\n")
-    code, output = run("--out", str(tmp_path / "take"), "--script", str(tmp_path / "x.yaml"))
-    assert code == 2
-    assert "x.yaml:3: keys.0.left" in output
-
-
-def test_synthesize_lists_what_there_is() -> None:
-    code, output = run("--list")
-    assert code == 0
-    for word in ("signing", "spelling", "woman_small", "living_room", "kinect2", "RealSense D435"):
-        assert word in output
 
 
 @pytest.mark.parametrize(
@@ -173,12 +138,6 @@ def test_synthesize_refuses_wrong_options_with_status_2(
     assert code == 2
     assert said in output
     assert not (tmp_path / "take").exists()
-
-
-def test_synthesize_wants_a_folder() -> None:
-    code, output = run()
-    assert code == 2
-    assert "--out" in output
 
 
 def test_synthesize_ends_with_status_1_where_it_cannot_write(tmp_path: Path) -> None:
@@ -207,3 +166,17 @@ def test_the_shipped_bag_is_small_and_whole() -> None:
     nose = skeleton.body[0]
     column, row = np.rint(nose.pixel).astype(int)
     assert depth[row, column] == pytest.approx(nose.position.z, abs=0.05)
+
+
+def test_synthesize_lists_what_there_is_wants_a_folder_and_names_a_mistake_in_a_script(
+    tmp_path: Path,
+) -> None:
+    code, output = run("--list")
+    assert code == 0
+    for word in ("signing", "spelling", "woman_small", "living_room", "kinect2", "RealSense D435"):
+        assert word in output
+    code, output = run()
+    assert code == 2 and "--out" in output
+    (tmp_path / "x.yaml").write_text("about: x\nkeys:\n- {right: hanging, left: hangin}\n- {}\n")
+    code, output = run("--out", str(tmp_path / "take"), "--script", str(tmp_path / "x.yaml"))
+    assert code == 2 and "x.yaml:3: keys.0.left" in output

@@ -1,29 +1,35 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Frames of a take as the messages that a camera's driver sends, and their truth as skeletons.
-
-Images and camera_info are of the classes with which bags are written, which hold arrays of numpy.
-"""
+"""Files of a take: a ROS 2 bag with images and the true keypoints, or a film of the images."""
 
 from __future__ import annotations
 
-from typing import Any
+import os
+import shutil
+from collections.abc import Iterable, Iterator
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
 from builtin_interfaces.msg import Time
 from numpy.typing import NDArray
+from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer, WriterError
 from std_msgs.msg import Header
 from teo_sign_msgs.msg import SkeletonArray
 
 from teo_skeleton_retriever.arrays import BoolArray, FloatArray
 from teo_skeleton_retriever.camera.camera_model import CameraModel
+from teo_skeleton_retriever.errors import RetrieverError
 from teo_skeleton_retriever.layouts.layout import BODY_25
 from teo_skeleton_retriever.layouts.skeleton_3d import Keypoints3D, KeypointStatus, Skeleton, body_frame
 from teo_skeleton_retriever.output.messages import skeleton_array
+from teo_skeleton_retriever.output.overlay_video import overlay_video
 from teo_skeleton_retriever.output.skeleton_bag import message_types
 from teo_synthetic_signer.errors import SyntheticError
-from teo_synthetic_signer.take.truth import SyntheticFrame, Truth, TruthFrame
+from teo_synthetic_signer.take.take import SyntheticFrame, Truth, TruthFrame
 
 # As realsense2_camera names it.
 FRAME_ID = "camera_color_optical_frame"
@@ -149,3 +155,131 @@ def _encoded(kind: str, pixels: NDArray[Any], options: list[int]) -> NDArray[np.
     if not done:
         raise SyntheticError("not_encoded", f"OpenCV could not write a {kind} of shape {pixels.shape}")
     return np.asarray(data, dtype=np.uint8).ravel()
+
+
+# Stamp of the first frame [ns since the epoch]: a fixed one, so that the same take gives the same bag.
+START = 1_700_000_000 * 10**9
+
+_INFO, _IMAGE, _COMPRESSED = (
+    f"sensor_msgs/msg/{name}" for name in ("CameraInfo", "Image", "CompressedImage")
+)
+
+
+_INFINITE = QosTime(9223372036, 854775807)  # RMW_DURATION_INFINITE [s, ns]
+# Of a default publisher, as rosbag2 records it.
+_DEFAULT_QOS = Qos(
+    history=QosHistory.KEEP_LAST,
+    depth=10,
+    reliability=QosReliability.RELIABLE,
+    durability=QosDurability.VOLATILE,
+    deadline=_INFINITE,
+    lifespan=_INFINITE,
+    liveliness=QosLiveliness.AUTOMATIC,
+    liveliness_lease_duration=_INFINITE,
+    avoid_ros_namespace_conventions=False,
+)
+
+
+class _Topic(NamedTuple):
+    name: str
+    type: str
+    message: Any  # from a frame and a header to a message
+
+
+_CAMERA_INFO = _Topic("/camera/color/camera_info", _INFO, lambda frame, at: camera_info(frame.camera, at))
+_TRUTH = _Topic("/truth/skeletons", "teo_sign_msgs/msg/SkeletonArray", truth_skeletons)
+_RAW = (
+    _Topic("/camera/color/image_raw", _IMAGE, color_image),
+    _Topic("/camera/aligned_depth_to_color/image_raw", _IMAGE, depth_image),
+)
+_SMALL_COLOR = "/camera/color/image_raw/compressed"
+_SMALL_DEPTH = "/camera/aligned_depth_to_color/image_raw/compressedDepth"
+
+
+def write_take(
+    frames: Iterable[TruthFrame],
+    out: Path,
+    *,
+    raw: bool = False,
+    truth_only: bool = False,
+    quality: int = JPEG_QUALITY,
+    about: dict[str, str] | None = None,
+) -> Iterator[int]:
+    """Write frames to a bag while they come. The bag appears, whole, after the last.
+
+    Args:
+        frames: Of the take; `SyntheticFrame` each if images are written.
+        out: Folder to make.
+        raw: Write images uncompressed: twenty times larger.
+        truth_only: Write no images, only the truth.
+        quality: Of JPEG, if not raw.
+        about: What the bag's metadata say of it.
+
+    Yields:
+        The number of frames written so far.
+
+    Raises:
+        SyntheticError: The folder exists or cannot be made.
+    """
+    if out.exists():
+        raise SyntheticError("output_exists", f"expected a folder that does not exist yet, got {out}")
+    if not out.parent.is_dir():
+        raise SyntheticError("missing_folder", f"expected a folder for {out.name}, got {out.parent}")
+    small = (
+        _Topic(_SMALL_COLOR, _COMPRESSED, partial(compressed_color, quality=quality)),
+        _Topic(_SMALL_DEPTH, _COMPRESSED, compressed_depth),
+    )
+    topics = (_TRUTH,) if truth_only else (_CAMERA_INFO, _TRUTH, *(_RAW if raw else small))
+    beside = out.parent / f".{out.name}.{os.getpid()}"
+    try:
+        writer = Writer(beside / out.name, version=Writer.VERSION_LATEST, storage_plugin=StoragePlugin.MCAP)
+        writer.set_compression(CompressionMode.STORAGE, CompressionFormat.ZSTD)
+        for key, value in (about or {}).items():
+            writer.set_custom_data(key, value)
+        types = message_types()
+        with writer:
+            connections = [
+                writer.add_connection(
+                    topic.name, topic.type, typestore=types, offered_qos_profiles=[_DEFAULT_QOS]
+                )
+                for topic in topics
+            ]
+            for number, frame in enumerate(frames, start=1):
+                time = START + round(frame.stamp * 1e9)
+                at = header(time)
+                for topic, connection in zip(topics, connections, strict=True):
+                    message = topic.message(frame, at)
+                    writer.write(connection, time, types.serialize_cdr(message, topic.type))
+                yield number
+        (beside / out.name).replace(out)
+    except (OSError, WriterError) as error:
+        raise SyntheticError("not_written", f"{out} cannot be written: {error}") from error
+    finally:
+        shutil.rmtree(beside, ignore_errors=True)
+
+
+FILM_SUFFIX = ".mp4"
+
+
+def write_film(frames: Iterable[SyntheticFrame], out: Path) -> Iterator[int]:
+    """Write the colour images of frames as a film, such as a phone or a webcam records.
+
+    Args:
+        frames: In order of time.
+        out: MP4 file to write, replaced if it exists; it appears whole or not at all.
+
+    Yields:
+        The number of frames written so far.
+
+    Raises:
+        SyntheticError: "not_written" if there is no such folder.
+    """
+    try:
+        with overlay_video(out) as film:
+            for number, frame in enumerate(frames, start=1):
+                film.add(frame.color, frame.stamp)
+                yield number
+    except (RetrieverError, OSError) as error:
+        raise SyntheticError(
+            "not_written", f"{out}: expected a place to write a film to, got: {error}"
+        ) from None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""`lut import --signwriting`: the signs of a dictionary in SignWriting."""
+"""`lut import --signwriting` and `draw_signwriting`: signs from a dictionary, and as it draws them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import os
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -17,15 +17,77 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from teo_sign_capture.cli.reporting import fail
 from teo_signs.errors import LutError
-from teo_signs.look_up_table import user_lut_directory
+from teo_signs.look_up_table import Lut, user_lut_directory
 
 if TYPE_CHECKING:
     from teo_sign_authoring.signwriting.dictionary_import import ImportJob, ImportOutcome, ImportSettings
 
-_NO_LICENCE = "not stated"
-
 _output = Console(highlight=False)
 _errors = Console(stderr=True, highlight=False)
+
+
+def draw_signwriting(
+    dictionary: Annotated[
+        Path, typer.Argument(help="SignPuddle's export (.spml), or term and FSW with a tab between.")
+    ],
+) -> None:
+    """Draw signs in SignWriting for the console: those whose source is an entry of SignPuddle's dictionary.
+
+    Writes signs.json and drawings.svg to teo/signwriting of the data home, in place of those of before.
+
+    Exit status: 0 if any was drawn, 1 if none was.
+    """
+    from teo_sign_authoring.signwriting.dictionary_file import read_dictionary
+    from teo_sign_authoring.signwriting.drawing import Pen, find_written, write_drawings
+
+    folder = user_lut_directory().parent / "signwriting"
+    try:
+        entries = read_dictionary(dictionary)
+        terms = _terms(Lut.open())
+        found, missing = find_written(terms, entries)
+        pen = Pen()
+        drawings = {}
+        for entry in found:
+            try:
+                drawings[entry] = pen.draw(entry)
+            except LutError as error:
+                missing[entry.gloss] = error.code
+        for gloss, code in sorted(missing.items()):
+            _errors.print(f'{code}: {gloss}: entry "{terms[gloss]}"', soft_wrap=True, markup=False)
+        if not drawings:
+            raise LutError(
+                "nothing_drawn",
+                f"{dictionary.name}: expected entries that the table names ({len(terms)}), got none of them",
+            )
+        write_drawings(folder, drawings)
+    except LutError as error:
+        fail(error)
+    except OSError as error:
+        fail(LutError("not_written", f"{folder}: expected a place to write to, got: {error}"))
+    _output.print(
+        f"{folder}: {len(drawings)} of {len(terms)} signs drawn that name an entry of the dictionary",
+        soft_wrap=True,
+        markup=False,
+    )
+
+
+def _terms(table: Lut) -> dict[str, str]:
+    """Terms of the dictionary by the glosses whose sources they are; an entry that is not good is named."""
+    from teo_sign_authoring.signwriting.drawing import named_term
+
+    terms = {}
+    for gloss in table:
+        try:
+            term = named_term(table[gloss].provenance.source)
+        except LutError as error:
+            _errors.print(f"{error.code}: {error}", soft_wrap=True, markup=False)
+            continue
+        if term is not None:
+            terms[gloss] = term
+    return terms
+
+
+_NO_LICENCE = "not stated"
 
 
 def import_signwriting(
@@ -119,3 +181,10 @@ def _tell(outcomes: list[ImportOutcome], settings: ImportSettings) -> None:
         example = next(outcome for outcome in outcomes if outcome.code == code)
         line = f"  {count} {code}: {example.term}: {example.message}"
         _output.print(line, soft_wrap=True, markup=False)
+
+
+def draw_main() -> None:
+    """Run `draw_signwriting`."""
+    app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    app.command()(draw_signwriting)
+    app()
