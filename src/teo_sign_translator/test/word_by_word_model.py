@@ -11,8 +11,7 @@ from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.completeness import Completeness, FunctionWords
-from teo_sign_translator.pipeline.given_sentences import GivenSentences
-from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
+from teo_sign_translator.pipeline.pointer_back_end import GivenSentences, PointerBackEnd
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss

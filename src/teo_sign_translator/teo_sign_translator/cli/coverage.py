@@ -16,8 +16,15 @@ from rich.table import Table
 from teo_sign_languages import DEFAULT_LANGUAGE
 from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
-from teo_sign_translator.output.sign_coverage import Coverage, Showing, most_wanted, shown_words
+from teo_sign_translator.output.sign_coverage import (
+    LEAST_STANDING,
+    STANDINGS,
+    Coverage,
+    Showing,
+    most_wanted,
+    read_signs,
+    shown_words,
+)
 from teo_sign_translator.output.translation import Sentence
 
 #: Lines of a file that are translated together [lines]: the bar moves, and more are no faster.

@@ -21,7 +21,7 @@ from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
-from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
+from teo_sign_translator.output.sign_coverage import LEAST_STANDING, STANDINGS, read_signs
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH

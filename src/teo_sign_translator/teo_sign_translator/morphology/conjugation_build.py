@@ -22,8 +22,8 @@ import typer
 from teo_common.atomic_files import write_atomically
 from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology.accents import unaccented
-from teo_sign_translator.morphology.tags import IMPERATIVE_PERSONS, PERSONS, VERB_TAGS
+from teo_sign_translator.morphology.readings import IMPERATIVE_PERSONS, PERSONS, VERB_TAGS
+from teo_sign_translator.morphology.spanish import unaccented
 
 #: Forms of one verb by tag, the usual one first.
 Forms = dict[str, tuple[str, ...]]

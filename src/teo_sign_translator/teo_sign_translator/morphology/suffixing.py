@@ -11,18 +11,17 @@ from typing import NamedTuple
 
 from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.morphology import lexicon
-from teo_sign_translator.morphology.candidates import (
+from teo_sign_translator.morphology.lexicon import (
     ADJECTIVE,
     NOUN,
     VERB,
     Candidate,
     Entry,
+    Form,
     Index,
     listed_entries,
 )
-from teo_sign_translator.morphology.lexicon import Form
-from teo_sign_translator.morphology.reading import Reading
-from teo_sign_translator.morphology.tags import TAGS, tag_class
+from teo_sign_translator.morphology.readings import TAGS, Reading, tag_class
 
 #: Where the rules stand in a language's text folder; the file explains its columns.
 SUFFIXES = "morphology/suffixes.tsv"

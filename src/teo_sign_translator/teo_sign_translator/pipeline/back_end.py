@@ -13,8 +13,7 @@ from typing import Protocol
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models, card_schema
 from teo_sign_translator.output.output_words import OutputWord
-from teo_sign_translator.text.reading import Clause
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import Clause, SentenceType
 
 #: Group of entry points under which other packages offer back ends: the schema of the models' cards, and a
 #: function of name, folder of the models and text folder of the language.

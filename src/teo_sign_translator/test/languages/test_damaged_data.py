@@ -13,7 +13,7 @@ from teo_sign_languages import load_language
 from teo_sign_training.corpus.grammar_file import load_grammar
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pipeline.language_words import PipelineWords
+from teo_sign_translator.pipeline.completeness import PipelineWords
 from teo_sign_translator.text.rules import TextRules
 
 TEXT = load_language("ase").text

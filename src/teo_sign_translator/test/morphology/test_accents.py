@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.morphology.accents import accents_fit, stressed_vowel, syllables, unaccented
+from teo_sign_translator.morphology.spanish import accents_fit, stressed_vowel, syllables, unaccented
 
 
 @pytest.mark.parametrize(

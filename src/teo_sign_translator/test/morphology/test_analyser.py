@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import TAGS, Morphology, Reading, lexicon, tag_class
-from teo_sign_translator.morphology.tags import VERB_TAGS
+from teo_sign_translator.morphology.readings import VERB_TAGS
 
 MORPHOLOGY = Morphology.load()
 

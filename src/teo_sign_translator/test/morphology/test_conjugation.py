@@ -14,7 +14,7 @@ from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.conjugation import Conjugations
-from teo_sign_translator.morphology.tags import PERSONS, VERB_TAGS
+from teo_sign_translator.morphology.readings import PERSONS, VERB_TAGS
 
 CONJUGATIONS = Conjugations(data_file("morphology/conjugations.tsv"))
 

@@ -19,7 +19,7 @@ from teo_sign_translator.morphology.conjugation_build import (
     paradigm_lines,
     read_package,
 )
-from teo_sign_translator.morphology.tags import VERB_TAGS
+from teo_sign_translator.morphology.readings import VERB_TAGS
 
 FOLDER = "mlconjug3/data/conjug_manager/"
 SHIPPED = Conjugations(data_file("morphology/conjugations.tsv"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.morphology.enclitics import attach_pronouns, detach_pronouns
+from teo_sign_translator.morphology.spanish import attach_pronouns, detach_pronouns
 
 WRITTEN = [
     ("di", "me lo", "dímelo"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.morphology.nominal import feminine, plural
+from teo_sign_translator.morphology.spanish import feminine, plural
 
 
 @pytest.mark.parametrize(

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.output.incorporation import (
+from teo_sign_translator.output.output_words import OutputWord, lexical, number
+from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
     read_incorporated,
     with_numbers_incorporated,
 )
-from teo_sign_translator.output.output_words import OutputWord, lexical, number
 
 SIGNS = frozenset({"SEMANA", "MES", "DOS_SEMANAS", "TRES_MESES", "NOSOTROS_DOS", "YO"})
 

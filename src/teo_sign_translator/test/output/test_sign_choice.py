@@ -10,9 +10,9 @@ import pytest
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.known_signs import read_signs
 from teo_sign_translator.output.output_words import OutputWord, lexical
 from teo_sign_translator.output.sign_choice import SignChooser
+from teo_sign_translator.output.sign_coverage import read_signs
 from teo_sign_translator.output.substitutes import SubstituteLists, read_synonyms
 from teo_sign_translator.output.translation import Kind, Origin
 

@@ -11,7 +11,7 @@ from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.sign_coverage import Coverage, Showing, most_wanted, shown_words
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.output.translation import Sentence, Translation
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 _SIGNS = frozenset({"CASA", "DINERO", "MÁQUINA", "COCHE", "FLOR", "NO"})
 _LISTS = SubstituteLists(

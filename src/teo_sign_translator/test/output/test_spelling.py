@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.output.spelling import Spelling
+from teo_sign_translator.output.output_words import Spelling
 
 
 @pytest.mark.parametrize(

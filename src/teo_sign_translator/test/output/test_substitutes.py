@@ -12,9 +12,9 @@ import pytest
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.known_signs import read_signs
 from teo_sign_translator.output.output_words import OutputWord, lexical
 from teo_sign_translator.output.sign_choice import SignChooser
+from teo_sign_translator.output.sign_coverage import read_signs
 from teo_sign_translator.output.substitutes import (
     SubstituteLists,
     Substitutes,

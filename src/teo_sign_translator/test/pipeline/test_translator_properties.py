@@ -15,7 +15,7 @@ from word_by_word_model import translator_with
 
 from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.spelling import Spelling
+from teo_sign_translator.output.output_words import Spelling
 from teo_sign_translator.output.translation import Kind, Translation
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss

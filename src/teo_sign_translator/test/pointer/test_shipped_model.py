@@ -14,8 +14,7 @@ from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
-from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.pointer.store import SCHEMA
+from teo_sign_translator.pointer.decoding import SCHEMA, SentenceModel
 from teo_sign_translator.text.source_words import source_words
 
 

@@ -18,7 +18,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
-from teo_sign_translator.pointer.store import save_sentence_model
+from teo_sign_translator.pointer.decoding import save_sentence_model
 
 
 def _save(directory: Path, **weights: np.ndarray[Any, np.dtype[np.float32]]) -> Fit:

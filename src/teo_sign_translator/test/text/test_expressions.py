@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.text.expressions import Expressions
+from teo_sign_translator.text.rules import Expressions
 
 
 def _said(text: str, start: int = 0) -> tuple[str, ...]:

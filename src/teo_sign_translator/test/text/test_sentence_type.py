@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_translator.text.reading import read
-from teo_sign_translator.text.sentence_type import SentenceType, is_negated, sentence_type
+from teo_sign_translator.text.reading import SentenceType, is_negated, read, sentence_type
 
 
 @pytest.mark.parametrize(

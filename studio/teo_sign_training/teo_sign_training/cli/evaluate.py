@@ -25,8 +25,7 @@ from teo_sign_training.fitting.metrics import Score, score
 from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.pointer.store import load_sentence_model
+from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model
 from teo_sign_translator.text.source_words import source_words
 
 # Sentences translated between two moves of the progress bar.

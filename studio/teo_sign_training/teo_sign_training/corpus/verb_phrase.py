@@ -10,7 +10,7 @@ from teo_sign_training.corpus.grammar import Shape
 from teo_sign_training.corpus.tokens import SaidWord, Sign, VerbPhrase
 from teo_sign_training.corpus.words import WordLists
 from teo_sign_training.corpus.writing import Clitics
-from teo_sign_translator.morphology.enclitics import attach_pronouns
+from teo_sign_translator.morphology.spanish import attach_pronouns
 
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")

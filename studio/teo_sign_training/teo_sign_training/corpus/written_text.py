@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 
 from teo_sign_training.corpus.tokens import SaidWord
 from teo_sign_training.corpus.writing import Writing
-from teo_sign_translator.morphology.accents import unaccented
+from teo_sign_translator.morphology.spanish import unaccented
 
 _OPENING = ("¿", "¡")
 _CLOSING = (",", ".", "?", "!", ":")

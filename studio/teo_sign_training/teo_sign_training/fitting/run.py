@@ -24,8 +24,7 @@ from teo_sign_training.fitting.examples import Reader
 from teo_sign_training.fitting.memorised_pairs import memorised_pairs, not_memorised
 from teo_sign_training.fitting.metrics import Score, score
 from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.pointer.store import load_sentence_model, save_sentence_model
+from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model, save_sentence_model
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
 SCORED = 2000

@@ -16,8 +16,7 @@ from teo_sign_training.lstm256.store import load_model
 from teo_sign_training.lstm256.word_by_word import word_by_word
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
-from teo_sign_translator.text.reading import Clause, Word
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import Clause, SentenceType, Word
 
 # Clauses that are tried as one sentence of the training data; "Venga, levántate, que tienes que ir al
 # colegio" has three.

@@ -15,8 +15,7 @@ from teo_sign_training.corpus.aligned_pairs import NAME, NUMBER, SLOTS, AlignedP
 from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_training.lstm256.tokens import MARKS, folded_tokens
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.text.reading import Word, WordKind, read
-from teo_sign_translator.text.sentence_type import SentenceType, sentence_type
+from teo_sign_translator.text.reading import SentenceType, Word, WordKind, read, sentence_type
 
 #: Most words that are taken for one name ("María del Carmen de la Torre").
 MAX_NAME_WORDS = 6

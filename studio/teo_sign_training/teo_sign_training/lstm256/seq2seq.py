@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 
 from teo_sign_training.lstm256.tokens import END, START, TokenList
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.array_cells import Array, LstmLayer
-from teo_sign_translator.pointer.array_model import softmax
-from teo_sign_translator.pointer.weight_shapes import check_weights
+from teo_sign_translator.pointer.array_model import Array, LstmLayer, softmax
+from teo_sign_translator.pointer.config import check_weights
 
 #: Longest output [tokens]; the longest of the training pairs has 5. Ends a model that never says END.
 MAX_OUTPUT = 32

@@ -16,7 +16,7 @@ from teo_sign_training.fitting.metrics import score
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import read_card
 from teo_sign_translator.pointer import load_sentence_model
-from teo_sign_translator.pointer.store import SCHEMA
+from teo_sign_translator.pointer.decoding import SCHEMA
 
 SUBJECTS = ("Ana", "Pedro", "Lucía", "Carmen")
 OBJECTS = ("pan", "libro", "coche", "vaso", "perro", "gato")

@@ -15,7 +15,7 @@ from teo_sign_training.corpus.generator import LARGEST_SHARE, SHARES, Generator
 from teo_sign_training.corpus.paper_pairs import own_pairs, paper_pairs
 from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.morphology import Morphology, gloss_name
-from teo_sign_translator.morphology.nominal import unaccented as strip_accents
+from teo_sign_translator.morphology.spanish import unaccented as strip_accents
 from teo_sign_translator.text.source_words import source_words
 
 QUESTION_GLOSSES = {

@@ -15,7 +15,7 @@ from teo_sign_training.corpus.tokens import SaidWord
 from teo_sign_training.corpus.verb_phrase import in_order
 from teo_sign_training.corpus.written_text import write
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.morphology.enclitics import attach_pronouns
+from teo_sign_translator.morphology.spanish import attach_pronouns
 from teo_sign_translator.text.rules import TextRules
 
 NUMBERS = TextRules.load().numbers

@@ -16,7 +16,7 @@ from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 
 def _glosses(translator: Translator, text: str) -> str:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The closed list of tags: what a word is, and in which form.
+"""Readings of words, and the closed list of their tags: what a word is, and in which form.
 
 A tag is a class and its features, joined by `:`. Compare the class with `tag_class`, or a feature with
 `tag.startswith("ADV:time")`.
@@ -32,6 +32,7 @@ A tag is a class and its features, joined by `:`. Compare the class with `tag_cl
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import product
 
 PERSONS = ("1s", "2s", "3s", "1p", "2p", "3p")
@@ -148,3 +149,27 @@ TAGS = (
 def tag_class(tag: str) -> str:
     """The first part of a tag: `"V"` of `"V:ind:pres:1s"`."""
     return tag.partition(":")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One way to read a word.
+
+    Attributes:
+        lemma: Dictionary form in lower case with accents: "comer", "niño"; a name keeps its capital: "Ana"; a
+            number is in digits: "7".
+        tag: One of `tags.TAGS`.
+        clitics: Pronouns that hang on a verb, as written: ("me", "lo") in "dímelo".
+        exact: False if the word must be written with other accents to be this ("como" for "cómo"), or if the
+            word is not known and this is a guess.
+    """
+
+    lemma: str
+    tag: str
+    clitics: tuple[str, ...] = ()
+    exact: bool = True
+
+
+def gloss_name(written: str) -> str:
+    """A gloss as the look-up table names it: `"Por favor"` is `"POR_FAVOR"`."""
+    return written.strip().upper().replace(" ", "_")
