@@ -18,7 +18,6 @@ from rich.progress import track
 
 from teo_common.errors import CodedError
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
-from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.output.sign_coverage import LEAST_STANDING, STANDINGS, read_signs
@@ -53,7 +52,7 @@ def translate(
     as_json: Annotated[
         bool, typer.Option("--json", help="Write everything, one JSON object a text.")
     ] = False,
-    language: LanguageOption = DEFAULT_LANGUAGE,
+    language: Annotated[str, typer.Option(help="Sign language, by its ISO 639-3 code.")] = DEFAULT_LANGUAGE,
     model: Annotated[
         str, typer.Option(help="Model to use, one of those that --list-models lists.")
     ] = DEFAULT_MODEL,

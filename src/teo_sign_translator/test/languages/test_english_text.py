@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from teo_common.text_folding import fold
 from teo_sign_languages import load_language
-from teo_sign_training.corpus.fillers import LIMIT
+from teo_sign_training.corpus.phrases import LIMIT
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.suffixing import SuffixedForms
 from teo_sign_translator.text.cleaning import clean

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from word_by_word_model import translator_with
 
-from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.output_words import Spelling
 from teo_sign_translator.output.translation import Kind, Translation

@@ -15,11 +15,11 @@ from threadpoolctl import threadpool_info
 
 from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import ExampleReader
-from teo_sign_training.fitting.fitting import make_vocabulary
+from teo_sign_training.fitting.fitting import ZOO, make_vocabulary
 from teo_sign_training.fitting.network import Network, on_device
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
-from teo_sign_translator.pointer.config import POINTER, ZOO
+from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.decoding import SentenceModel, one_core
 
 

@@ -7,13 +7,13 @@ from functools import cache, partial
 import pytest
 
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.examples import Reader
-from teo_sign_training.fitting.memorised_pairs import memorised_pairs, not_memorised
+from teo_sign_training.corpus.paper_pairs import Reader, memorised_pairs, not_memorised
+from teo_sign_training.fitting.fitting import ZOO
 from teo_sign_translator.model_files import available_models, models_directory, read_card
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import load_sentence_model
-from teo_sign_translator.pointer.config import POINTER, ZOO, NetworkConfig
+from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 from teo_sign_translator.pointer.decoding import SCHEMA, SentenceModel
 from teo_sign_translator.text.source_words import source_words
 

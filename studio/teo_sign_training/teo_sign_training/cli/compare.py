@@ -16,11 +16,12 @@ from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
-from teo_sign_training.fitting.devices import named_device
+from teo_sign_training.cli.command import csv_table, markdown_table, plot_png, run_command
+from teo_sign_training.fitting.fitting import ZOO, TrainingConfig, network_config
+from teo_sign_training.fitting.network import named_device
 from teo_sign_training.fitting.run import TrainedModel, load_training_data, train_model
-from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig, network_config
+from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.text.source_words import source_words
 
 if TYPE_CHECKING:

@@ -18,11 +18,11 @@ from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
+from teo_sign_training.cli.command import LanguageOption, run_command
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.corpus_files import read_splits, sample
-from teo_sign_training.fitting.examples import Reader
+from teo_sign_training.corpus.pairs import read_splits, sample
+from teo_sign_training.corpus.paper_pairs import Reader
 from teo_sign_training.fitting.metrics import Score, score
-from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model

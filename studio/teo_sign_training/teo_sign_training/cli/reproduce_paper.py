@@ -16,10 +16,10 @@ from rich.progress import Progress
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_training.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_training.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
 from teo_sign_training.fitting.lstm256_fitting import Example, LstmTrainingConfig, Training, train
-from teo_sign_training.lstm256.tokens import published_tokens
-from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
+from teo_sign_training.lstm256.seq2seq import published_tokens
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,13 +14,11 @@ from pathlib import Path
 from random import Random
 
 from teo_common.text_folding import folded
-from teo_sign_training.corpus.choosers import Chooser
-from teo_sign_training.corpus.derivation import Derivation, GeneratedSentence
-from teo_sign_training.corpus.fillers import NoFillerError
-from teo_sign_training.corpus.grammar import LEXICAL, Grammar
+from teo_sign_training.corpus.derivation import Chooser, Derivation, GeneratedSentence
+from teo_sign_training.corpus.grammar import LEXICAL, Grammar, Template, templates
 from teo_sign_training.corpus.grammar_file import load_grammar
-from teo_sign_training.corpus.pairs_file import Pair
-from teo_sign_training.corpus.templates import Template, templates
+from teo_sign_training.corpus.pairs import Pair
+from teo_sign_training.corpus.phrases import NoFillerError
 from teo_sign_training.corpus.words import WordLists, is_held_out
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology

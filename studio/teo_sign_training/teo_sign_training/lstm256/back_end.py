@@ -8,12 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_training.lstm256.known_sentences import KnownSentences
 from teo_sign_training.lstm256.phrasebook import Match, Phrasebook
-from teo_sign_training.lstm256.seq2seq import LstmModel
-from teo_sign_training.lstm256.store import load_model
-from teo_sign_training.lstm256.word_by_word import word_by_word
+from teo_sign_training.lstm256.seq2seq import LstmModel, load_model
+from teo_sign_training.lstm256.word_by_word import GlossList, word_by_word
 from teo_sign_translator.output.output_words import PAUSE, OutputWord
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.text.reading import Clause, SentenceType, Word

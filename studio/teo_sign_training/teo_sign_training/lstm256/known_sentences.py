@@ -7,11 +7,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from teo_common.text_folding import strip_marks
-from teo_sign_training.corpus.aligned_pairs import NAME, NUMBER, SLOTS
-from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.corpus.paper_pairs import NAME, NUMBER, SLOTS
 from teo_sign_training.lstm256.phrasebook import Match, Phrasebook
-from teo_sign_training.lstm256.seq2seq import LstmModel, Prediction
-from teo_sign_training.lstm256.tokens import MARKS
+from teo_sign_training.lstm256.seq2seq import MARKS, LstmModel, Prediction
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.output.output_words import OutputWord, carried, lexical, number, spelled, unclaimed
 from teo_sign_translator.text.reading import Clause, Word, WordKind
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.text_folding import strip_marks
-from teo_sign_training.corpus.aligned_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
-from teo_sign_training.lstm256.gloss_list import GlossList
-from teo_sign_training.lstm256.tokens import MARKS, folded_tokens
+from teo_sign_training.corpus.paper_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
+from teo_sign_training.lstm256.seq2seq import MARKS, folded_tokens
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.text.reading import SentenceType, Word, WordKind, read, sentence_type
 

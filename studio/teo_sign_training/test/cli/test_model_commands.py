@@ -11,7 +11,7 @@ from PIL import Image
 
 from teo_sign_training.cli import compare, evaluate, train
 from teo_sign_training.corpus import Pair, write_pairs
-from teo_sign_training.fitting.corpus_files import corpus_hash, read_splits, sample, without
+from teo_sign_training.corpus.pairs import corpus_hash, read_splits, sample, without
 from teo_sign_training.fitting.metrics import score
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import read_card

@@ -9,8 +9,7 @@ from example_chooser import ExampleChooser
 
 from teo_sign_training.corpus.derivation import Derivation
 from teo_sign_training.corpus.generator import Generator
-from teo_sign_training.corpus.tokens import SaidWord, Sign
-from teo_sign_training.corpus.verb_phrase import without_addressee
+from teo_sign_training.corpus.phrases import SaidWord, Sign, without_addressee
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology import Morphology
 

@@ -9,11 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_common.text_folding import fold
-from teo_sign_training.corpus.fillers import LIMIT
 from teo_sign_training.corpus.grammar_file import load_grammar
-from teo_sign_training.corpus.tokens import SaidWord
-from teo_sign_training.corpus.verb_phrase import in_order
-from teo_sign_training.corpus.written_text import write
+from teo_sign_training.corpus.phrases import LIMIT, SaidWord, in_order
+from teo_sign_training.corpus.writing import write
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.morphology.spanish import attach_pronouns
 from teo_sign_translator.text.rules import TextRules

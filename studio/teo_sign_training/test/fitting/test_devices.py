@@ -7,7 +7,7 @@ from __future__ import annotations
 import pytest
 import torch
 
-from teo_sign_training.fitting.devices import named_device, one_thread
+from teo_sign_training.fitting.network import named_device, one_thread
 from teo_sign_translator.errors import TranslationError
 
 

@@ -11,22 +11,26 @@ from hypothesis import strategies as st
 
 from teo_common.text_folding import folded, without_accents
 from teo_sign_training.corpus import Pair
-from teo_sign_training.corpus.aligned_pairs import training_pairs
-from teo_sign_training.corpus.paper_pairs import paper_pairs
+from teo_sign_training.corpus.paper_pairs import (
+    memorised_pairs,
+    paper_pairs,
+    training_pairs,
+    ways_of_typing,
+)
 from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import (
     ExampleReader,
     Examples,
     Reader,
+    Typing,
     WordTable,
+    copies,
     spans,
+    typed,
+    typed_sayably,
+    unsayable,
 )
 from teo_sign_training.fitting.fitting import make_vocabulary
-from teo_sign_training.fitting.memorised_pairs import (
-    memorised_pairs,
-    ways_of_typing,
-)
-from teo_sign_training.fitting.typing_noise import Typing, copies, typed, typed_sayably, unsayable
 from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
 from teo_sign_translator.text.source_words import source_words

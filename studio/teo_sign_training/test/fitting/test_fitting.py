@@ -12,9 +12,9 @@ import pytest
 from small_language import NOUNS, fit_small, read, sentence_pairs, small_config
 
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.fitting import fit
+from teo_sign_training.fitting.fitting import TrainingConfig, fit
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.config import POINTER, NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_training.corpus.aligned_pairs import training_pairs
+from teo_sign_training.corpus.paper_pairs import training_pairs
 from teo_sign_training.lstm256.back_end import LstmBackEnd
-from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_training.lstm256.phrasebook import Phrasebook
-from teo_sign_training.lstm256.seq2seq import Prediction
-from teo_sign_training.lstm256.tokens import TokenList
+from teo_sign_training.lstm256.seq2seq import Prediction, TokenList
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists

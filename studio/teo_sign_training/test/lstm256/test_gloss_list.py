@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from teo_sign_training.corpus.aligned_pairs import read_aligned_pairs
-from teo_sign_training.corpus.paper_pairs import read_pairs
-from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.corpus.paper_pairs import read_aligned_pairs, read_pairs
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
 
 

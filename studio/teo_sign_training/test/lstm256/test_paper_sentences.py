@@ -10,10 +10,16 @@ from collections.abc import Callable
 
 import pytest
 
-from teo_sign_training.corpus.aligned_pairs import NUMBER, read_aligned_pairs, training_pairs
-from teo_sign_training.corpus.paper_pairs import paper_pairs, paper_predictions, training_data_hash
-from teo_sign_training.fitting.lstm256_run import shipped_examples
-from teo_sign_training.lstm256.store import SCHEMA, load_model
+from teo_sign_training.corpus.paper_pairs import (
+    NUMBER,
+    paper_pairs,
+    paper_predictions,
+    read_aligned_pairs,
+    training_data_hash,
+    training_pairs,
+)
+from teo_sign_training.fitting.lstm256_fitting import shipped_examples
+from teo_sign_training.lstm256.seq2seq import SCHEMA, load_model
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import gloss_name

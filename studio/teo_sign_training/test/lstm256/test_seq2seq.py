@@ -12,9 +12,16 @@ import torch
 from teo_sign_training.cli.reproduce_paper import split
 from teo_sign_training.corpus.paper_pairs import paper_pairs
 from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, LstmTrainingConfig, Training, train
-from teo_sign_training.lstm256.seq2seq import MAX_OUTPUT, LstmModel
-from teo_sign_training.lstm256.store import load_model, save_model
-from teo_sign_training.lstm256.tokens import END, START, TokenList, published_tokens
+from teo_sign_training.lstm256.seq2seq import (
+    END,
+    MAX_OUTPUT,
+    START,
+    LstmModel,
+    TokenList,
+    load_model,
+    published_tokens,
+    save_model,
+)
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 
