@@ -12,7 +12,7 @@ from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
-from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token
+from teo_sign_translator.output.translation import Kind, Origin, Sentence
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
 from teo_sign_translator.text.reading import SentenceType
@@ -25,10 +25,6 @@ def _glosses(translator: Translator, text: str) -> str:
 def _only(translator: Translator, text: str) -> Sentence:
     (sentence,) = translator.translate(text).sentences
     return sentence
-
-
-def _word(sentence: Sentence, source: str) -> Token:
-    return next(token for token in sentence.tokens if source in token.source_words)
 
 
 @pytest.mark.parametrize(
@@ -74,13 +70,6 @@ def test_a_number_is_one_token_and_a_longer_one_a_token_for_each_digit(translato
     assert [(token.gloss, token.word_index) for token in tokens[2:]] == [(digit, 2) for digit in "1234567"]
 
 
-def test_a_comma_that_parts_clauses_is_a_pause(translator: Translator) -> None:
-    tokens = _only(translator, "Hola, me llamo Ana.").tokens
-    assert [token.kind for token in tokens[:3]] == [Kind.LEXICAL, Kind.PAUSE, Kind.LEXICAL]
-    assert tokens[1].gloss == ""
-    assert tokens[1].source_words == ()
-
-
 @pytest.mark.parametrize("text", ["Hola,,, adiós", "Hola, - adiós", "(Hola) – adiós", ", hola; adiós,"])
 def test_marks_give_one_pause_between_words_and_none_at_the_ends(translator: Translator, text: str) -> None:
     assert [token.gloss for token in _only(translator, text).tokens] == ["HOLA", "", "ADIÓS"]
@@ -117,16 +106,6 @@ def test_what_the_model_does_not_know_is_signed_word_by_word(
 def test_a_known_word_is_spelled_where_a_capital_marks_a_name(translator: Translator) -> None:
     assert _glosses(translator, "Quiero ver a Casa Mano") == "QUERER VER C-A-S-A M-A-N-O"
     assert _glosses(translator, "QUIERO VER LA CASA") == "QUERER VER CASA"
-
-
-def test_words_without_a_sign_go_with_the_next_word(translator: Translator) -> None:
-    sentence = _only(translator, "El gato duerme en la calle de la")
-    assert _word(sentence, "gato").source_words == ("gato",)
-    assert _word(sentence, "calle").source_words == ("calle",)
-
-
-def test_a_pronoun_made_explicit_has_no_source_words(translator: Translator) -> None:
-    assert _only(translator, "¿Qué tal?").tokens[0].source_words == ()
 
 
 @pytest.mark.parametrize(
@@ -251,9 +230,7 @@ def test_symbols_that_nothing_is_signed_for_are_reported(translator: Translator)
     assert set(translation.ignored) == {"😀", "\x07", "~"}
 
 
-@pytest.mark.parametrize(
-    "word", ["a", "hola ", "el ", "Ana ", "¿Qué tal? ", "1", "mil ", "que tal y ", "hola, "]
-)
+@pytest.mark.parametrize("word", ["hola ", "¿Qué tal? ", "que tal y "])
 def test_ten_kilobytes_are_translated_within_the_limits_of_a_message(
     translator: Translator, word: str
 ) -> None:
@@ -272,20 +249,3 @@ def test_a_sentence_too_long_for_a_message_is_divided_between_words(translator: 
 def test_a_word_too_long_for_a_message_is_divided(translator: Translator) -> None:
     sentences = translator.translate("a" * 2500).sentences
     assert [len(sentence.tokens) for sentence in sentences] == [1024, 1024, 452]
-
-
-def test_the_translation_can_be_written_as_json(translator: Translator) -> None:
-    content = translator.translate("Me llamo Ana").as_dict()
-    assert content["glosses"] == "MI NOMBRE A-N-A"
-    assert content["sentences"][0]["type"] == "statement"
-    assert content["sentences"][0]["tokens"][2] == {
-        "gloss": "A",
-        "kind": "letter",
-        "confidence": pytest.approx(1.0, abs=0.05),
-        "duration_scale": 1.0,
-        "word_index": 2,
-        "source_words": ["Ana"],
-        "origin": "spelled",
-        "inflection": "",
-        "meant": "",
-    }
