@@ -8,7 +8,6 @@ import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
-from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any, BinaryIO
 
@@ -181,9 +180,7 @@ def _lines(file: BinaryIO) -> Iterator[str]:
 
 def _progress(lines: Sequence[str]) -> Iterable[tuple[int, Sequence[str]]]:
     """Line numbers and lines, many at a time; with a bar if the translations do not go to the same screen."""
-    iterator = iter(lines)
-    batches = [list(islice(iterator, _TOGETHER)) for _ in range(0, len(lines), _TOGETHER)]
-    numbered = [(index * _TOGETHER + 1, batch) for index, batch in enumerate(batches)]
+    numbered = [(start + 1, lines[start : start + _TOGETHER]) for start in range(0, len(lines), _TOGETHER)]
     console = Console(stderr=True)
     return track(
         numbered, "translating", console=console, disable=sys.stdout.isatty() or not console.is_terminal

@@ -19,7 +19,7 @@ from teo_sign_translator.text.reading import Clause, SentenceType, is_negated
 from teo_sign_translator.text.rules import TextRules
 
 
-def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: TextRules | None = None) -> bool:
+def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: TextRules) -> bool:
     """Whether any word of a sentence may give way to a more general one, and it stays true.
 
     "I have a dog" entails "I have an animal"; "I have no dog" does not entail "I have no animal". A word may
@@ -31,11 +31,11 @@ def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: Tex
     Args:
         clauses: Of the sentence.
         kind: Its type.
-        rules: Of its language; by default the default language's.
+        rules: Of its language.
     """
     if kind is not SentenceType.STATEMENT or is_negated(clauses, rules):
         return False
-    listed = (rules or TextRules.load()).generality
+    listed = rules.generality
     words = [fold(word.lower) for clause in clauses for word in clause.words]
     return not any(word in listed.strict or word.startswith(listed.of_kinds) for word in words)
 

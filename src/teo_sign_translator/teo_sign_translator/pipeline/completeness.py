@@ -129,16 +129,12 @@ class FunctionWords:
         self._by_tag: dict[str, frozenset[str]] = {}
 
     @classmethod
-    def load(cls, path: Path | None = None) -> FunctionWords:
-        """Read the list.
-
-        Args:
-            path: The file; by default the package's `text/function_words.tsv`, which explains its columns.
+    def load(cls, path: Path) -> FunctionWords:
+        """Read a language's `function_words.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        path = path or data_file("function_words.tsv")
         return cls(
             read_listed(
                 path, lambda tag: any(_begins(known, tag) for known in TAGS), "the beginning of a tag"
@@ -288,16 +284,12 @@ class Completeness:
         return index
 
 
-def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
-    """For each gloss the lemmas that it signs though they are not its own.
-
-    Args:
-        path: The file; by default the package's `text/gloss_words.tsv`, which explains its columns.
+def read_gloss_words(path: Path) -> dict[str, frozenset[str]]:
+    """For each gloss of a language's `gloss_words.tsv` the lemmas that it signs though they are not its own.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
     """
-    path = path or data_file("gloss_words.tsv")
     return read_listed(path, lambda gloss: gloss == gloss.upper(), "a gloss in capitals")
 
 

@@ -40,34 +40,26 @@ class GivenSentence:
     type: SentenceType
 
 
-class GivenSentences:
-    """Finds given sentences, however they are typed: capitals, accents and marks do not count."""
+#: Given sentences by their words: capitals, accents and marks do not count.
+GivenSentences = Mapping[tuple[str, ...], GivenSentence]
 
-    def __init__(self, by_words: Mapping[tuple[str, ...], GivenSentence]) -> None:
-        """Take them by the `key` of their words."""
-        self._by_words = dict(by_words)
 
-    @classmethod
-    def load(cls, folder: Path) -> GivenSentences:
-        """Those of a language; none if its text folder has no file of them.
+def read_given_sentences(folder: Path) -> GivenSentences:
+    """Those of a language; none if its text folder has no file of them.
 
-        Raises:
-            TranslationError: "invalid_data", with file and line.
-        """
-        path = folder / _FILE
-        if not path.is_file():
-            return cls({})
-        rules = TextRules.load(folder)
-        found: dict[tuple[str, ...], GivenSentence] = {}
-        for _, (sentence, glosses) in read_rows(path, columns=2):
-            clauses = read(clean(sentence).text, rules).clauses
-            said = tuple(gloss_name(gloss.strip()) for gloss in glosses.split("/"))
-            found[_key(clauses)] = GivenSentence(said, sentence_type(clauses, rules))
-        return cls(found)
-
-    def find(self, clauses: Sequence[Clause]) -> GivenSentence | None:
-        """The given sentence that clauses are together; None if they are none."""
-        return self._by_words.get(_key(clauses))
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    path = folder / _FILE
+    if not path.is_file():
+        return {}
+    rules = TextRules.load(folder)
+    found: dict[tuple[str, ...], GivenSentence] = {}
+    for _, (sentence, glosses) in read_rows(path, columns=2):
+        clauses = read(clean(sentence).text, rules).clauses
+        said = tuple(gloss_name(gloss.strip()) for gloss in glosses.split("/"))
+        found[_key(clauses)] = GivenSentence(said, sentence_type(clauses, rules))
+    return found
 
 
 def _key(clauses: Sequence[Clause]) -> tuple[str, ...]:
@@ -264,10 +256,10 @@ class PointerBackEnd:
         result: list[_Unit] = []
         while sentences:
             both = [clause for sentence in sentences[:2] for clause in sentence]
-            own = both if self._given.find(both) else sentences[0]
+            own = both if _key(both) in self._given else sentences[0]
             del sentences[: 2 if own is both else 1]
             words = words_of_clauses(own, self._morphology)
-            result.append(_Unit(own, divided(words), self._given.find(own)))
+            result.append(_Unit(own, divided(words), self._given.get(_key(own))))
         return result
 
     def _assembled(self, unit: _Unit, answers: Sequence[Sequence[Hypothesis]]) -> TranslatedSentence:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.model_files import card_schema
+from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.output.output_words import Spelling, divide, number_tokens, without_carried
 from teo_sign_translator.output.sign_choice import (
@@ -27,7 +27,11 @@ from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence, load_other_back_end
 from teo_sign_translator.pipeline.completeness import Completeness
-from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, GivenSentences, PointerBackEnd
+from teo_sign_translator.pipeline.pointer_back_end import (
+    DEFAULT_BEAM_WIDTH,
+    PointerBackEnd,
+    read_given_sentences,
+)
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.decoding import SCHEMA
@@ -131,20 +135,21 @@ class Translator:
         rules = TextRules.load(data.text)
         spelling = Spelling(data)
         lists = SubstituteLists.load(data.text)
-        if card_schema(name, directory) == SCHEMA:
+        schema = read_card(name, directory).get("schema")
+        if schema == SCHEMA:
             morphology = Morphology.load(data.text)
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
                 model,
                 morphology,
                 Completeness.load(data.text),
-                GivenSentences.load(data.text),
-                Agreement.load(data.text / "agreement.tsv", data.text),
+                read_given_sentences(data.text),
+                Agreement.load(data.text),
                 beam_width=beam_width,
             )
             chooser = SignChooser(lists, morphology, substitutes, spelling)
         else:
-            back_end = load_other_back_end(name, directory, data.text)
+            back_end = load_other_back_end(name, schema, directory, data.text)
             chooser = SignChooser(lists, None, substitutes, spelling)
         incorporated = read_incorporated(data.text / INCORPORATED_NUMBERS)
         return cls(

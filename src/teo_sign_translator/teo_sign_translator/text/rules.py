@@ -57,16 +57,12 @@ class Expressions:
         self._initials = {form[0] for form in forms} | {form[0].upper() for form in forms}
 
     @classmethod
-    def load(cls, path: Path | None = None) -> Expressions:
-        """Read the list.
-
-        Args:
-            path: The file; by default the package's `text/expressions.tsv`, which explains its columns.
+    def load(cls, path: Path) -> Expressions:
+        """Read a language's `expressions.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        path = path or data_file("expressions.tsv")
         entries: dict[str, Expression] = {}
         for number, (forms, category, said) in read_rows(path, columns=3):
             words = tuple(word.replace("_", " ") for word in said.split())

@@ -67,7 +67,7 @@ def test_the_file_and_the_field_are_named(text: Path, file: str, old: str, new: 
         (FunctionWords.load, ["DEF\tel", "PREP\ta\nPREP\tde", "PREP"]),
         (read_gloss_words, ["edad\taño", "EDAD\taño\nEDAD\tvejez", "EDAD", "EDAD\taño,,vejez"]),
         (
-            Agreement.load,
+            lambda path: Agreement.load(path.parent),
             [
                 "DAR\tdar\tgives\t-",
                 "DAR\tdar\tdative\tCABEZA",
@@ -93,10 +93,10 @@ def test_the_file_and_the_field_are_named(text: Path, file: str, old: str, new: 
 def test_a_damaged_list_is_refused_with_file_and_line(
     tmp_path: Path, read: Callable[[Path], object], lines: list[str]
 ) -> None:
-    path = tmp_path / "list.tsv"
+    path = tmp_path / "agreement.tsv"
     for line in (*lines, b"\xff\xfe"):
         path.write_bytes(line if isinstance(line, bytes) else line.encode())
-        with pytest.raises(TranslationError, match=r"list\.tsv") as error:
+        with pytest.raises(TranslationError, match=r"agreement\.tsv") as error:
             read(path)
         assert error.value.code == "invalid_data"
         assert isinstance(line, bytes) or ", line " in str(error.value)

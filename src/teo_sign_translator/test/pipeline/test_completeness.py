@@ -11,7 +11,6 @@ from teo_sign_training.corpus import Pair
 from teo_sign_translator.pipeline.completeness import (
     PUT_BACK_CONFIDENCE,
     Completeness,
-    FunctionWords,
 )
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.source_words import source_words
@@ -47,7 +46,7 @@ def _completed(sentence: str, *hypotheses: str) -> str:
     ],
 )
 def test_articles_copulas_auxiliaries_and_most_prepositions_may_be_left_out(sentence: str, kept: str) -> None:
-    words = FunctionWords.load()
+    words = COMPLETENESS.function_words
     read = source_words(sentence, MORPHOLOGY)
     assert " ".join(word.text for word in read if not words.may_be_left_out(word)) == kept
 

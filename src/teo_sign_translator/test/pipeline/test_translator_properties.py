@@ -54,56 +54,13 @@ TRANSLATORS = {
 }
 ALL = pytest.mark.parametrize("name", TRANSLATORS)
 REASONS = {"empty_text", "nothing_to_sign", "unsignable_text", "broken_encoding", "text_too_long"}
+OTHERS = """
+    Ana, Pedro, Guillermo, me, llamo, tengo, años, 7, 12, 3,5, 1.000, treinta, y, cinco, mil, X,
+    que, tal, COVID-19, nº, 1º, 15:30, 25/12, EE. UU., xq, tb, holaaaa, km, 5 km, III, venga,
+    levántate, colegio, quién, es, dame, eso, cuidado, romperse, zzz, ñandú, café
+"""
 TYPED = st.sampled_from(
-    [
-        *GlossList.load(),
-        *[
-            "Ana",
-            "Pedro",
-            "Guillermo",
-            "me",
-            "llamo",
-            "tengo",
-            "años",
-            "7",
-            "12",
-            "3,5",
-            "1.000",
-            "treinta",
-            "y",
-            "cinco",
-            "mil",
-            "X",
-            "que",
-            "tal",
-            "COVID-19",
-            "nº",
-            "1º",
-            "15:30",
-            "25/12",
-            "EE. UU.",
-            "xq",
-            "tb",
-            "holaaaa",
-            "km",
-            "5 km",
-            "III",
-        ],
-        *[
-            "venga",
-            "levántate",
-            "colegio",
-            "quién",
-            "es",
-            "dame",
-            "eso",
-            "cuidado",
-            "romperse",
-            "zzz",
-            "ñandú",
-            "café",
-        ],
-    ]
+    [*GlossList.load(), *(word.strip() for word in OTHERS.replace("\n", " ").split(", "))]
 )
 SEPARATORS = st.sampled_from(
     [" ", " ", " ", ", ", ". ", "? ", "! ", " ¿", " ¡", "… ", "\n", " - ", "; ", " 😀 ", '" ']

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from teo_common.text_folding import fold
 from teo_sign_training.corpus import Pair
+from teo_sign_training.corpus.paper_pairs import Reader
 from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import (
     VARIANTS,
     ExampleReader,
     Examples,
-    Reader,
     Typing,
     WordTable,
     copies,

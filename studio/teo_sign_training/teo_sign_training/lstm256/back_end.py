@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from teo_sign_training.lstm256.known_sentences import KnownSentences
@@ -39,10 +39,8 @@ class _Unit:
 class LstmBackEnd:
     """Translates with a model that has learned sentences by heart, and word by word where it must not.
 
-    A sentence of the training data is left to the model. Another sentence is shown to the model if it knows
-    its words; its answer is taken if every gloss stands for a word of the sentence, every word is covered,
-    and it is sure. Whatever is left is signed word by word: listed words by their gloss, numbers by digits,
-    all others spelled.
+    A sentence of the training data is left to the model, also behind a greeting. Whatever is left is signed
+    word by word: listed words by their gloss, numbers by digits, all others spelled.
     """
 
     def __init__(self, model: LstmModel, phrasebook: Phrasebook, glosses: GlossList, *, name: str) -> None:
@@ -54,7 +52,7 @@ class LstmBackEnd:
             glosses: Words with a sign of their own.
             name: Of the model, for the record.
         """
-        self._sentences = KnownSentences(model, phrasebook, glosses)
+        self._sentences = KnownSentences(model)
         self._phrasebook = phrasebook
         self._glosses = glosses
         self.name = name
@@ -92,50 +90,16 @@ class LstmBackEnd:
     def _unit(self, clause: Clause) -> _Unit:
         """Translate one clause."""
         known: SentenceType | None = None
-        pieces = self._pieces(clause.words)
         output_words: list[OutputWord] = []
-        for index, piece in enumerate(pieces):
-            part = replace(clause, end=clause.end if index == len(pieces) - 1 else "")
+        for piece in self._known_pieces(clause.words) or [clause.words]:
             if isinstance(piece, Match):
-                translated = self._sentences.translate(piece, [part])
-                words = tuple(word for group in piece.words for word in group)
+                words = [word for group in piece.words for word in group]
                 known = piece.pattern.type
+                translated = self._sentences.translate(piece, [clause])
             else:
-                translated, words, known = None, tuple(piece), None
-            translated = translated or self._sentences.translate_similar(words, part.end)
+                words, translated = list(piece), None
             output_words += translated or word_by_word(words, self._glosses)
         return _Unit([clause], output_words, known)
-
-    def _pieces(self, words: Sequence[Word]) -> list[Match | Sequence[Word]]:
-        """Find sentences of the training data in a clause: all of it, behind a greeting, joined by "y"."""
-        whole = self._known_pieces(words)
-        if whole:
-            return whole
-        joined: list[tuple[list[Word], list[Match | Sequence[Word]]]] = []
-        rest: list[Word] = []
-        for word in [*words, None]:
-            if word is None or word.fold in ("y", "e"):
-                conjunction = rest[:1] if rest and rest[0].fold in ("y", "e") else []
-                joined.append((conjunction, self._known_pieces(rest[len(conjunction) :])))
-                joined[-1] = (rest, joined[-1][1])
-                rest = []
-            if word is not None:
-                rest.append(word)
-        if not any(known for _, known in joined):
-            return [words]
-        result: list[Match | Sequence[Word]] = []
-        unknown: list[Word] = []
-        for piece, known in joined:
-            if not known:
-                unknown += piece
-                continue
-            if piece[0].fold in ("y", "e"):
-                unknown.append(piece[0])
-            if unknown:
-                result.append(unknown)
-                unknown = []
-            result += known
-        return [*result, unknown] if unknown else result
 
     def _known_pieces(self, words: Sequence[Word]) -> list[Match | Sequence[Word]]:
         """A sentence of the training data, alone or behind a greeting without a comma; empty if neither."""

@@ -70,7 +70,6 @@ class Phrasebook:
         self._glosses = glosses
         self._literal: dict[tuple[str, ...], Pattern] = {}
         self._with_slots: dict[str, list[Pattern]] = defaultdict(list)
-        self._supports: dict[str, set[str]] = defaultdict(set)
         for pair in pairs:
             pattern = _pattern(pair)
             key = tuple(strip_marks(token) for token in pattern.tokens)
@@ -79,9 +78,6 @@ class Phrasebook:
                 self._with_slots[first if first in SLOTS else key[0]].append(pattern)
             else:
                 self._literal.setdefault(key, pattern)
-            for gloss, places in zip(pattern.glosses, pattern.sources, strict=True):
-                for place in places:
-                    self._supports[key[place]].add(gloss)
         slotted = [pattern for patterns in self._with_slots.values() for pattern in patterns]
         #: Words of the longest sentence that can match.
         self.longest = max(
@@ -133,10 +129,6 @@ class Phrasebook:
                 if filled is not None:
                     return Match(candidate, filled)
         return None
-
-    def supported(self, word: Word) -> frozenset[str]:
-        """Glosses that the word stands for somewhere in the training data; empty if none."""
-        return frozenset(self._supports.get(word.key, ()))
 
     def _fill(self, pattern: Pattern, words: Sequence[Word]) -> tuple[tuple[Word, ...], ...] | None:
         """The words that each token of a pattern stands for, or None if they do not fit."""

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from teo_common.text_folding import folded, without_accents
 from teo_sign_training.corpus import Pair
 from teo_sign_training.corpus.paper_pairs import (
+    Reader,
     memorised_pairs,
     paper_pairs,
     training_pairs,
@@ -20,7 +21,6 @@ from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import (
     ExampleReader,
     Examples,
-    Reader,
     Typing,
     WordTable,
     typed,
