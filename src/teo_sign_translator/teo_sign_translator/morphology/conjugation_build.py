@@ -49,7 +49,7 @@ _HEADER = """\
 """
 
 
-def conjugate(verb: Mapping[str, str], templates: Mapping[str, Any]) -> Forms | None:
+def _conjugate(verb: Mapping[str, str], templates: Mapping[str, Any]) -> Forms | None:
     """All forms of a verb of the package; None where its template is empty (verbs of the weather)."""
     root, template = verb["root"], templates[verb["template"]]
     forms: Forms = {}
@@ -69,10 +69,10 @@ def conjugate(verb: Mapping[str, str], templates: Mapping[str, Any]) -> Forms | 
         return None
     for ending, form in (("o", "ms"), ("a", "fs"), ("os", "mp"), ("as", "fp")):
         forms[f"V:part:{form}"] = (participle[:-1] + ending,)
-    return without_pronoun(forms) if forms["V:inf"][0].endswith("se") else forms
+    return _without_pronoun(forms) if forms["V:inf"][0].endswith("se") else forms
 
 
-def without_pronoun(forms: Forms) -> Forms:
+def _without_pronoun(forms: Forms) -> Forms:
     """The forms of a verb that is only reflexive (`arrepentirse`), its pronouns taken off."""
     infinitive = forms["V:inf"][0].removesuffix("se")
     return {
@@ -126,7 +126,7 @@ def read_package(wheel: Path) -> dict[str, Forms]:
         ) from error
     verbs: dict[str, Forms] = {}
     for _, verb in sorted(listed.items()):  # "acostar" comes before "acostarse", which it stands for
-        forms = conjugate(verb, templates)
+        forms = _conjugate(verb, templates)
         if forms:
             verbs.setdefault(forms["V:inf"][0], forms)
     return verbs

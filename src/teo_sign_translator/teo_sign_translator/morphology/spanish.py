@@ -24,7 +24,7 @@ _NUCLEUS = re.compile(rf"{_WEAK}?[aeoáéó](?:{_WEAK}(?![aeoáéó]))?|[íú]|{
 _STRONG = re.compile("[aeo]")
 
 
-def syllables(word: str) -> list[str]:
+def _syllables(word: str) -> list[str]:
     """The vowels of each syllable: `["o", "í", "a"]` of `"oía"` is three, `["io"]` of `"dios"` one."""
     return _NUCLEUS.findall(word)
 
@@ -48,7 +48,7 @@ def stressed_vowel(word: str) -> int:
     return nucleus.start() + strong.start() if strong else nucleus.end() - 1
 
 
-def with_stress(word: str, stressed: int) -> str:
+def _with_stress(word: str, stressed: int) -> str:
     """The word with its accent if it needs one for the stress to be where it is said to be.
 
     Args:
@@ -60,7 +60,7 @@ def with_stress(word: str, stressed: int) -> str:
     return word[:stressed] + ACUTE.get(word[stressed], word[stressed]) + word[stressed + 1 :]
 
 
-def in_hiatus(word: str, index: int) -> bool:
+def _in_hiatus(word: str, index: int) -> bool:
     """Whether the vowel is an accented i or u after a strong one: its accent always stays (`"país"`)."""
     return word[index] in "íú" and index > 0 and word[index - 1] in "aeo"
 
@@ -108,15 +108,15 @@ def is_invariable(word: str) -> bool:
     """Whether one form serves both numbers: ending in -s or -x with the stress before it (`"lunes"`)."""
     if word[-1] not in "sx":
         return False
-    return not any(accented in word[-3:] for accented in PLAIN) and len(syllables(word)) > 1
+    return not any(accented in word[-3:] for accented in PLAIN) and len(_syllables(word)) > 1
 
 
 def _stressed_as_before(word: str, ending: str) -> str:
     """Append a syllable, the stress staying: `"jamones"` of `"jamón"`, `"jóvenes"` of `"joven"`."""
     stressed = stressed_vowel(word)
-    if in_hiatus(word, stressed):
+    if _in_hiatus(word, stressed):
         return word + ending
-    return with_stress(unaccented(word) + ending, stressed)
+    return _with_stress(unaccented(word) + ending, stressed)
 
 
 #: Pronouns that come before another one.
@@ -130,7 +130,7 @@ def attach_pronouns(form: str, pronouns: tuple[str, ...]) -> str:
     The first person plural loses its s (`vámonos`), the imperative of vosotros its d (`sentaos`, but `idos`).
     """
     stressed = stressed_vowel(form)
-    keeps_accent = in_hiatus(form, stressed)
+    keeps_accent = _in_hiatus(form, stressed)
     stem = form
     if pronouns[0] in ("nos", "se") and form.endswith("mos"):
         stem = form[:-1]
@@ -141,7 +141,7 @@ def attach_pronouns(form: str, pronouns: tuple[str, ...]) -> str:
     if keeps_accent:
         accented = "í" if whole[stressed] == "i" else "ú"
         return whole[:stressed] + accented + whole[stressed + 1 :]
-    return with_stress(whole, stressed)
+    return _with_stress(whole, stressed)
 
 
 def detach_pronouns(folded: str) -> Iterator[tuple[str, tuple[str, ...]]]:

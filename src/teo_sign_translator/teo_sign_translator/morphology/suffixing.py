@@ -25,7 +25,7 @@ from teo_sign_translator.morphology.readings import TAGS, Reading, tag_class
 
 #: Where the rules stand in a language's text folder; the file explains its columns.
 SUFFIXES = "morphology/suffixes.tsv"
-GUESSES = "morphology/guesses.tsv"
+_GUESSES = "morphology/guesses.tsv"
 
 
 class _Rule(NamedTuple):
@@ -47,7 +47,7 @@ class SuffixedForms:
         """
         self._folder = folder
         self._rules = _read_rules(folder / SUFFIXES)
-        self._guesses = _read_rules(folder / GUESSES)
+        self._guesses = _read_rules(folder / _GUESSES)
 
     def entries(self) -> Iterator[Entry]:
         """See `WordForms`."""

@@ -34,7 +34,7 @@ from teo_sign_translator.pipeline.translator import Translator
 
 #: Outcomes that DDS keeps for a reader that is slow; a text in a flood of them is refused in a tenth of a
 #: millisecond.
-STATUS_DEPTH = 5000
+_STATUS_DEPTH = 5000
 
 # How long the end of the text that is being translated is awaited [s]; the longest text takes less.
 _STOP_TIMEOUT = 5.0
@@ -109,7 +109,7 @@ class TranslatorNode(SelfStartingNode):
         )
         self._tokens = self.create_lifecycle_publisher(SignSentence, "sign_tokens", kept)
         self._outcomes = self.create_publisher(
-            TranslationStatus, "translation_status", QoSProfile(depth=STATUS_DEPTH, reliability=reliable)
+            TranslationStatus, "translation_status", QoSProfile(depth=_STATUS_DEPTH, reliability=reliable)
         )
         self._service = self.create_service(Translate, "translate", self._on_translate)
         self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)

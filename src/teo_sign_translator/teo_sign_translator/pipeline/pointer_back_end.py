@@ -69,7 +69,7 @@ def _key(clauses: Sequence[Clause]) -> tuple[str, ...]:
 _CENT_DIGITS = 2
 
 
-def gloss_output_words(
+def _gloss_output_words(
     words: Sequence[SourceWord],
     said: CompleteTranslation,
     agreement: Agreement,
@@ -270,7 +270,7 @@ class PointerBackEnd:
             if output_words:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
-            output_words += gloss_output_words(words, said, self._agreement, self._rules.glosses)
+            output_words += _gloss_output_words(words, said, self._agreement, self._rules.glosses)
             if not unit.given and _asks(words, said.glosses):
                 recognised = SentenceType.WH_QUESTION
         return TranslatedSentence(unit.clauses, output_words, recognised)

@@ -43,7 +43,7 @@ class Layer(ABC):
         """The next state; shapes (rows, gates), (rows, state size)."""
 
 
-class RnnLayer(Layer):
+class _RnnLayer(Layer):
     """Elman's: h' = tanh(W x + U h + b)."""
 
     def step(self, projected: Array, state: Array) -> Array:
@@ -52,7 +52,7 @@ class RnnLayer(Layer):
         return result
 
 
-class GruLayer(Layer):
+class _GruLayer(Layer):
     """Cho's, gates in the order reset, update, new; the reset gate acts on U h + b as in PyTorch."""
 
     def project(self, inputs: Array) -> Array:
@@ -92,13 +92,13 @@ class LstmLayer(Layer):
 
 
 _LAYERS: Mapping[Cell, type[Layer]] = {
-    "rnn": RnnLayer,
-    "gru": GruLayer,
+    "rnn": _RnnLayer,
+    "gru": _GruLayer,
     "lstm": LstmLayer,
 }
 
 
-def make_layer(cell: Cell, weights: Mapping[str, Array], prefix: str, suffix: str) -> Layer:
+def _make_layer(cell: Cell, weights: Mapping[str, Array], prefix: str, suffix: str) -> Layer:
     """The layer of a kind of cell."""
     return _LAYERS[cell](weights, prefix, suffix)
 
@@ -109,7 +109,7 @@ def sigmoid(values: Array) -> Array:
     return result
 
 
-def run_layer(layer: Layer, inputs: Array, state_size: int, hidden: int, *, backwards: bool) -> Array:
+def _run_layer(layer: Layer, inputs: Array, state_size: int, hidden: int, *, backwards: bool) -> Array:
     """Outputs of a layer at every word, from a state of zeros. Shape (B, W, inputs) -> (B, W, hidden)."""
     count, length = inputs.shape[:2]
     projected = layer.project(inputs).swapaxes(0, 1)
@@ -197,7 +197,7 @@ class ArrayModel:
         self._state_size = config.hidden * (1 + (config.cell == "lstm"))
         directions = ("", "_reverse")[: 1 + config.bidirectional]
         self._encoder = [
-            [make_layer(config.cell, full, "encoder", f"l{layer}{each}") for each in directions]
+            [_make_layer(config.cell, full, "encoder", f"l{layer}{each}") for each in directions]
             for layer in range(config.layers)
         ]
         self._output = np.ascontiguousarray(full["output.weight"].T)
@@ -206,7 +206,7 @@ class ArrayModel:
         if config.layout == "equal_length":
             return
         self._decoder = [
-            make_layer(config.cell, full, "decoder", f"l{layer}") for layer in range(config.layers)
+            _make_layer(config.cell, full, "decoder", f"l{layer}") for layer in range(config.layers)
         ]
         self._start, self._start_bias = full["start.weight"].T, full["start.bias"]
         #: First gates of the decoder after each closed gloss.
@@ -238,7 +238,7 @@ class ArrayModel:
         for layers in self._encoder:
             words = np.concatenate(
                 [
-                    run_layer(layer, words, self._state_size, self.config.hidden, backwards=bool(direction))
+                    _run_layer(layer, words, self._state_size, self.config.hidden, backwards=bool(direction))
                     for direction, layer in enumerate(layers)
                 ],
                 axis=-1,

@@ -30,7 +30,7 @@ def is_persons_name(reading: Reading) -> bool:
     return reading.tag in PEOPLE
 
 
-def name_readings(
+def _name_readings(
     readings: Sequence[Reading], written: str, *, capital: bool, introduced: bool
 ) -> tuple[Reading, ...]:
     """Readings of a word inside a sentence: a name if it is introduced as one, or not known otherwise.
@@ -39,7 +39,7 @@ def name_readings(
         readings: Of the word in lower case.
         written: The word as typed.
         capital: Whether it has a capital that nothing else explains.
-        introduced: See `introduces`.
+        introduced: See `_introduces`.
     """
     names = tuple(filter(is_persons_name, readings))
     others = tuple(reading for reading in readings if not is_persons_name(reading))
@@ -55,12 +55,12 @@ def name_readings(
     return (*others[: MAX_READINGS - 1], guessed) if introduced else (*others, *names)
 
 
-def introduces(readings: Sequence[Reading], words: SpecialWords) -> bool:
+def _introduces(readings: Sequence[Reading], words: SpecialWords) -> bool:
     """Whether a name may follow a word with these readings though it is a common word too."""
     return is_persons_name(readings[0]) or any(reading.lemma in words.introducing for reading in readings)
 
 
-def opening_name(
+def _opening_name(
     readings: Sequence[Reading], following: Sequence[Reading], words: SpecialWords
 ) -> tuple[Reading, ...]:
     """Readings of a capitalised word that begins a sentence: a given name first, if it is a subject.
@@ -147,7 +147,7 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
             if begins and written:
                 openings.append(len(words))
             capital = written and not begins and not shouted
-            introduced = bool(words) and introduces(words[-1].readings, special)
+            introduced = bool(words) and _introduces(words[-1].readings, special)
             words.append(_source_word(word, capital, morphology, shouted=shouted, introduced=introduced))
             begins = False
         if clause.end:
@@ -155,7 +155,7 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         begins = clause.closes
     for place in openings:
         following = words[place + 1].readings if place + 1 < len(words) else ()
-        readings = opening_name(_all_readings(words[place], morphology), following, special)
+        readings = _opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
     return tuple(_with_whole_names(words))
 
@@ -227,7 +227,7 @@ def _source_word(
         form = _written(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
         return SourceWord(text, form, capital, (Reading(form, "X"),))
-    readings = name_readings(morphology.readings(form), text, capital=capital, introduced=introduced)
+    readings = _name_readings(morphology.readings(form), text, capital=capital, introduced=introduced)
     return SourceWord(text, form, capital, readings)
 
 

@@ -55,16 +55,18 @@ def run(
         name: train_model(name, network, config, data, read, out, command, console, where)
         for name, network in networks.items()
     }
-    rows = comparison(networks, trained)
+    rows = _comparison(networks, trained)
     console.print(_table(trained, f"{len(data.train)} pairs, at most {epochs} epochs: exact matches"))
     write_atomically(out / "comparison.csv", csv_table(rows).encode())
     write_atomically(out / "comparison.md", "\n".join([*markdown_table(rows), ""]).encode())
-    write_atomically(out / "loss.png", loss_plot(trained))
-    write_atomically(out / "exact.png", exact_plot(trained))
+    write_atomically(out / "loss.png", _loss_plot(trained))
+    write_atomically(out / "exact.png", _exact_plot(trained))
     console.print(f"written to {out}", highlight=False)
 
 
-def comparison(networks: Mapping[str, NetworkConfig], trained: Mapping[str, TrainedModel]) -> list[list[str]]:
+def _comparison(
+    networks: Mapping[str, NetworkConfig], trained: Mapping[str, TrainedModel]
+) -> list[list[str]]:
     """The table, its head first: exact matches and BLEU of each model on each held-out split."""
     splits = list(next(iter(trained.values())).scores)
     head = ["model", "cell", "layers", "layout", "reads", "attention", "copy", "weights"]
@@ -100,7 +102,7 @@ def _table(trained: Mapping[str, TrainedModel], title: str) -> Table:
     return table
 
 
-def loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
+def _loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     """Loss on the development pairs after each epoch, one line a model, as PNG."""
 
     def draw(axes: Axes) -> None:
@@ -124,7 +126,7 @@ def loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     return plot_png(draw, size=(8, 5))
 
 
-def exact_plot(trained: Mapping[str, TrainedModel]) -> bytes:
+def _exact_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     """Exact matches of each model on each held-out split, as PNG."""
 
     def draw(axes: Axes) -> None:

@@ -66,7 +66,7 @@ def outcomes(
     return result
 
 
-def scores_by(results: Sequence[Outcome], key: str) -> dict[str, Score]:
+def _scores_by(results: Sequence[Outcome], key: str) -> dict[str, Score]:
     """Scores of all outcomes with the same `split`, or of the same family of rules (`rule`)."""
     groups: defaultdict[str, list[Outcome]] = defaultdict(list)
     for each in results:
@@ -105,8 +105,8 @@ def run(
         raise TranslationError("invalid_data", f"expected splits of {', '.join(splits)}, got {unknown}")
     chosen = [pair for name in wanted for pair in sample(splits[name], pairs, seed)]
     results = outcomes(loaded, chosen, read, beam, console)
-    by_rule = scores_by(results, "rule")
-    console.print(_table(f"{model}, beam {beam}", "split", scores_by(results, "split")))
+    by_rule = _scores_by(results, "rule")
+    console.print(_table(f"{model}, beam {beam}", "split", _scores_by(results, "split")))
     console.print(
         _table("by rule, worst first", "rule", dict(sorted(by_rule.items(), key=lambda item: item[1].exact)))
     )

@@ -61,7 +61,7 @@ class Generator:
                 "invalid_grammar", f"{grammar_folder}: held_out: expected names of templates, got {unknown}"
             )
         words = WordLists.load(grammar_folder, morphology, grammar)
-        words.held_out = held_out_words(grammar, words)
+        words.held_out = _held_out_words(grammar, words)
         return cls(grammar, words)
 
     @cached_property
@@ -175,7 +175,7 @@ class _Seen:
         return self._made[sentence] >= most or (bool(self._unwanted) and folded(sentence) in self._unwanted)
 
 
-def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
+def _held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
     """Content words that only tests see: by hash, except those that the grammar itself names."""
     named = {item.word for rule in grammar.rules() for item in rule.text}
     named |= {item.gloss.lower() for rule in grammar.rules() for item in rule.glosses}
