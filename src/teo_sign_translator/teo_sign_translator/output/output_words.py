@@ -182,25 +182,6 @@ def lexical(
     )
 
 
-def unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list[list[int]]:
-    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word.
-
-    Args:
-        sources: For each gloss the places of the words that it stands for.
-        places: Of all words.
-    """
-    owner: dict[int, int] = {}
-    for index, own in enumerate(sources):
-        for place in own:
-            owner.setdefault(place, index)
-    result: list[list[int]] = [[] for _ in sources]
-    for place in places:
-        if place not in owner:
-            neighbour = min((p for p in owner if p > place), default=max(owner, default=-1))
-            result[owner.get(neighbour, len(sources) - 1)].append(place)
-    return result
-
-
 def without_carried(
     output_words: Sequence[OutputWord], spelling: Spelling | None = None
 ) -> tuple[list[OutputWord], tuple[str, ...]]:
