@@ -158,7 +158,7 @@ class Reading:
     Attributes:
         lemma: Dictionary form in lower case with accents: "comer", "niño"; a name keeps its capital: "Ana"; a
             number is in digits: "7".
-        tag: One of `tags.TAGS`.
+        tag: One of `TAGS`.
         clitics: Pronouns that hang on a verb, as written: ("me", "lo") in "dímelo".
         exact: False if the word must be written with other accents to be this ("como" for "cómo"), or if the
             word is not known and this is a guess.

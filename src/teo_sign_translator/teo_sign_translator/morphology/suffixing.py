@@ -96,7 +96,7 @@ def _read_rules(path: Path) -> list[_Rule]:
     rules: list[_Rule] = []
     for number, (tag, pattern, replacement) in read_rows(path, columns=3):
         if tag not in TAGS:
-            raise invalid_line(path, number, "a tag of morphology/tags.py", f"'{tag}'")
+            raise invalid_line(path, number, "a tag of morphology/readings.py", f"'{tag}'")
         try:
             rules.append(_Rule(tag, re.compile(pattern), replacement))
         except re.error as error:

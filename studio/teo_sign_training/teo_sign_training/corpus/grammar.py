@@ -121,7 +121,7 @@ class ShapePart:
 
     Attributes:
         lemma: Auxiliary; empty for the main verb, or for a literal.
-        tag: Form, without the person where it is finite; `tags.TAGS` plus the person.
+        tag: Form, without the person where it is finite; `readings.TAGS` plus the person.
         literal: A word as it is (`que`, `a`, `de`); `^` is where clitics stand.
         enclitic: Whether clitics hang on this form.
     """

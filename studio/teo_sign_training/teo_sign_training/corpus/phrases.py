@@ -23,7 +23,7 @@ class Sign:
     Attributes:
         gloss: Upper case.
         sources: The words that it stands for.
-        pending: What else will say it, once that is known: `patterns.VERB` or `CLITIC`.
+        pending: What else will say it, once that is known: `grammar.VERB` or `CLITIC`.
         leads: Whether it governs an infinitive and stands at the front of its predicate.
     """
 
