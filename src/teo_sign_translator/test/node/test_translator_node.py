@@ -250,12 +250,17 @@ def test_of_five_hundred_texts_at_once_none_is_lost_without_a_word(bench: Bench)
     bench.wait(begun.is_set, "the first text to be worked on")
     bench.type(*texts[1:])
     waiting = 100  # the default of queue_size
-    bench.wait(lambda: len(bench.outcomes) == len(texts) - waiting - 1, "all but those that wait to be refused")
+    bench.wait(
+        lambda: len(bench.outcomes) == len(texts) - waiting - 1, "all but those that wait to be refused"
+    )
     assert {outcome.code for outcome in bench.outcomes} == {"queue_full"}
     held.set()
     bench.wait(lambda: len(bench.outcomes) == len(texts), "the others")
     assert {outcome.text for outcome in bench.outcomes} == set(texts)
-    assert (bench.node._statistics.done, bench.node._statistics.refused) == (waiting + 1, len(texts) - waiting - 1)
+    assert (bench.node._statistics.done, bench.node._statistics.refused) == (
+        waiting + 1,
+        len(texts) - waiting - 1,
+    )
     ages = [sentence.tokens[2].gloss for sentence in bench.wait_for(waiting + 1)]
     assert ages == [str(age) for age in range(waiting + 1)]
 

@@ -56,7 +56,10 @@ def _forms(sentence: str) -> list[str]:
         ("el 3.er piso izda.", "el|tercero|piso|izquierda|."),
         ("ciento un días", "101|días"),
         ("1.234.567,8 y 1,2,3 y 007", "1234567,8|y|1|2|3|y|007"),
-        ("los km. de p.  ej. D. Juan, vitamina d", "los|kilómetros|de|por|ejemplo|don|juan|,|vitamina|d"),
+        (
+            "D. Juan, los km. de p.  ej. ti, vitamina d",
+            "don|juan|,|los|kilómetros|de|por|ejemplo|ti|,|vitamina|d",
+        ),
         ("Julia Díez, veintidós, veintidos", "julia|díez|,|22|,|22"),
         ("ﬁn", "fin"),
         ("Me gusta 😀 mucho!!!", "me|gusta|mucho|!"),
