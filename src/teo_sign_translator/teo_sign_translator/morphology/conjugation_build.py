@@ -45,7 +45,7 @@ _TENSES = {
 _HEADER = """\
 # Conjugations, made by `ros2 run teo_sign_translator build_morphology` from mlconjug3 3.7.22 (MIT) and
 # corrections.tsv, not by hand. One line a paradigm: the verb it is named after; the endings in the order
-# of readings.VERB_TAGS, "_" for an empty one, "," between equals; the stems of its verbs, "." for an empty one.
+# of VERB_TAGS, "_" for an empty one, "," between equals; the stems of its verbs, "." for an empty one.
 """
 
 
