@@ -25,14 +25,11 @@ LEFT = {
     f"{CAPTURE}/cli/import_pose.py": "the dictionary that is imported where none is named",
     f"{AUTHORING}/notation/score_file.py": "names of places of the body in forms of a sign",
     f"{TRAINING}/cli/reproduce_paper.py": _PAPER,
-    f"{TRAINING}/corpus/aligned_pairs.py": _PAPER,
     f"{TRAINING}/corpus/paper_pairs.py": _PAPER,
-    f"{TRANSLATOR}/morphology/conjugating.py": _INFLECTS,
+    f"{TRANSLATOR}/morphology/conjugation.py": _INFLECTS,
     f"{TRANSLATOR}/morphology/conjugation_build.py": _INFLECTS,
-    f"{TRANSLATOR}/morphology/derivation.py": _INFLECTS,
-    f"{TRANSLATOR}/morphology/guessing.py": _INFLECTS,
     f"{TRANSLATOR}/morphology/lexicon.py": _INFLECTS,
-    f"{TRAINING}/fitting/memorised_pairs.py": _PAPER,
+    f"{TRANSLATOR}/morphology/spanish.py": _INFLECTS,
     "teo_sign_languages/teo_sign_languages/language.py": "the language that is signed where none is named",
 }
 

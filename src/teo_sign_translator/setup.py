@@ -20,7 +20,6 @@ setup(
     description="Spanish text to Spanish Sign Language (LSE) tokens: models and translator node.",
     license="Apache-2.0",
     extras_require={
-        "plots": ["matplotlib"],  # of training and of the paper
         "test": ["hypothesis", "pytest", "simplemma"],
     },
     entry_points={

@@ -24,7 +24,7 @@ from teo_motion.planner import Planner
 from teo_motion.torque import PeakTorque, peak_torques
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.morphology.tags import tag_class
+from teo_sign_translator.morphology.readings import tag_class
 from teo_sign_translator.output.output_words import lexical
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.sign_coverage import Coverage, Showing

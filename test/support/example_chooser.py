@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from random import Random
 from typing import TypeVar
 
-from teo_sign_training.corpus.choosers import Chooser
+from teo_sign_training.corpus.derivation import Chooser
 from teo_sign_training.corpus.grammar import Rule, Shape
 from teo_sign_training.corpus.words import ListedWord, Pool
 from teo_sign_translator.errors import TranslationError

@@ -12,11 +12,11 @@ from typing import Any
 import torch
 
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.fitting import Fit, fit
+from teo_sign_training.fitting.fitting import ZOO, Fit, TrainingConfig, fit
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
-from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.text.source_words import SourceWord
 

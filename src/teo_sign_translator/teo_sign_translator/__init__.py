@@ -19,7 +19,7 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
 from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token, Translation
 from teo_sign_translator.pipeline.translator import DEFAULT_MODEL, Translator
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 __all__ = [
     "DEFAULT_MODEL",

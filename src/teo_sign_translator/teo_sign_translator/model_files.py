@@ -33,29 +33,23 @@ def available_models(directory: Path | None = None) -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in weights if path.with_suffix(".json").is_file()))
 
 
-def card_schema(name: str, directory: Path | None = None) -> object:
-    """The schema that the card of a model in a folder gives; None if there is no card that can be read."""
-    path = (directory or models_directory()) / f"{name}.json"
-    try:
-        card = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return card.get("schema") if isinstance(card, dict) else None
-
-
-def read_card(name: str, schema: int, directory: Path | None = None) -> dict[str, Any]:
+def read_card(name: str, directory: Path | None = None) -> dict[str, Any]:
     """The card of a model in a folder (by default the default language's).
 
     Raises:
-        TranslationError: "invalid_model" if it cannot be read or has another schema.
+        TranslationError: "unknown_model", with those that there are; "invalid_model" if it cannot be read.
     """
-    path = (directory or models_directory()) / f"{name}.json"
+    directory = directory or models_directory()
+    if directory / f"{name}.safetensors" not in directory.glob("*.safetensors"):
+        known = ", ".join(available_models(directory)) or "none"
+        raise TranslationError("unknown_model", f"expected a model of {directory} ({known}), got '{name}'")
+    path = directory / f"{name}.json"
     try:
         card = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise TranslationError("invalid_model", f"{path}: expected a model card in JSON: {error}") from error
-    if not isinstance(card, dict) or card.get("schema") != schema:
-        raise TranslationError("invalid_model", f"{path}: expected a model card of schema {schema}")
+    if not isinstance(card, dict):
+        raise TranslationError("invalid_model", f"{path}: expected a model card, got {type(card).__name__}")
     return card
 
 
@@ -73,13 +67,11 @@ def read_model(
     Raises:
         TranslationError: "unknown_model", or "invalid_model" if its files cannot be used.
     """
-    directory = directory or models_directory()
-    path = directory / f"{name}.safetensors"
-    if path not in directory.glob("*.safetensors"):
-        known = ", ".join(available_models(directory)) or "none"
-        raise TranslationError("unknown_model", f"expected a model of {directory} ({known}), got '{name}'")
-    card = read_card(name, schema, directory)
+    path = (directory or models_directory()) / f"{name}.safetensors"
+    card = read_card(name, directory)
     try:
+        if card.get("schema") != schema:
+            raise TranslationError("invalid_model", f"expected a model card of schema {schema}")
         return build(card, safetensors.numpy.load_file(path))
     except (OSError, SafetensorError) as error:
         raise TranslationError("invalid_model", f"{path}: expected a safetensors file: {error}") from error

@@ -11,12 +11,13 @@ from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.completeness import Completeness, FunctionWords
-from teo_sign_translator.pipeline.given_sentences import GivenSentences
-from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd
+from teo_sign_translator.pipeline.pointer_back_end import PointerBackEnd, read_given_sentences
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.source_words import SourceWord
+
+MORPHOLOGY = Morphology.load()
 
 
 class WordByWordModel:
@@ -28,7 +29,7 @@ class WordByWordModel:
         self._loses = set(loses)
         self._reverse = reverse
         self._probability = probability
-        self._function_words = FunctionWords.load()
+        self._function_words = FunctionWords.load(MORPHOLOGY.folder / "function_words.tsv")
 
     def translate(self, words: Sequence[SourceWord], *, beam: int = 1) -> tuple[Hypothesis, ...]:
         kept = [
@@ -44,11 +45,8 @@ class WordByWordModel:
         return tuple(self.translate(words, beam=beam) for words in sentences)
 
 
-MORPHOLOGY = Morphology.load()
-
-
 def translator_with(model: object) -> Translator:
     """A translator with the package's data around a model."""
-    given = GivenSentences.load(MORPHOLOGY.folder)
+    given = read_given_sentences(MORPHOLOGY.folder)
     back_end = PointerBackEnd(model, MORPHOLOGY, Completeness.load(), given, Agreement.load())
     return Translator(back_end, SignChooser(SubstituteLists.load(), MORPHOLOGY))

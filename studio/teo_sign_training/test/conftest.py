@@ -18,6 +18,16 @@ def translator() -> Translator:
 
 
 @pytest.fixture(scope="session")
-def generated_pairs() -> list[Pair]:
+def morphology() -> Morphology:
+    return Morphology.load()
+
+
+@pytest.fixture(scope="session")
+def generator(morphology: Morphology) -> Generator:
+    return Generator.load(data_file("grammar"), morphology)
+
+
+@pytest.fixture(scope="session")
+def pairs(generator: Generator) -> list[Pair]:
     """A small corpus of the shipped grammar, all its splits."""
-    return list(Generator.load(data_file("grammar"), Morphology.load()).pairs(5000, seed=7))
+    return list(generator.pairs(5000, seed=7))

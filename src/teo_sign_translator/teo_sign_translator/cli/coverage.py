@@ -14,10 +14,16 @@ from rich.progress import track
 from rich.table import Table
 
 from teo_sign_languages import DEFAULT_LANGUAGE
-from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
-from teo_sign_translator.output.sign_coverage import Coverage, Showing, most_wanted, shown_words
+from teo_sign_translator.output.sign_coverage import (
+    LEAST_STANDING,
+    STANDINGS,
+    Coverage,
+    Showing,
+    most_wanted,
+    read_signs,
+    shown_words,
+)
 from teo_sign_translator.output.translation import Sentence
 
 #: Lines of a file that are translated together [lines]: the bar moves, and more are no faster.
@@ -56,7 +62,7 @@ def coverage(
             "--lut", help="Directory of the table; your own and, beneath it, the language's without it."
         ),
     ] = None,
-    language: LanguageOption = DEFAULT_LANGUAGE,
+    language: Annotated[str, typer.Option(help="Sign language, by its ISO 639-3 code.")] = DEFAULT_LANGUAGE,
     least_standing: Annotated[
         str,
         typer.Option(help=f"Signs that are less well founded do not count, one of {', '.join(STANDINGS)}."),

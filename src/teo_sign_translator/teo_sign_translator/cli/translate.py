@@ -8,7 +8,6 @@ import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
-from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any, BinaryIO
 
@@ -18,10 +17,9 @@ from rich.progress import track
 
 from teo_common.errors import CodedError
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
-from teo_sign_translator.cli.command import LanguageOption
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import available_models
-from teo_sign_translator.output.known_signs import LEAST_STANDING, STANDINGS, read_signs
+from teo_sign_translator.output.sign_coverage import LEAST_STANDING, STANDINGS, read_signs
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH
@@ -53,7 +51,7 @@ def translate(
     as_json: Annotated[
         bool, typer.Option("--json", help="Write everything, one JSON object a text.")
     ] = False,
-    language: LanguageOption = DEFAULT_LANGUAGE,
+    language: Annotated[str, typer.Option(help="Sign language, by its ISO 639-3 code.")] = DEFAULT_LANGUAGE,
     model: Annotated[
         str, typer.Option(help="Model to use, one of those that --list-models lists.")
     ] = DEFAULT_MODEL,
@@ -182,9 +180,7 @@ def _lines(file: BinaryIO) -> Iterator[str]:
 
 def _progress(lines: Sequence[str]) -> Iterable[tuple[int, Sequence[str]]]:
     """Line numbers and lines, many at a time; with a bar if the translations do not go to the same screen."""
-    iterator = iter(lines)
-    batches = [list(islice(iterator, _TOGETHER)) for _ in range(0, len(lines), _TOGETHER)]
-    numbered = [(index * _TOGETHER + 1, batch) for index, batch in enumerate(batches)]
+    numbered = [(start + 1, lines[start : start + _TOGETHER]) for start in range(0, len(lines), _TOGETHER)]
     console = Console(stderr=True)
     return track(
         numbered, "translating", console=console, disable=sys.stdout.isatty() or not console.is_terminal

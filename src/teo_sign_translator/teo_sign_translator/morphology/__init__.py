@@ -7,7 +7,6 @@ and the forms of a lemma. Its lists are `lexicon` and `morphology` of the langua
 """
 
 from teo_sign_translator.morphology.analyser import MAX_READINGS, Morphology
-from teo_sign_translator.morphology.reading import Reading, gloss_name
-from teo_sign_translator.morphology.tags import TAGS, tag_class
+from teo_sign_translator.morphology.readings import TAGS, Reading, gloss_name, tag_class
 
 __all__ = ["MAX_READINGS", "TAGS", "Morphology", "Reading", "gloss_name", "tag_class"]

@@ -15,11 +15,10 @@ from teo_common.text_folding import strip_marks
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
-from teo_sign_translator.morphology.candidates import EXACT, RARE, Candidate, Entry, WordForms, effort
-from teo_sign_translator.morphology.conjugating import ConjugatedForms
-from teo_sign_translator.morphology.reading import Reading
+from teo_sign_translator.morphology.conjugation import ConjugatedForms
+from teo_sign_translator.morphology.lexicon import EXACT, RARE, Candidate, Entry, WordForms, effort
+from teo_sign_translator.morphology.readings import Reading, tag_class
 from teo_sign_translator.morphology.suffixing import SUFFIXES, SuffixedForms
-from teo_sign_translator.morphology.tags import tag_class
 
 #: Most readings of one word; few words have more, and none of them is likely.
 MAX_READINGS = 4

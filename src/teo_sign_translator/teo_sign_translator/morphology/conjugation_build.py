@@ -22,8 +22,8 @@ import typer
 from teo_common.atomic_files import write_atomically
 from teo_sign_translator.data_files import data_file, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology.accents import unaccented
-from teo_sign_translator.morphology.tags import IMPERATIVE_PERSONS, PERSONS, VERB_TAGS
+from teo_sign_translator.morphology.readings import IMPERATIVE_PERSONS, PERSONS, VERB_TAGS
+from teo_sign_translator.morphology.spanish import unaccented
 
 #: Forms of one verb by tag, the usual one first.
 Forms = dict[str, tuple[str, ...]]
@@ -45,11 +45,11 @@ _TENSES = {
 _HEADER = """\
 # Conjugations, made by `ros2 run teo_sign_translator build_morphology` from mlconjug3 3.7.22 (MIT) and
 # corrections.tsv, not by hand. One line a paradigm: the verb it is named after; the endings in the order
-# of tags.VERB_TAGS, "_" for an empty one, "," between equals; the stems of its verbs, "." for an empty one.
+# of VERB_TAGS, "_" for an empty one, "," between equals; the stems of its verbs, "." for an empty one.
 """
 
 
-def conjugate(verb: Mapping[str, str], templates: Mapping[str, Any]) -> Forms | None:
+def _conjugate(verb: Mapping[str, str], templates: Mapping[str, Any]) -> Forms | None:
     """All forms of a verb of the package; None where its template is empty (verbs of the weather)."""
     root, template = verb["root"], templates[verb["template"]]
     forms: Forms = {}
@@ -69,10 +69,10 @@ def conjugate(verb: Mapping[str, str], templates: Mapping[str, Any]) -> Forms | 
         return None
     for ending, form in (("o", "ms"), ("a", "fs"), ("os", "mp"), ("as", "fp")):
         forms[f"V:part:{form}"] = (participle[:-1] + ending,)
-    return without_pronoun(forms) if forms["V:inf"][0].endswith("se") else forms
+    return _without_pronoun(forms) if forms["V:inf"][0].endswith("se") else forms
 
 
-def without_pronoun(forms: Forms) -> Forms:
+def _without_pronoun(forms: Forms) -> Forms:
     """The forms of a verb that is only reflexive (`arrepentirse`), its pronouns taken off."""
     infinitive = forms["V:inf"][0].removesuffix("se")
     return {
@@ -126,7 +126,7 @@ def read_package(wheel: Path) -> dict[str, Forms]:
         ) from error
     verbs: dict[str, Forms] = {}
     for _, verb in sorted(listed.items()):  # "acostar" comes before "acostarse", which it stands for
-        forms = conjugate(verb, templates)
+        forms = _conjugate(verb, templates)
         if forms:
             verbs.setdefault(forms["V:inf"][0], forms)
     return verbs

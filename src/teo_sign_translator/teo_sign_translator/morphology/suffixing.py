@@ -11,22 +11,21 @@ from typing import NamedTuple
 
 from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.morphology import lexicon
-from teo_sign_translator.morphology.candidates import (
+from teo_sign_translator.morphology.lexicon import (
     ADJECTIVE,
     NOUN,
     VERB,
     Candidate,
     Entry,
+    Form,
     Index,
     listed_entries,
 )
-from teo_sign_translator.morphology.lexicon import Form
-from teo_sign_translator.morphology.reading import Reading
-from teo_sign_translator.morphology.tags import TAGS, tag_class
+from teo_sign_translator.morphology.readings import TAGS, Reading, tag_class
 
 #: Where the rules stand in a language's text folder; the file explains its columns.
 SUFFIXES = "morphology/suffixes.tsv"
-GUESSES = "morphology/guesses.tsv"
+_GUESSES = "morphology/guesses.tsv"
 
 
 class _Rule(NamedTuple):
@@ -48,7 +47,7 @@ class SuffixedForms:
         """
         self._folder = folder
         self._rules = _read_rules(folder / SUFFIXES)
-        self._guesses = _read_rules(folder / GUESSES)
+        self._guesses = _read_rules(folder / _GUESSES)
 
     def entries(self) -> Iterator[Entry]:
         """See `WordForms`."""
@@ -97,7 +96,7 @@ def _read_rules(path: Path) -> list[_Rule]:
     rules: list[_Rule] = []
     for number, (tag, pattern, replacement) in read_rows(path, columns=3):
         if tag not in TAGS:
-            raise invalid_line(path, number, "a tag of morphology/tags.py", f"'{tag}'")
+            raise invalid_line(path, number, "a tag of morphology/readings.py", f"'{tag}'")
         try:
             rules.append(_Rule(tag, re.compile(pattern), replacement))
         except re.error as error:

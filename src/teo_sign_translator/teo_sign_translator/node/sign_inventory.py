@@ -10,7 +10,7 @@ from teo_sign_msgs.msg import SignToken
 from teo_sign_msgs.srv import ListSigns
 
 #: How often the executor is asked for its signs [s]: a new sign is used before anyone has typed a sentence.
-SIGNS_PERIOD = 2.0
+_SIGNS_PERIOD = 2.0
 
 
 class SignInventory:
@@ -29,7 +29,7 @@ class SignInventory:
         self._answered: dict[str, frozenset[str]] = {}
         self._answer: Future | None = None
         self._client = node.create_client(ListSigns, "list_signs")
-        self._timer = node.create_timer(SIGNS_PERIOD, self._ask)
+        self._timer = node.create_timer(_SIGNS_PERIOD, self._ask)
 
     def signs(self, language: str) -> frozenset[str] | None:
         """Glosses of a language, by its code, that have signs; None if that is not known."""
@@ -56,13 +56,13 @@ class SignInventory:
     def _take(self, answer: Future) -> None:
         self._answer = None
         response = answer.result()
-        signs = lexical_glosses(response)
+        signs = _lexical_glosses(response)
         if signs != self._answered.get(response.language):
             self._answered[response.language] = signs
             self._node.get_logger().info(f"{len(signs)} glosses of {response.language} have signs")
 
 
-def lexical_glosses(response: ListSigns.Response) -> frozenset[str]:
+def _lexical_glosses(response: ListSigns.Response) -> frozenset[str]:
     """Glosses that have a sign of their own, without letters and numbers."""
     return frozenset(
         gloss

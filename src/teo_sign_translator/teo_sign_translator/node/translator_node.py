@@ -17,25 +17,24 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from std_msgs.msg import String
-from teo_sign_msgs.msg import SignSentence, TranslationStatus
+from teo_sign_msgs.msg import SignSentence, SignToken, TranslationStatus
 from teo_sign_msgs.srv import Translate
 
 from teo_common.diagnostics import DIAGNOSTICS_PERIOD, DiagnosticsPublisher
 from teo_common.node_process import SelfStartingNode, run_self_starting
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.node.diagnostics import Statistics, diagnose, quoted, short
-from teo_sign_translator.node.messages import to_messages
 from teo_sign_translator.node.parameters import PARAMETERS, SIGN_TOKENS_DEPTH
 from teo_sign_translator.node.sign_inventory import SignInventory
 from teo_sign_translator.node.text_worker import TextWorker
-from teo_sign_translator.output.known_signs import listed_signs
+from teo_sign_translator.output.sign_coverage import listed_signs
 from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.output.translation import Translation
 from teo_sign_translator.pipeline.translator import Translator
 
 #: Outcomes that DDS keeps for a reader that is slow; a text in a flood of them is refused in a tenth of a
 #: millisecond.
-STATUS_DEPTH = 5000
+_STATUS_DEPTH = 5000
 
 # How long the end of the text that is being translated is awaited [s]; the longest text takes less.
 _STOP_TIMEOUT = 5.0
@@ -110,7 +109,7 @@ class TranslatorNode(SelfStartingNode):
         )
         self._tokens = self.create_lifecycle_publisher(SignSentence, "sign_tokens", kept)
         self._outcomes = self.create_publisher(
-            TranslationStatus, "translation_status", QoSProfile(depth=STATUS_DEPTH, reliability=reliable)
+            TranslationStatus, "translation_status", QoSProfile(depth=_STATUS_DEPTH, reliability=reliable)
         )
         self._service = self.create_service(Translate, "translate", self._on_translate)
         self._timer = self.create_timer(DIAGNOSTICS_PERIOD, self._publish_diagnostics)
@@ -191,7 +190,7 @@ class TranslatorNode(SelfStartingNode):
             self.get_logger().error(f"failed on {quoted(item.text)}:\n{traceback.format_exc()}")
             self._refuse(item, TranslationError("internal_error", f"{error!r}; the log says more"))
             return
-        for sentence in self._messages(item, translation):
+        for sentence in _to_messages(translation, item):
             self._tokens.publish(sentence)
         unheard = "" if self._tokens.get_subscription_count() else _UNHEARD
         self._tell(item, sentences=len(translation.sentences), message=unheard)
@@ -203,7 +202,7 @@ class TranslatorNode(SelfStartingNode):
         item = self._received(request.text)
         try:
             translation = self._translate(item)
-            response.sentences = self._messages(item, translation)
+            response.sentences = _to_messages(translation, item)
             response.success = True
             self._note(item, translation)
         except TranslationError as error:
@@ -237,9 +236,6 @@ class TranslatorNode(SelfStartingNode):
                 f"{len(translation.sentences)}: send it in parts",
             )
         return translation
-
-    def _messages(self, item: _Text, translation: Translation) -> list[SignSentence]:
-        return to_messages(translation, stamp=item.received.to_msg(), utterance_id=item.utterance_id)
 
     def _note(self, item: _Text, translation: Translation) -> None:
         """Count a text that was answered, and log it: after the answer, which somebody waits for."""
@@ -328,6 +324,40 @@ class TranslatorNode(SelfStartingNode):
             min_confidence=values["min_confidence"],
             substitutes=Substitutes.named(values["substitutes"]),
         )
+
+
+def _to_messages(translation: Translation, item: _Text) -> list[SignSentence]:
+    """One message for each sentence, in their order, stamped with the time at which the text came."""
+    messages: list[SignSentence] = []
+    for index, sentence in enumerate(translation.sentences):
+        message = SignSentence(
+            utterance_id=item.utterance_id,
+            sentence_index=index,
+            sentence_count=len(translation.sentences),
+            text=sentence.text,
+            language=translation.language,
+            type=int(sentence.type),
+            negated=sentence.negated,
+            confidence=sentence.confidence,
+            uncertain=sentence.uncertain,
+            dropped=list(sentence.dropped),
+            tokens=[
+                SignToken(
+                    gloss=token.gloss,
+                    kind=int(token.kind),
+                    confidence=token.confidence,
+                    duration_scale=token.duration_scale,
+                    word_index=token.word_index,
+                    source_words=list(token.source_words),
+                    origin=int(token.origin),
+                    inflection=token.inflection,
+                )
+                for token in sentence.tokens
+            ],
+        )
+        message.header.stamp = item.received.to_msg()
+        messages.append(message)
+    return messages
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -6,11 +6,67 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import groupby
 
-from teo_sign_translator.output.spelling import DIGITS, Spelling
+from teo_common.text_folding import strip_marks, without_accents
+from teo_sign_languages import DEFAULT_LANGUAGE, Language, load_language
 from teo_sign_translator.output.translation import Kind, Origin, Token
 from teo_sign_translator.text.rules import TextRules
+
+#: Signs of numbers, which may stand in a word ("UC3M").
+DIGITS = frozenset("0123456789")
+
+
+class Spelling:
+    """Spells words; of a sign of several letters (CH) before its first letter alone."""
+
+    def __init__(self, language: Language) -> None:
+        """Take a language's alphabet."""
+        self.name = language.names.short
+        self.alphabet = frozenset(language.alphabet.letters)
+        self._transcription = str.maketrans(language.alphabet.transcriptions)
+        self._longest = max(map(len, self.alphabet))
+
+    @classmethod
+    @cache
+    def load(cls, code: str = DEFAULT_LANGUAGE) -> Spelling:
+        """That of a language by its code.
+
+        Raises:
+            LanguageError: "unknown_language" or "invalid_language".
+        """
+        return cls(load_language(code))
+
+    def letters(self, word: str) -> tuple[str, ...]:
+        """The signs that spell a word, e.g. `"Guillermo"` gives G U I LL E R M O in LSE.
+
+        Characters that no sign exists for are left out; `unsignable` names them beforehand.
+        """
+        plain = self._plain(word)
+        result: list[str] = []
+        index = 0
+        while index < len(plain):
+            sizes = range(self._longest, 1, -1)
+            size = next((size for size in sizes if plain[index : index + size] in self.alphabet), 1)
+            if plain[index : index + size] in self.alphabet:
+                result.append(plain[index : index + size])
+            index += size
+        return tuple(result)
+
+    def unsignable(self, word: str) -> tuple[str, ...]:
+        """Characters of a word that neither letters nor numbers can spell, in order, without repetition.
+
+        An apostrophe is no letter, and is not missed.
+        """
+        known = self.alphabet | DIGITS | {"'"}
+        return tuple(dict.fromkeys(c for c in word if any(p not in known for p in self._plain(c))))
+
+    def _plain(self, word: str) -> str:
+        """A word in capitals of the alphabet, without accents; what has no such form stays as it is."""
+        plain = without_accents(word.upper()).translate(self._transcription)
+        return "".join(c if c in self.alphabet else strip_marks(c).upper() for c in plain)
+
 
 #: Of a word that is spelled since it has no sign: spelling Spanish is the last resort.
 SPELLED_CONFIDENCE = 0.3
@@ -124,25 +180,6 @@ def lexical(
     return OutputWord(
         signs=(gloss,), kind=Kind.LEXICAL, confidence=confidence, words=typed, origin=origin, is_name=is_name
     )
-
-
-def unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list[list[int]]:
-    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word.
-
-    Args:
-        sources: For each gloss the places of the words that it stands for.
-        places: Of all words.
-    """
-    owner: dict[int, int] = {}
-    for index, own in enumerate(sources):
-        for place in own:
-            owner.setdefault(place, index)
-    result: list[list[int]] = [[] for _ in sources]
-    for place in places:
-        if place not in owner:
-            neighbour = min((p for p in owner if p > place), default=max(owner, default=-1))
-            result[owner.get(neighbour, len(sources) - 1)].append(place)
-    return result
 
 
 def without_carried(

@@ -4,15 +4,104 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
+from pathlib import Path
 
+from teo_common.text_folding import fold
+from teo_sign_translator.data_files import invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.output_words import OutputWord, spelled
-from teo_sign_translator.output.spelling import Spelling
+from teo_sign_translator.output.output_words import OutputWord, Spelling, spelled
 from teo_sign_translator.output.substitutes import SIGN_NAME, SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind, Origin
+from teo_sign_translator.text.reading import Clause, SentenceType, is_negated
+from teo_sign_translator.text.rules import TextRules
+
+
+def may_be_generalised(clauses: Sequence[Clause], kind: SentenceType, rules: TextRules) -> bool:
+    """Whether any word of a sentence may give way to a more general one, and it stays true.
+
+    "I have a dog" entails "I have an animal"; "I have no dog" does not entail "I have no animal". A word may
+    be generalised where its place is upward monotone: not under negation, `sin`, `si` or a comparison, not
+    among all of a kind or the only ones (`todos`, `solo`), not of a kind as such ("los perros ladran", "me
+    gustan las rosas"), and not in what is asked or told to be done, which is neither true nor false. One such
+    word anywhere in the sentence is enough: its scope is not determined.
+
+    Args:
+        clauses: Of the sentence.
+        kind: Its type.
+        rules: Of its language.
+    """
+    if kind is not SentenceType.STATEMENT or is_negated(clauses, rules):
+        return False
+    listed = rules.generality
+    words = [fold(word.lower) for clause in clauses for word in clause.words]
+    return not any(word in listed.strict or word.startswith(listed.of_kinds) for word in words)
+
+
+#: Where a language's text folder says which; the file explains its columns.
+INCORPORATED_NUMBERS = "incorporated_numbers.tsv"
+
+#: The gloss that is both, by the gloss and the number.
+Incorporated = Mapping[tuple[str, str], str]
+
+
+def read_incorporated(path: Path) -> Incorporated:
+    """Which glosses take up which numbers.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    found: dict[tuple[str, str], str] = {}
+    for line, (gloss, number, both) in read_rows(path, columns=3):
+        valid = SIGN_NAME.fullmatch(gloss) and number.isdecimal() and SIGN_NAME.fullmatch(both)
+        if not valid or (gloss, number) in found:
+            got = f"'{gloss}', '{number}', '{both}'"
+            raise invalid_line(path, line, "a gloss, a number and the gloss of both, once", got)
+        found[gloss, number] = both
+    return found
+
+
+def with_numbers_incorporated(
+    output_words: Sequence[OutputWord], signs: Set[str] | None, incorporated: Incorporated
+) -> list[OutputWord]:
+    """Output words, a gloss and the number beside it as one where that has a sign.
+
+    Two weeks are one sign in LSE, made with the hand of the number. Where the table lacks it, noun and number
+    stay two signs.
+
+    Args:
+        output_words: Of one sentence.
+        signs: Glosses that have a sign; None if that is not known: then nothing is put together.
+        incorporated: The glosses that are both.
+    """
+    result: list[OutputWord] = []
+    for word in output_words:
+        gloss = _together(result[-1], word, incorporated) if result else ""
+        if signs is not None and gloss and gloss in signs:
+            before = result.pop()
+            noun = before if before.kind is Kind.LEXICAL else word
+            confidence = min(before.confidence, word.confidence)
+            said = (*before.words, *(each for each in word.words if each not in before.words))
+            result.append(replace(noun, signs=(gloss,), confidence=confidence, words=said))
+        else:
+            result.append(word)
+    return result
+
+
+def _together(first: OutputWord, second: OutputWord, incorporated: Incorporated) -> str:
+    """The gloss that says both; empty if they are no noun and number that go together."""
+    for noun, number in ((first, second), (second, first)):
+        if (
+            noun.kind is Kind.LEXICAL
+            and number.kind is Kind.NUMBER
+            and len(noun.signs) == len(number.signs) == 1
+        ):
+            both = incorporated.get((noun.signs[0], number.signs[0]), "")
+            if both:
+                return both
+    return ""
 
 
 class SignChooser:

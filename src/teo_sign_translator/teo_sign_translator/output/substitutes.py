@@ -82,16 +82,12 @@ class SubstituteLists:
         )
 
 
-def read_synonyms(path: Path | None = None) -> dict[str, tuple[str, ...]]:
-    """For each gloss the others that mean the same, in the order of the list.
-
-    Args:
-        path: The file; by default the package's `text/synonyms.tsv`, a line a group.
+def read_synonyms(path: Path) -> dict[str, tuple[str, ...]]:
+    """For each gloss the others that mean the same, in the order of the file, which has a line a group.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
     """
-    path = path or data_file("synonyms.tsv")
     synonyms: dict[str, tuple[str, ...]] = {}
     for line_number, line in read_lines(path):
         group = [gloss.strip() for gloss in line.split(",")]

@@ -11,7 +11,7 @@ from itertools import groupby
 from typing import Any
 
 from teo_sign_languages import DEFAULT_LANGUAGE
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 
 class Kind(IntEnum):

@@ -16,7 +16,7 @@ from pathlib import Path
 from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.morphology import Reading
 from teo_sign_translator.morphology.lexicon import nouns
-from teo_sign_translator.pipeline.language_words import PersonWords, PipelineWords
+from teo_sign_translator.pipeline.completeness import PersonWords, PipelineWords
 from teo_sign_translator.text.source_words import SourceWord
 
 _DATIVE, _PERSON, _BODY = "dative", "person", "body"
@@ -46,17 +46,17 @@ class Agreement:
         self._said = said
 
     @classmethod
-    def load(cls, path: Path | None = None, folder: Path | None = None) -> Agreement:
-        """Read the list, and the nouns that name people.
+    def load(cls, folder: Path | None = None) -> Agreement:
+        """Read a language's `agreement.tsv`, which explains its columns, and its nouns that name people.
 
         Args:
-            path: The file; by default the default language's `agreement.tsv`, which explains its columns.
-            folder: The text folder of the language of the nouns; by default that of the default language.
+            folder: The language's text folder; by default that of the default language.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        path = path or data_file("agreement.tsv")
+        folder = folder or data_file("")
+        path = folder / "agreement.tsv"
         rules: dict[str, _Rule] = {}
         for number, (gloss, lemma, kind, places) in read_rows(path, columns=4):
             listed = frozenset(each.strip() for each in places.split(",")) - {_NONE}

@@ -11,14 +11,12 @@ from pathlib import Path
 from typing import Protocol
 
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.model_files import available_models, card_schema
 from teo_sign_translator.output.output_words import OutputWord
-from teo_sign_translator.text.reading import Clause
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import Clause, SentenceType
 
 #: Group of entry points under which other packages offer back ends: the schema of the models' cards, and a
 #: function of name, folder of the models and text folder of the language.
-BACK_ENDS = "teo_sign_translator.back_ends"
+_BACK_ENDS = "teo_sign_translator.back_ends"
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,26 +53,19 @@ class BackEnd(Protocol):
         """
 
 
-def load_other_back_end(name: str, directory: Path, text: Path) -> BackEnd:
+def load_other_back_end(name: str, schema: object, directory: Path, text: Path) -> BackEnd:
     """Load a model of a kind that another package runs, as `teo_sign_training` runs the paper's.
 
     Args:
         name: Of the model.
+        schema: Of its card.
         directory: Folder of the models.
         text: Text folder of the language.
 
     Raises:
-        TranslationError: "unknown_model", "invalid_model"; "model_not_installed" if no installed package
-            runs models of its kind.
+        TranslationError: "invalid_model"; "model_not_installed" if no installed package runs such models.
     """
-    known = available_models(directory)
-    if name not in known:
-        listed = ", ".join(known) or "none"
-        raise TranslationError("unknown_model", f"expected a model of {directory} ({listed}), got '{name}'")
-    schema = card_schema(name, directory)
-    if schema is None:
-        raise TranslationError("invalid_model", f"{directory / name}.json: expected a model card in JSON")
-    for point in entry_points(group=BACK_ENDS, name=str(schema)):
+    for point in entry_points(group=_BACK_ENDS, name=str(schema)):
         back_end: BackEnd = point.load()(name, directory, text)
         return back_end
     raise TranslationError(

@@ -15,16 +15,86 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from teo_common.text_folding import fold
-from teo_sign_translator.data_files import data_file, read_listed
+from teo_sign_translator.data_files import data_file, read_listed, read_sections
 from teo_sign_translator.morphology import TAGS, Reading
-from teo_sign_translator.pipeline.language_words import CompletenessWords, PipelineWords
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.pointer.vocabulary import copied_gloss
 from teo_sign_translator.text.rules import TextRules
 from teo_sign_translator.text.source_words import SourceWord
+
+_FILE = "pipeline.yaml"
+
+
+@dataclass(frozen=True)
+class CompletenessWords:
+    """What may go without a gloss though it is no function word; the section `completeness`.
+
+    Attributes:
+        goes: Verb that only says the future before an infinitive; empty for none.
+        goes_to: Word between that verb and the infinitive.
+    """
+
+    goes: str
+    goes_to: str
+
+
+@dataclass(frozen=True)
+class PersonWords:
+    """Who acts on whom, for signs that agree; the section `persons`. Persons are 1, 2 and 3.
+
+    Attributes:
+        objects: Object pronouns with their person.
+        things: Those of the third person that may be things.
+        reflexive: The pronoun that a dative becomes beside one of those.
+        subjects: Subject pronouns with their person.
+        polite: Those of the addressee whose verb is of the third person.
+        towards: Words before the person that something is done to.
+        own_possessive: Possessive that names a third person.
+        own_imperatives: Verbs whose imperative is no form of the third person.
+        experiencer_verbs: Verbs whose object is who feels.
+    """
+
+    objects: dict[str, str]
+    things: frozenset[str]
+    reflexive: str
+    subjects: dict[str, str]
+    polite: frozenset[str]
+    towards: frozenset[str]
+    own_possessive: str
+    own_imperatives: frozenset[str]
+    experiencer_verbs: frozenset[str]
+
+
+@dataclass(frozen=True)
+class PipelineWords:
+    """All of it.
+
+    Attributes:
+        completeness: What may go without a gloss.
+        persons: Who acts on whom.
+    """
+
+    completeness: CompletenessWords
+    persons: PersonWords
+
+    @classmethod
+    @cache
+    def load(cls, folder: Path | None = None) -> PipelineWords:
+        """Read the file of a language's text folder, once.
+
+        Args:
+            folder: By default that of the default language.
+
+        Raises:
+            TranslationError: "invalid_data" naming file and field.
+        """
+        sections = {"completeness": CompletenessWords, "persons": PersonWords}
+        return cls(**read_sections((folder or data_file("")) / _FILE, sections))
+
 
 #: Of a gloss that was put back: its word is right, its place a guess. Below the translator's threshold, so
 #: that its sentence is called uncertain.
@@ -59,16 +129,12 @@ class FunctionWords:
         self._by_tag: dict[str, frozenset[str]] = {}
 
     @classmethod
-    def load(cls, path: Path | None = None) -> FunctionWords:
-        """Read the list.
-
-        Args:
-            path: The file; by default the package's `text/function_words.tsv`, which explains its columns.
+    def load(cls, path: Path) -> FunctionWords:
+        """Read a language's `function_words.tsv`, which explains its columns.
 
         Raises:
             TranslationError: "invalid_data", with file and line.
         """
-        path = path or data_file("function_words.tsv")
         return cls(
             read_listed(
                 path, lambda tag: any(_begins(known, tag) for known in TAGS), "the beginning of a tag"
@@ -218,16 +284,12 @@ class Completeness:
         return index
 
 
-def read_gloss_words(path: Path | None = None) -> dict[str, frozenset[str]]:
-    """For each gloss the lemmas that it signs though they are not its own.
-
-    Args:
-        path: The file; by default the package's `text/gloss_words.tsv`, which explains its columns.
+def read_gloss_words(path: Path) -> dict[str, frozenset[str]]:
+    """For each gloss of a language's `gloss_words.tsv` the lemmas that it signs though they are not its own.
 
     Raises:
         TranslationError: "invalid_data", with file and line.
     """
-    path = path or data_file("gloss_words.tsv")
     return read_listed(path, lambda gloss: gloss == gloss.upper(), "a gloss in capitals")
 
 

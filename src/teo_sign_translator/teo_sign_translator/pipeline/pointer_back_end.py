@@ -1,24 +1,31 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Back end of the pointer: asks the model once for each sentence, and completes what it says."""
+"""Back end of the pointer: asks the model once for each sentence, and makes output words of its answer.
+
+What the model leaves out is put back, but for sentences whose translation is given: the paper's may leave out
+what they like. Glosses become signs, names and numbers, with a pause where a mark falls between them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import NamedTuple
 
-from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.output_words import PAUSE, OutputWord
+from teo_sign_translator.data_files import read_rows
+from teo_sign_translator.morphology import Morphology, Reading, gloss_name
+from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, lexical, number
+from teo_sign_translator.output.translation import Origin
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
 from teo_sign_translator.pipeline.completeness import Completeness, CompleteTranslation
-from teo_sign_translator.pipeline.given_sentences import GivenSentence, GivenSentences
-from teo_sign_translator.pipeline.gloss_output import gloss_output_words
 from teo_sign_translator.pointer import Hypothesis, OutputGloss, SentenceModel
-from teo_sign_translator.text.reading import Clause
-from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.sentence_type import SentenceType
-from teo_sign_translator.text.source_words import SourceWord, words_of_clauses
+from teo_sign_translator.pointer.vocabulary import copied_gloss
+from teo_sign_translator.text.cleaning import clean
+from teo_sign_translator.text.reading import Clause, SentenceType, read, sentence_type
+from teo_sign_translator.text.rules import GlossNames, TextRules
+from teo_sign_translator.text.source_words import SourceWord, is_persons_name, words_of_clauses
 
 #: Translations that the model weighs against each other: a second one is there where the first loses a word;
 #: four find no more right ones among 900 held-out sentences than two.
@@ -27,6 +34,28 @@ DEFAULT_BEAM_WIDTH = 2
 #: Words that are translated together; the model has seen no longer sentences, and its time grows with their
 #: number.
 MOST_WORDS = 40
+
+# Where a language keeps its given sentences: sentence, and glosses separated by "/".
+_GIVEN_SENTENCES = "paper_pairs.tsv"
+# Digits of a price behind the comma.
+_CENT_DIGITS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class GivenSentence:
+    """A sentence's given translation.
+
+    Attributes:
+        glosses: In signing order.
+        type: Of the sentence, by its own marks.
+    """
+
+    glosses: tuple[str, ...]
+    type: SentenceType
+
+
+#: Given sentences by their words: capitals, accents and marks do not count.
+GivenSentences = Mapping[tuple[str, ...], GivenSentence]
 
 
 class _Unit(NamedTuple):
@@ -92,10 +121,10 @@ class PointerBackEnd:
         result: list[_Unit] = []
         while sentences:
             both = [clause for sentence in sentences[:2] for clause in sentence]
-            own = both if self._given.find(both) else sentences[0]
+            own = both if _key(both) in self._given else sentences[0]
             del sentences[: 2 if own is both else 1]
             words = words_of_clauses(own, self._morphology)
-            result.append(_Unit(own, divided(words), self._given.find(own)))
+            result.append(_Unit(own, divided(words), self._given.get(_key(own))))
         return result
 
     def _assembled(self, unit: _Unit, answers: Sequence[Sequence[Hypothesis]]) -> TranslatedSentence:
@@ -106,7 +135,7 @@ class PointerBackEnd:
             if output_words:
                 output_words.append(PAUSE)
             said = _as_given(hypotheses, unit.given) or self._completeness.complete(words, hypotheses)
-            output_words += gloss_output_words(words, said, self._agreement, self._rules.glosses)
+            output_words += _gloss_output_words(words, said, self._agreement, self._rules.glosses)
             if not unit.given and _asks(words, said.glosses):
                 recognised = SentenceType.WH_QUESTION
         return TranslatedSentence(unit.clauses, output_words, recognised)
@@ -147,3 +176,140 @@ def _asks(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> bool:
     return any(
         reading.tag.startswith("WH") for source in glosses[-1].sources for reading in words[source].readings
     )
+
+
+def read_given_sentences(folder: Path) -> GivenSentences:
+    """Those of a language; none if its text folder has no file of them.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    path = folder / _GIVEN_SENTENCES
+    if not path.is_file():
+        return {}
+    rules = TextRules.load(folder)
+    found: dict[tuple[str, ...], GivenSentence] = {}
+    for _, (sentence, glosses) in read_rows(path, columns=2):
+        clauses = read(clean(sentence).text, rules).clauses
+        said = tuple(gloss_name(gloss.strip()) for gloss in glosses.split("/"))
+        found[_key(clauses)] = GivenSentence(said, sentence_type(clauses, rules))
+    return found
+
+
+def _key(clauses: Sequence[Clause]) -> tuple[str, ...]:
+    return tuple(word.key for clause in clauses for word in clause.words)
+
+
+def _gloss_output_words(
+    words: Sequence[SourceWord],
+    said: CompleteTranslation,
+    agreement: Agreement,
+    names: GlossNames,
+) -> list[OutputWord]:
+    """Glosses as output words, those that none says behind them; marks between them are pauses.
+
+    Args:
+        words: Of the sentence.
+        said: Its translation; the glosses of a given one are no names whatever their words.
+        agreement: Gives the form of signs that agree.
+        names: Of glosses, in the language.
+    """
+    typed = [_texts(words, sorted(gloss.sources)) for gloss in said.glosses]
+    pauses = _pauses(words, said.glosses)
+    result: list[OutputWord] = []
+    for place, (gloss, put_back, own) in enumerate(zip(said.glosses, said.put_back, typed, strict=True)):
+        # "me llamo rosa" is MI NOMBRE R-O-S-A
+        named = place > 0 and said.glosses[place - 1].gloss == names.name
+        origin = Origin.REPAIRED if put_back else Origin.MODEL
+        neighbours = {each.gloss for each in said.glosses[max(0, place - 1) : place + 2]}
+        if neighbours & names.currencies:  # "12,50 €" is said "doce cincuenta"
+            gloss = replace(gloss, gloss=_price(gloss.gloss))
+        form = agreement.inflection(gloss.gloss, gloss.sources, words)
+        own_words = [
+            replace(each, inflection=form)
+            for each in _output_words(words, gloss, origin, own, names, named=named)
+        ]
+        result += [replace(each, is_name=False) for each in own_words] if said.given else own_words
+        if place in pauses:
+            result.append(PAUSE)
+    claimed = {place for gloss in said.glosses for place in gloss.sources}
+    left = [place for place, word in enumerate(words) if place not in claimed and not word.is_mark]
+    return [*result, *(carried(words[place].form, (words[place].text,)) for place in left)]
+
+
+def _price(gloss: str) -> str:
+    """A price as its two numbers, written as hours and minutes are: 12,50 euros are 12 and 50, 12,5 too."""
+    whole, comma, cents = gloss.partition(",")
+    if not comma or not whole.isdecimal() or not 0 < len(cents) <= _CENT_DIGITS:
+        return gloss
+    return f"{whole}:{cents.ljust(_CENT_DIGITS, '0').removeprefix('0') or '0'}" if int(cents) else whole
+
+
+def _output_words(
+    words: Sequence[SourceWord],
+    gloss: OutputGloss,
+    origin: Origin,
+    typed: tuple[str, ...],
+    names: GlossNames,
+    *,
+    named: bool,
+) -> list[OutputWord]:
+    """A gloss as a sign, a name or a number.
+
+    Args:
+        words: Of the sentence.
+        gloss: What is said.
+        origin: How it came about.
+        typed: The words that it stands for.
+        names: Of glosses, in the language.
+        named: Whether it follows the sign for "name".
+    """
+    readings = [reading for source in gloss.sources for reading in words[source].readings]
+    meant = [reading for reading in readings if copied_gloss(reading) == gloss.gloss]
+    if gloss.gloss[0].isdigit():
+        return number(gloss.gloss, typed, gloss.probability, names.decimal)
+    if _is_name([words[source] for source in gloss.sources], meant, named=named):
+        return [lexical(gloss.gloss, typed, gloss.probability, is_name=True)]
+    return [lexical(gloss.gloss, typed, gloss.probability, origin)]
+
+
+def _is_name(words: Sequence[SourceWord], meant: Sequence[Reading], *, named: bool) -> bool:
+    """Whether a gloss is somebody's name.
+
+    Args:
+        words: That it stands for.
+        meant: Their readings that have this gloss, the likeliest first.
+        named: Whether it follows the sign for "name"; then any word that may be a name is one.
+    """
+    if named and any(is_persons_name(reading) or reading.tag == "X" for reading in meant):
+        return True
+    listed = any(is_persons_name(reading) and reading.exact for reading in meant)
+    return bool(meant) and (is_persons_name(meant[0]) or (listed and any(word.capital for word in words)))
+
+
+def _texts(words: Sequence[SourceWord], places: Sequence[int]) -> tuple[str, ...]:
+    """What was typed at some places, a short form of several words once."""
+    result: list[str] = []
+    before: SourceWord | None = None
+    for word in (words[place] for place in places if not words[place].is_mark):
+        if before is None or word.text != before.text or word.form == before.form:
+            result.append(word.text)
+        before = word
+    return tuple(result)
+
+
+def _pauses(words: Sequence[SourceWord], glosses: Sequence[OutputGloss]) -> set[int]:
+    """Glosses behind which a mark of the sentence falls: all before it come from words before the mark."""
+    result: set[int] = set()
+    highest: list[int] = []
+    lowest: list[int] = []
+    for gloss in glosses:
+        highest.append(max([*highest[-1:], *gloss.sources], default=-1))
+    for gloss in reversed(glosses):
+        lowest.insert(0, min([*lowest[:1], *gloss.sources], default=len(words)))
+    for mark in (place for place, word in enumerate(words) if word.is_mark):
+        for place in range(len(glosses) - 1):
+            if highest[place] < mark < lowest[place + 1] and highest[place] >= 0:
+                result.add(place)
+                break
+    return result

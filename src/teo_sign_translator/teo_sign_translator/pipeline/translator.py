@@ -11,32 +11,33 @@ from typing import NamedTuple
 
 from teo_sign_languages import DEFAULT_LANGUAGE, LanguageError, load_language
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.model_files import card_schema
+from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.output.generality import may_be_generalised
-from teo_sign_translator.output.incorporation import (
+from teo_sign_translator.output.output_words import Spelling, divide, number_tokens, without_carried
+from teo_sign_translator.output.sign_choice import (
     INCORPORATED_NUMBERS,
     Incorporated,
+    SignChooser,
+    may_be_generalised,
     read_incorporated,
     with_numbers_incorporated,
 )
-from teo_sign_translator.output.output_words import divide, number_tokens, without_carried
-from teo_sign_translator.output.sign_choice import SignChooser
-from teo_sign_translator.output.spelling import Spelling
 from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Sentence, Translation
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.pipeline.back_end import BackEnd, TranslatedSentence, load_other_back_end
 from teo_sign_translator.pipeline.completeness import Completeness
-from teo_sign_translator.pipeline.given_sentences import GivenSentences
-from teo_sign_translator.pipeline.pointer_back_end import DEFAULT_BEAM_WIDTH, PointerBackEnd
+from teo_sign_translator.pipeline.pointer_back_end import (
+    DEFAULT_BEAM_WIDTH,
+    PointerBackEnd,
+    read_given_sentences,
+)
 from teo_sign_translator.pointer import load_sentence_model
 from teo_sign_translator.pointer.config import POINTER
-from teo_sign_translator.pointer.store import SCHEMA
+from teo_sign_translator.pointer.decoding import SCHEMA
 from teo_sign_translator.text.cleaning import clean
-from teo_sign_translator.text.reading import Clause, WordKind, read
+from teo_sign_translator.text.reading import Clause, WordKind, is_negated, read, sentence_type
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.sentence_type import is_negated, sentence_type
 
 #: Of the models that ship: translates sentences that it has not seen.
 DEFAULT_MODEL = POINTER
@@ -134,20 +135,21 @@ class Translator:
         rules = TextRules.load(data.text)
         spelling = Spelling(data)
         lists = SubstituteLists.load(data.text)
-        if card_schema(name, directory) == SCHEMA:
+        schema = read_card(name, directory).get("schema")
+        if schema == SCHEMA:
             morphology = Morphology.load(data.text)
             model = load_sentence_model(name, directory)
             back_end: BackEnd = PointerBackEnd(
                 model,
                 morphology,
                 Completeness.load(data.text),
-                GivenSentences.load(data.text),
-                Agreement.load(data.text / "agreement.tsv", data.text),
+                read_given_sentences(data.text),
+                Agreement.load(data.text),
                 beam_width=beam_width,
             )
             chooser = SignChooser(lists, morphology, substitutes, spelling)
         else:
-            back_end = load_other_back_end(name, directory, data.text)
+            back_end = load_other_back_end(name, schema, directory, data.text)
             chooser = SignChooser(lists, None, substitutes, spelling)
         incorporated = read_incorporated(data.text / INCORPORATED_NUMBERS)
         return cls(

@@ -6,7 +6,6 @@
 likeliest translations with it, and `load_sentence_model` reads one from its files.
 """
 
-from teo_sign_translator.pointer.decoding import Hypothesis, OutputGloss, SentenceModel
-from teo_sign_translator.pointer.store import load_sentence_model
+from teo_sign_translator.pointer.decoding import Hypothesis, OutputGloss, SentenceModel, load_sentence_model
 
 __all__ = ["Hypothesis", "OutputGloss", "SentenceModel", "load_sentence_model"]

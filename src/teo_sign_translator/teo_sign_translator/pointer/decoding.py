@@ -1,22 +1,25 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""From steps of a model to whole translations: the likeliest gloss each time, or a beam of several."""
+"""From steps of a model to whole translations, greedily or by beam search; and the models' files."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import dataclasses
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cache
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import ThreadpoolController  # type: ignore[import-untyped] # ships no types
 
-from teo_sign_translator.pointer.array_cells import Array
-from teo_sign_translator.pointer.array_model import ArrayModel, Ints, Memory
-from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX
+from teo_sign_translator.model_files import Weights, read_model, write_model
+from teo_sign_translator.pointer.array_model import Array, ArrayModel, Ints, Memory
+from teo_sign_translator.pointer.config import NetworkConfig
+from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, Vocabulary
 from teo_sign_translator.text.source_words import SourceWord
 
 #: Blanks behind the words in the equal-length layout: glosses that no word says (YO, PASADO, MOTIVO ...).
@@ -289,3 +292,42 @@ def one_core() -> AbstractContextManager[object]:
 @cache
 def _blas() -> ThreadpoolController:
     return ThreadpoolController().select(user_api="blas")
+
+
+#: Of the cards of sentence models.
+SCHEMA = 2
+# Of a card: the lists that number the words and glosses.
+_LISTS = "lexis"
+
+
+def load_sentence_model(name: str, directory: Path | None = None) -> SentenceModel:
+    """Load a sentence model; arguments and errors are those of `model_files.read_model`."""
+
+    def build(card: dict[str, Any], weights: Weights) -> SentenceModel:
+        vocabulary = Vocabulary.from_dict(card[_LISTS])
+        return SentenceModel(name, ArrayModel(NetworkConfig(**card["network"]), vocabulary, weights))
+
+    return read_model(name, SCHEMA, directory, build)
+
+
+def save_sentence_model(
+    name: str,
+    directory: Path,
+    *,
+    config: NetworkConfig,
+    vocabulary: Vocabulary,
+    weights: Weights,
+    card: Mapping[str, Any],
+) -> None:
+    """Write weights, in half precision, and card.
+
+    Args:
+        name: Of the model and its two files.
+        directory: Made if it is missing.
+        config: Goes into the card.
+        vocabulary: Likewise, in the order of the weights' rows.
+        weights: As `ArrayModel` takes them.
+        card: What else the card says.
+    """
+    content = {**card, "network": dataclasses.asdict(config), _LISTS: vocabulary.as_dict()}
+    write_model(name, directory, SCHEMA, weights, content, indent=None)

@@ -1,18 +1,88 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A sentence as the words that a sentence model reads: the same way in training and in use."""
+"""A sentence as the words that a sentence model reads: the same way in training and in use.
+
+A capital alone does not make a name. It says something only inside a sentence: at its beginning, behind a
+colon, an opening quote, a dash or `¿`, and in a text that is all in capitals, the rules of writing explain
+it. There a word that Spanish has besides (`Segura`, `Tranquilos`, `Rosa`) is that word, unless what stands
+beside it makes it a name.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from teo_sign_translator.morphology import Morphology, Reading
+from teo_sign_translator.morphology import MAX_READINGS, Morphology, Reading
 from teo_sign_translator.text.cleaning import clean, is_drawn_out, shortened
-from teo_sign_translator.text.names import introduces, is_persons_name, name_readings, opening_name
 from teo_sign_translator.text.numerals import roman_value
 from teo_sign_translator.text.reading import Clause, Word, WordKind, read
 from teo_sign_translator.text.rules import SpecialWords, TextRules
+
+#: Tags of people's names; names of places have signs, or are spelled like any other word.
+PEOPLE = ("NAME", "NAME:m", "NAME:f")
+
+_GIVEN = ("NAME:m", "NAME:f")
+
+
+def is_persons_name(reading: Reading) -> bool:
+    """Whether a reading is that of a person's name."""
+    return reading.tag in PEOPLE
+
+
+def _name_readings(
+    readings: Sequence[Reading], written: str, *, capital: bool, introduced: bool
+) -> tuple[Reading, ...]:
+    """Readings of a word inside a sentence: a name if it is introduced as one, or not known otherwise.
+
+    Args:
+        readings: Of the word in lower case.
+        written: The word as typed.
+        capital: Whether it has a capital that nothing else explains.
+        introduced: See `_introduces`.
+    """
+    names = tuple(filter(is_persons_name, readings))
+    others = tuple(reading for reading in readings if not is_persons_name(reading))
+    known = any(reading.exact for reading in others)
+    if not capital:
+        return tuple(readings) if introduced or not known else others
+    if any(reading.tag.startswith("NAME") for reading in readings):
+        return tuple(readings)
+    guessed = Reading(written, "NAME", exact=False)
+    if not known:
+        return (guessed, *others)[:MAX_READINGS]
+    # "Ana Cuesta": a word that everybody knows is a surname behind a name alone.
+    return (*others[: MAX_READINGS - 1], guessed) if introduced else (*others, *names)
+
+
+def _introduces(readings: Sequence[Reading], words: SpecialWords) -> bool:
+    """Whether a name may follow a word with these readings though it is a common word too."""
+    return is_persons_name(readings[0]) or any(reading.lemma in words.introducing for reading in readings)
+
+
+def _opening_name(
+    readings: Sequence[Reading], following: Sequence[Reading], words: SpecialWords
+) -> tuple[Reading, ...]:
+    """Readings of a capitalised word that begins a sentence: a given name first, if it is a subject.
+
+    A common noun that is a subject has an article (`La rosa huele`); a name has none (`Rosa viene mañana`).
+
+    Args:
+        readings: Of the word.
+        following: Of the word behind it; none at the end.
+        words: Of the language.
+    """
+    given = tuple(reading for reading in readings if reading.tag in _GIVEN)
+    says = (
+        bool(following)
+        and following[0].tag.startswith("V:")
+        and following[0].tag.endswith(words.subject_tags)
+    )
+    others = tuple(reading for reading in readings if not is_persons_name(reading))
+    if given and says:
+        return (*given, *others)
+    return others or tuple(readings)
+
 
 #: From so many words on, a capital on each of them is a habit of the writer's, not a row of names.
 _TITLE_CASE_WORDS = 5
@@ -33,7 +103,7 @@ class SourceWord:
             Roman one (`21`), a drawn-out word as it is written (`holaaaa` is `hola`). A mark is one of `,`
             (any mark that is a short pause), `.`, `?`, `!`; opening marks are left out.
         capital: Whether it was typed with a capital that neither the beginning of a sentence, a mark before
-            it (`names`) nor capitals all over explain.
+            it nor capitals all over explain.
         readings: What it may be, most likely first; one to four. A mark's only one has the tag MARK.
     """
 
@@ -77,7 +147,7 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
             if begins and written:
                 openings.append(len(words))
             capital = written and not begins and not shouted
-            introduced = bool(words) and introduces(words[-1].readings, special)
+            introduced = bool(words) and _introduces(words[-1].readings, special)
             words.append(_source_word(word, capital, morphology, shouted=shouted, introduced=introduced))
             begins = False
         if clause.end:
@@ -85,7 +155,7 @@ def words_of_clauses(clauses: Sequence[Clause], morphology: Morphology) -> tuple
         begins = clause.closes
     for place in openings:
         following = words[place + 1].readings if place + 1 < len(words) else ()
-        readings = opening_name(_all_readings(words[place], morphology), following, special)
+        readings = _opening_name(_all_readings(words[place], morphology), following, special)
         words[place] = replace(words[place], readings=readings)
     return tuple(_with_whole_names(words))
 
@@ -157,7 +227,7 @@ def _source_word(
         form = _written(form, morphology)
     if " " in form:  # two words that a short form makes one ("por ciento"); no lexicon lists them
         return SourceWord(text, form, capital, (Reading(form, "X"),))
-    readings = name_readings(morphology.readings(form), text, capital=capital, introduced=introduced)
+    readings = _name_readings(morphology.readings(form), text, capital=capital, introduced=introduced)
     return SourceWord(text, form, capital, readings)
 
 

@@ -8,11 +8,11 @@ import pytest
 
 from teo_sign_languages import load_language
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.known_signs import read_signs
+from teo_sign_translator.output.sign_coverage import read_signs
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.translator import Translator
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 ASE = load_language("ase")
 

@@ -11,13 +11,12 @@ from hypothesis import strategies as st
 
 from teo_common.text_folding import fold
 from teo_sign_languages import load_language
-from teo_sign_training.corpus.fillers import LIMIT
+from teo_sign_training.corpus.phrases import LIMIT
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.morphology.suffixing import SuffixedForms
 from teo_sign_translator.text.cleaning import clean
-from teo_sign_translator.text.reading import read
+from teo_sign_translator.text.reading import SentenceType, is_negated, read, sentence_type
 from teo_sign_translator.text.rules import TextRules
-from teo_sign_translator.text.sentence_type import SentenceType, is_negated, sentence_type
 from teo_sign_translator.text.source_words import source_words
 
 TEXT = load_language("ase").text

@@ -4,17 +4,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 import simplemma
 
-from teo_common.text_folding import strip_marks
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import lexicon
 from teo_sign_translator.morphology.conjugation import Conjugations
-from teo_sign_translator.morphology.tags import PERSONS, VERB_TAGS
+from teo_sign_translator.morphology.readings import PERSONS, VERB_TAGS
 
 CONJUGATIONS = Conjugations(data_file("morphology/conjugations.tsv"))
 
@@ -135,23 +131,3 @@ def test_simplemma_leads_nearly_every_form_to_the_same_infinitive() -> None:
             agreed += simplemma.lemmatize(CONJUGATIONS.forms(verb.lemma, tag)[0], lang="es") == verb.lemma
     assert total > 5000
     assert agreed / total > 0.95
-
-
-def test_every_form_is_read_back_without_its_marks() -> None:
-    for verb in lexicon.verbs()[::7]:
-        for tag in VERB_TAGS:
-            for form in CONJUGATIONS.forms(verb.lemma, tag):
-                assert (verb.lemma, tag, form) in CONJUGATIONS.readings(strip_marks(form))
-
-
-def test_an_unknown_verb_has_no_forms() -> None:
-    assert CONJUGATIONS.forms("xyzar", "V:inf") == ()
-
-
-@pytest.mark.parametrize("content", ["amar\to as a\tam\n", "amar\to as\n", b"\xff\xfe"])
-def test_a_damaged_file_is_refused_with_its_place(tmp_path: Path, content: str | bytes) -> None:
-    path = tmp_path / "conjugations.tsv"
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    with pytest.raises(TranslationError, match=r"conjugations\.tsv") as caught:
-        Conjugations(path)
-    assert caught.value.code == "invalid_data"

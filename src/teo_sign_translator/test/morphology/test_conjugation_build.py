@@ -14,12 +14,11 @@ from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology.conjugation import Conjugations
 from teo_sign_translator.morphology.conjugation_build import (
     Forms,
-    conjugate_like,
     correct,
     paradigm_lines,
     read_package,
 )
-from teo_sign_translator.morphology.tags import VERB_TAGS
+from teo_sign_translator.morphology.readings import VERB_TAGS
 
 FOLDER = "mlconjug3/data/conjug_manager/"
 SHIPPED = Conjugations(data_file("morphology/conjugations.tsv"))
@@ -98,13 +97,6 @@ def test_the_file_gives_back_what_was_written(tmp_path: Path) -> None:
         assert {tag: read.forms(verb, tag) for tag in VERB_TAGS} == forms
 
 
-def test_a_verb_can_have_the_endings_of_another() -> None:
-    model: Forms = {tag: SHIPPED.forms("aparecer", tag) for tag in VERB_TAGS}
-    forms = conjugate_like("parecer", model)
-    assert forms["V:ind:pres:1s"] == ("parezco",)
-    assert forms["V:part:ms"] == ("parecido",)
-
-
 @pytest.mark.parametrize("content", [b"", b"not a wheel", b"PK\x05\x06" + bytes(18)])
 def test_another_file_than_the_package_is_refused(content: bytes, tmp_path: Path) -> None:
     path = tmp_path / "other.whl"
@@ -112,11 +104,6 @@ def test_another_file_than_the_package_is_refused(content: bytes, tmp_path: Path
     with pytest.raises(TranslationError, match="expected the wheel of mlconjug3") as caught:
         read_package(path)
     assert caught.value.code == "invalid_data"
-
-
-def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(TranslationError, match="expected the wheel"):
-        read_package(tmp_path / "nothing.whl")
 
 
 def corrected(tmp_path: Path, line: str) -> dict[str, Forms]:

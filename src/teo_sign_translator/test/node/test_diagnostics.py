@@ -10,19 +10,6 @@ from teo_common.diagnostics import Level
 from teo_sign_translator.node.diagnostics import Statistics, diagnose
 
 
-def test_texts_are_counted_and_the_last_refusal_kept() -> None:
-    statistics = Statistics()
-    assert statistics.latency(50.0) is None
-    for milliseconds in range(1, 102):
-        statistics.add_done(milliseconds / 1000)
-    statistics.add_refused("[empty_text] nothing")
-    statistics.add_refused("[queue_full] too many")
-    assert (statistics.done, statistics.refused) == (101, 2)
-    assert statistics.last_refusal == "[queue_full] too many"
-    assert statistics.latency(50.0) == pytest.approx(0.051)
-    assert statistics.latency(99.0) == pytest.approx(0.100)
-
-
 def test_only_the_latest_texts_count_for_the_latency() -> None:
     statistics = Statistics()
     for latency in [9.0] * 10 + [0.001] * 1000:

@@ -1,71 +1,188 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Which sign, or which letters, a gloss is shown by."""
+"""Which sign, which signs together, or which letters a gloss is shown by."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 from word_by_word_model import MORPHOLOGY
 
+from teo_sign_translator.data_files import data_file
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.known_signs import read_signs
-from teo_sign_translator.output.output_words import OutputWord, lexical
-from teo_sign_translator.output.sign_choice import SignChooser
-from teo_sign_translator.output.substitutes import SubstituteLists, read_synonyms
+from teo_sign_translator.output.output_words import OutputWord, Spelling, lexical, number
+from teo_sign_translator.output.sign_choice import (
+    INCORPORATED_NUMBERS,
+    SignChooser,
+    read_incorporated,
+    with_numbers_incorporated,
+)
+from teo_sign_translator.output.sign_coverage import read_signs
+from teo_sign_translator.output.substitutes import SubstituteLists, Substitutes
 from teo_sign_translator.output.translation import Kind, Origin
 
-CHOOSER = SignChooser(SubstituteLists.load(), MORPHOLOGY)
+LISTS = SubstituteLists.load()
+CHOOSER = SignChooser(LISTS, MORPHOLOGY)
 
 
-def _output_word(gloss: str) -> OutputWord:
-    return OutputWord(signs=(gloss,), kind=Kind.LEXICAL, confidence=0.8, words=("x",), origin=Origin.MODEL)
+def _word(gloss: str, *, is_name: bool = False) -> OutputWord:
+    return lexical(gloss, ("x",), 0.8, is_name=is_name)
 
 
-def _chosen(output_word: OutputWord, *signs: str) -> list[tuple[str, Origin]]:
-    return [(" ".join(d.signs), d.origin) for d in CHOOSER.choose([output_word], set(signs))]
+def _chosen(word: OutputWord | str, *signs: str, general: bool = True) -> list[tuple[str, Origin]]:
+    words = [_word(word) if isinstance(word, str) else word]
+    return [(" ".join(each.signs), each.origin) for each in CHOOSER.choose(words, {*signs}, general=general)]
 
 
-def test_a_gloss_with_a_sign_keeps_it() -> None:
-    assert _chosen(_output_word("AMIGA"), "AMIGA", "AMIGO") == [("AMIGA", Origin.MODEL)]
+@pytest.mark.parametrize(
+    ("gloss", "signs", "shown", "origin"),
+    [
+        ("AMIGA", "AMIGA AMIGO", "AMIGA", Origin.MODEL),
+        ("AMIGA", "AMIGO", "AMIGO", Origin.LEMMA),
+        ("AUTO", "COCHE", "COCHE", Origin.SYNONYM),
+        ("COCHE", "AUTO", "AUTO", Origin.SYNONYM),
+        ("MEDICACIÓN", "MEDICINA DINERO", "MEDICINA", Origin.SYNONYM),
+        ("CANSANCIO", "CANSADO", "CANSADO", Origin.SYNONYM),
+        ("OPERACIÓN", "OPERAR", "OPERAR", Origin.SYNONYM),
+        ("FREGAR", "FREGADO", "FREGADO", Origin.SYNONYM),
+        ("ROSA", "FLOR PLANTA", "FLOR", Origin.HYPERNYM),
+        ("ROSA", "PLANTA", "PLANTA", Origin.HYPERNYM),
+        ("FLOR", "ROSA", "F L O R", Origin.SPELLED),  # never downward
+        ("CAJERO", "DINERO", "C A J E R O", Origin.SPELLED),  # all parts of a paraphrase or none
+        ("LÁPIZ", "COCHE", "L A P I Z", Origin.SPELLED),
+    ],
+)
+def test_the_nearest_sign_that_the_table_has_is_taken(
+    gloss: str, signs: str, shown: str, origin: Origin
+) -> None:
+    assert _chosen(gloss, *signs.split()) == [(shown, origin)]
 
 
-def test_else_the_sign_of_its_lemma_is_taken() -> None:
-    assert _chosen(_output_word("AMIGA"), "AMIGO") == [("AMIGO", Origin.LEMMA)]
+def test_several_signs_show_a_gloss_together() -> None:
+    assert _chosen("CAJERO", "DINERO", "MÁQUINA") == [
+        ("DINERO", Origin.PARAPHRASE),
+        ("MÁQUINA", Origin.PARAPHRASE),
+    ]
+    assert [gloss for gloss, _ in _chosen("PEDIATRA", "DOCTOR", "CRÍO")] == ["DOCTOR", "CRÍO"]  # by synonyms
+    assert _chosen("POR_FAVOR", "POR") == [("POR", Origin.MODEL), ("F A V O R", Origin.SPELLED)]
 
 
-def test_else_that_of_a_word_that_means_the_same() -> None:
-    assert _chosen(_output_word("AUTO"), "COCHE") == [("COCHE", Origin.SYNONYM)]
-    assert _chosen(_output_word("COCHE"), "AUTO") == [("AUTO", Origin.SYNONYM)]
-
-
-def test_else_it_is_spelled() -> None:
-    assert _chosen(_output_word("LÁPIZ"), "COCHE") == [("L A P I Z", Origin.SPELLED)]
-
-
-def test_a_gloss_of_several_words_is_shown_word_by_word() -> None:
-    assert _chosen(_output_word("POR_FAVOR"), "POR") == [("POR", Origin.MODEL), ("F A V O R", Origin.SPELLED)]
+def test_nothing_more_general_is_taken_where_the_sentence_would_change_or_two_words_be_the_same() -> None:
+    assert _chosen("ROSA", "FLOR", general=False) == [("R O S A", Origin.SPELLED)]
+    chosen = CHOOSER.choose([_word("ROSA"), _word("TULIPÁN")], {"FLOR"}, general=True)
+    assert [word.signs[0] for word in chosen].count("FLOR") == 1
 
 
 def test_a_name_is_spelled_unless_it_has_a_sign_of_its_own() -> None:
-    ana = lexical("ANA", ("Ana",), 0.8, is_name=True)
-    assert _chosen(ana, "HOLA") == [("A N A", Origin.SPELLED)]
-    assert _chosen(ana, "ANA") == [("ANA", Origin.MODEL)]
-    assert [output_word.signs for output_word in CHOOSER.choose([ana], None)] == [("A", "N", "A")]
+    rosa = _word("ROSA", is_name=True)
+    assert _chosen(rosa, "FLOR") == [("R O S A", Origin.SPELLED)]
+    assert _chosen(rosa, "ROSA") == [("ROSA", Origin.MODEL)]
+    assert [word.signs for word in CHOOSER.choose([rosa], None)] == [("R", "O", "S", "A")]
 
 
 def test_without_an_inventory_every_possible_sign_is_kept() -> None:
-    assert CHOOSER.choose([_output_word("LÁPIZ")], None) == [_output_word("LÁPIZ")]
-    (odd,) = CHOOSER.choose([_output_word("ŁÓDŹ")], None)
+    assert CHOOSER.choose([_word("LÁPIZ")], None) == [_word("LÁPIZ")]
+    (odd,) = CHOOSER.choose([_word("ŁÓDŹ")], None)
     assert odd.signs == ("L", "O", "D", "Z")
-    (long,) = CHOOSER.choose([_output_word("A" * 65)], None)
+    (long,) = CHOOSER.choose([_word("A" * 65)], None)
     assert long.kind is Kind.LETTER
 
 
 def test_letters_share_the_confidence_and_the_words_of_their_gloss() -> None:
-    (output_word,) = CHOOSER.choose([_output_word("LÁPIZ")], set())
-    assert (output_word.confidence, output_word.words) == (0.8, ("x",))
+    (word,) = CHOOSER.choose([_word("LÁPIZ")], set())
+    assert (word.confidence, word.words) == (0.8, ("x",))
+
+
+@pytest.mark.parametrize("allowed", list(Substitutes))
+def test_each_step_can_be_switched_off(allowed: Substitutes) -> None:
+    chooser = SignChooser(LISTS, MORPHOLOGY, allowed)
+    signs = {"MEDICINA", "DINERO", "MÁQUINA", "FLOR"}
+    glosses = ("MEDICACIÓN", "CAJERO", "ROSA")
+    words = [lexical(gloss, (gloss,), 0.8) for gloss in glosses]
+    origins = {word.origin for word in chooser.choose(words, signs, general=True)} - {Origin.SPELLED}
+    steps = (Origin.SYNONYM, Origin.PARAPHRASE, Origin.HYPERNYM)
+    assert origins == {*steps[: int(allowed)]}
+
+
+def test_unknown_substitutes_are_refused_with_those_that_there_are() -> None:
+    assert Substitutes.named("paraphrase") is Substitutes.PARAPHRASE
+    with pytest.raises(TranslationError, match="none, synonym, paraphrase, hypernym") as error:
+        Substitutes.named("all")
+    assert error.value.code == "unknown_substitutes"
+
+
+def test_the_lists_are_long_enough_to_matter_and_lead_nowhere_back() -> None:
+    assert len(LISTS.synonyms) > 1000
+    assert len(LISTS.paraphrases) > 200
+    assert len(LISTS.hypernyms) > 500
+    assert all(gloss not in above for gloss, above in LISTS.hypernyms.items())
+    assert all(gloss not in others for gloss, others in LISTS.synonyms.items())
+
+
+INCORPORATED = read_incorporated(data_file(INCORPORATED_NUMBERS))
+UNITS = frozenset({"SEMANA", "MES", "DOS_SEMANAS", "TRES_MESES", "NOSOTROS_DOS", "YO"})
+
+
+def _with_numbers(text: str, signs: frozenset[str] | None = UNITS) -> list[OutputWord]:
+    words = [
+        number(word, (word,), 0.9)[0] if word.isdigit() else lexical(word, (word.lower(),), 0.8)
+        for word in text.split()
+    ]
+    return with_numbers_incorporated(words, signs, INCORPORATED)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("2 SEMANA", "DOS_SEMANAS"),
+        ("PASADO SEMANA 2 YO", "PASADO DOS_SEMANAS YO"),
+        ("MES 3", "TRES_MESES"),
+        ("NOSOTRAS 2", "NOSOTROS_DOS"),
+        # No sign for it, no number that is taken up, no unit of time, nothing beside it.
+        ("MES 2", "MES 2"),
+        ("SEMANA 6", "SEMANA 6"),
+        ("SEMANA 22", "SEMANA 22"),
+        ("CASA 2", "CASA 2"),
+        ("2 YO SEMANA", "2 YO SEMANA"),
+        ("SEMANA", "SEMANA"),
+        ("", ""),
+    ],
+)
+def test_a_number_goes_into_the_unit_beside_it(text: str, expected: str) -> None:
+    assert " ".join(sign for word in _with_numbers(text) for sign in word.signs) == expected
+
+
+def test_one_sign_says_the_words_of_both_and_is_as_sure_as_the_less_sure() -> None:
+    (word,) = _with_numbers("2 SEMANA")
+    assert (word.words, word.confidence) == (("2", "semana"), 0.8)
+    assert len(_with_numbers("2 SEMANA", None)) == 2  # not while the table is not known
+
+
+@pytest.mark.parametrize(
+    ("word", "signs"),
+    [
+        ("Ana", "A N A"),
+        ("Guillermo", "G U I LL E R M O"),
+        ("Chorra", "CH O RR A"),
+        ("LLUVIA", "LL U V I A"),
+        ("Ñoño", "Ñ O Ñ O"),
+        ("n\u0303u", "Ñ U"),
+        ("pingüino", "P I N G U I N O"),
+        ("Barça", "B A R C A"),
+        ("Müßig", "M U S S I G"),
+        ("llll", "LL LL"),
+        ("", ""),
+    ],
+)
+def test_spelling(word: str, signs: str) -> None:
+    assert Spelling.load().letters(word) == tuple(signs.split())
+    assert Spelling.load().unsignable(word) == ()
+
+
+def test_what_no_letter_sign_exists_for_is_named_once() -> None:
+    assert Spelling.load().unsignable("Иван и Иван"[:4] + "aИ") == ("И", "в", "а", "н")
 
 
 def test_a_file_of_signs_holds_one_gloss_a_line(tmp_path: Path) -> None:
@@ -74,19 +191,17 @@ def test_a_file_of_signs_holds_one_gloss_a_line(tmp_path: Path) -> None:
     assert read_signs(path) == {"HOLA", "NIÑO"}
 
 
-@pytest.mark.parametrize("content", [b"HOLA ADI\xc3\x93S", b"A-N-A", b"\xff", b"12"])
-def test_a_damaged_file_of_signs_is_refused(tmp_path: Path, content: bytes) -> None:
-    path = tmp_path / "signs.txt"
-    path.write_bytes(content)
-    with pytest.raises(TranslationError, match=r"signs\.txt") as error:
-        read_signs(path)
-    assert error.value.code == "invalid_data"
-
-
-@pytest.mark.parametrize("line", ["COCHE", "COCHE, AUTO\nAUTO, CARRO", "COCHE, el auto", "COCHE, "])
-def test_a_damaged_list_of_synonyms_is_refused_with_file_and_line(tmp_path: Path, line: str) -> None:
-    path = tmp_path / "synonyms.tsv"
-    path.write_text(line, encoding="utf-8")
-    with pytest.raises(TranslationError, match=r"synonyms\.tsv, line") as error:
-        read_synonyms(path)
-    assert error.value.code == "invalid_data"
+def test_a_tables_folder_says_which_glosses_have_signs_by_their_standing(tmp_path: Path) -> None:
+    for gloss, kind, standing in (
+        ("HOLA", "lexical", "recorded"),
+        ("CASA", "lexical", "described"),
+        ("TREN", "lexical", "sketched"),
+        ("A", "letter", "recorded"),
+    ):
+        content = {"gloss": gloss, "kind": kind, "provenance": {"standing": standing}}
+        (tmp_path / f"{gloss}.json").write_text(json.dumps(content), encoding="utf-8")
+    assert read_signs(tmp_path) == {"HOLA", "CASA"}
+    assert read_signs(tmp_path, "recorded") == {"HOLA"}
+    assert read_signs(tmp_path, "sketched") == {"HOLA", "CASA", "TREN"}
+    with pytest.raises(TranslationError, match="described"):
+        read_signs(tmp_path, "good")

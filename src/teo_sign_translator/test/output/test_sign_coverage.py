@@ -11,7 +11,7 @@ from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.sign_coverage import Coverage, Showing, most_wanted, shown_words
 from teo_sign_translator.output.substitutes import SubstituteLists
 from teo_sign_translator.output.translation import Sentence, Translation
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 _SIGNS = frozenset({"CASA", "DINERO", "MÁQUINA", "COCHE", "FLOR", "NO"})
 _LISTS = SubstituteLists(
@@ -70,37 +70,21 @@ def test_a_spelled_word_whose_sign_has_no_source_is_a_guess() -> None:
     assert word.showing is Showing.GUESS
 
 
-def test_a_paraphrase_of_a_word_that_has_no_sign_counts_once() -> None:
+def test_words_sentences_and_wishes_are_counted() -> None:
     counted = Coverage()
-    counted.add(_translation(_sentence(_word("CAJERO"), _word("CASA"))))
-    assert (counted.words, counted.signed, counted.whole) == (2, 2, 1)
-
-
-def test_a_sentence_is_whole_with_a_spelled_name_and_not_with_a_spelled_word() -> None:
     name = replace(_word("ANA"), is_name=True)
-    counted = Coverage()
-    counted.add(_translation(_sentence(_word("CASA"), name), _sentence(_word("CASA"), _word("PEZ"))))
-    assert (counted.sentences, counted.whole) == (2, 1)
-
-
-def test_what_is_wanted_most_comes_first_with_its_first_sentence() -> None:
-    counted = Coverage()
-    for words in (("PEZ",), ("CASA", "MAR"), ("MAR", "NO")):
-        counted.add(_translation(_sentence(*map(_word, words))))
-    assert list(most_wanted(counted, 5)) == [("MAR", 2), ("PEZ", 1)]
-    assert counted.examples["MAR"] == "casa mar"
-
-
-def test_guesses_are_wanted_like_the_missing_and_told_apart() -> None:
-    counted = Coverage()
-    counted.add(_translation(_sentence(_word("PODER"), _word("PEZ"))), frozenset({"PODER"}))
-    assert dict(counted.guessed) == {"PODER": 1}
-    assert dict(counted.missing) == {"PEZ": 1}
-
-
-def test_words_of_the_text_without_a_sign_are_counted() -> None:
-    counted = Coverage()
-    counted.add(
-        _translation(_sentence(_word("CASA"), dropped=("la", "de")), _sentence(_word("NO"), dropped=("la",)))
+    sentences = (
+        _sentence(_word("CAJERO"), _word("CASA"), dropped=("la", "de")),  # a paraphrase counts once
+        _sentence(_word("CASA"), name, dropped=("la",)),
+        _sentence(_word("MAR"), _word("PEZ")),
+        _sentence(_word("MAR"), _word("PODER")),
     )
+    for sentence in sentences:
+        counted.add(_translation(sentence), frozenset({"PODER"}))
+    assert (counted.words, counted.signed) == (8, 3)
+    assert (counted.sentences, counted.whole) == (4, 2)  # a spelled name is no lack
+    assert dict(counted.missing) == {"MAR": 2, "PEZ": 1}
+    assert dict(counted.guessed) == {"PODER": 1}
     assert dict(counted.dropped) == {"la": 2, "de": 1}
+    assert list(most_wanted(counted, 1)) == [("MAR", 2)]
+    assert counted.examples["MAR"] == "mar pez"

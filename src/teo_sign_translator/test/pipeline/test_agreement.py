@@ -4,11 +4,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
 from teo_sign_translator.pipeline.agreement import Agreement
 from teo_sign_translator.text.source_words import source_words
@@ -106,21 +103,3 @@ def test_other_signs_have_no_inflection() -> None:
     assert AGREEMENT.inflection("QUERER", [1], words) == ""
     assert AGREEMENT.inflection("AYUDAR", [], words) == ""
     assert AGREEMENT.inflection("AYUDAR", [0, 1], words) == ""
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "DAR\tdar\tgives\t-",
-        "DAR\tdar\tdative\tCABEZA",
-        "DOLER\tdoler\tbody\t-",
-        "DAR\tdar\tdative\t-\nDAR\tdar\tdative\t-",
-    ],
-)
-def test_a_list_that_is_not_right_is_refused_with_its_line(tmp_path: Path, line: str) -> None:
-    file = tmp_path / "agreement.tsv"
-    file.write_text(line + "\n", encoding="utf-8")
-    with pytest.raises(TranslationError) as refusal:
-        Agreement.load(file)
-    assert refusal.value.code == "invalid_data"
-    assert "agreement.tsv" in str(refusal.value)

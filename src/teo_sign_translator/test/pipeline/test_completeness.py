@@ -4,18 +4,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from word_by_word_model import MORPHOLOGY
 
 from teo_sign_training.corpus import Pair
-from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.pipeline.completeness import (
     PUT_BACK_CONFIDENCE,
     Completeness,
-    FunctionWords,
-    read_gloss_words,
 )
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
 from teo_sign_translator.text.source_words import source_words
@@ -51,7 +46,7 @@ def _completed(sentence: str, *hypotheses: str) -> str:
     ],
 )
 def test_articles_copulas_auxiliaries_and_most_prepositions_may_be_left_out(sentence: str, kept: str) -> None:
-    words = FunctionWords.load()
+    words = COMPLETENESS.function_words
     read = source_words(sentence, MORPHOLOGY)
     assert " ".join(word.text for word in read if not words.may_be_left_out(word)) == kept
 
@@ -156,21 +151,3 @@ def test_what_is_put_back_is_marked_and_makes_its_sentence_uncertain() -> None:
 
 def test_a_sentence_of_function_words_alone_has_them_all() -> None:
     assert _completed("de la", "") == "DE EL"
-
-
-@pytest.mark.parametrize("line", ["DEF\tel", "PREP\ta\nPREP\tde", "PREP"])
-def test_a_damaged_list_of_function_words_is_refused_with_file_and_line(tmp_path: Path, line: str) -> None:
-    path = tmp_path / "function_words.tsv"
-    path.write_text(line, encoding="utf-8")
-    with pytest.raises(TranslationError, match=r"function_words\.tsv, line") as error:
-        FunctionWords.load(path)
-    assert error.value.code == "invalid_data"
-
-
-@pytest.mark.parametrize("line", ["edad\taño", "EDAD\taño\nEDAD\tvejez", "EDAD", "EDAD\taño,,vejez"])
-def test_a_damaged_list_of_glosses_is_refused_with_file_and_line(tmp_path: Path, line: str) -> None:
-    path = tmp_path / "gloss_words.tsv"
-    path.write_text(line, encoding="utf-8")
-    with pytest.raises(TranslationError, match=r"gloss_words\.tsv, line") as error:
-        read_gloss_words(path)
-    assert error.value.code == "invalid_data"

@@ -10,7 +10,6 @@ from collections import Counter
 
 import pytest
 
-from teo_sign_translator.output.substitutes import Substitutes
 from teo_sign_translator.output.translation import Kind
 from teo_sign_translator.pipeline.pointer_back_end import MOST_WORDS
 from teo_sign_translator.pipeline.translator import Translator
@@ -69,19 +68,6 @@ def test_what_no_token_stands_for_is_listed() -> None:
     )
     assert {"La", "de", "en"} <= {*sentence.dropped}
     assert TRANSLATOR.translate("La casa").as_dict()["sentences"][0]["dropped"] == ["La"]
-
-
-def test_substitutes_can_be_switched_off() -> None:
-    signs = {"YO", "FLOR", "MEDICINA", "DINERO", "MÁQUINA"}
-    texts = {"Compré una rosa.": "FLOR", "la medicación": "MEDICINA", "el cajero": "DINERO MÁQUINA"}
-    try:
-        for text, sign in texts.items():
-            TRANSLATOR.substitutes = Substitutes.HYPERNYM
-            assert sign in str(TRANSLATOR.translate(text, signs))
-            TRANSLATOR.substitutes = Substitutes.NONE
-            assert sign not in str(TRANSLATOR.translate(text, signs))
-    finally:
-        TRANSLATOR.substitutes = Substitutes.HYPERNYM
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from teo_sign_translator.output.translation import Kind, Origin, Sentence
 from teo_sign_translator.pipeline.pointer_back_end import MOST_WORDS, divided
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 from teo_sign_translator.text.source_words import SourceWord, source_words
 
 

@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from word_by_word_model import translator_with
 
-from teo_sign_training.lstm256.gloss_list import GlossList
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.output.spelling import Spelling
+from teo_sign_translator.output.output_words import Spelling
 from teo_sign_translator.output.translation import Kind, Translation
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.pointer import Hypothesis, OutputGloss
@@ -54,56 +54,13 @@ TRANSLATORS = {
 }
 ALL = pytest.mark.parametrize("name", TRANSLATORS)
 REASONS = {"empty_text", "nothing_to_sign", "unsignable_text", "broken_encoding", "text_too_long"}
+OTHERS = """
+    Ana, Pedro, Guillermo, me, llamo, tengo, años, 7, 12, 3,5, 1.000, treinta, y, cinco, mil, X,
+    que, tal, COVID-19, nº, 1º, 15:30, 25/12, EE. UU., xq, tb, holaaaa, km, 5 km, III, venga,
+    levántate, colegio, quién, es, dame, eso, cuidado, romperse, zzz, ñandú, café
+"""
 TYPED = st.sampled_from(
-    [
-        *GlossList.load(),
-        *[
-            "Ana",
-            "Pedro",
-            "Guillermo",
-            "me",
-            "llamo",
-            "tengo",
-            "años",
-            "7",
-            "12",
-            "3,5",
-            "1.000",
-            "treinta",
-            "y",
-            "cinco",
-            "mil",
-            "X",
-            "que",
-            "tal",
-            "COVID-19",
-            "nº",
-            "1º",
-            "15:30",
-            "25/12",
-            "EE. UU.",
-            "xq",
-            "tb",
-            "holaaaa",
-            "km",
-            "5 km",
-            "III",
-        ],
-        *[
-            "venga",
-            "levántate",
-            "colegio",
-            "quién",
-            "es",
-            "dame",
-            "eso",
-            "cuidado",
-            "romperse",
-            "zzz",
-            "ñandú",
-            "café",
-        ],
-    ]
+    [*GlossList.load(), *(word.strip() for word in OTHERS.replace("\n", " ").split(", "))]
 )
 SEPARATORS = st.sampled_from(
     [" ", " ", " ", ", ", ". ", "? ", "! ", " ¿", " ¡", "… ", "\n", " - ", "; ", " 😀 ", '" ']

@@ -15,11 +15,11 @@ from threadpoolctl import threadpool_info
 
 from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import ExampleReader
-from teo_sign_training.fitting.fitting import make_vocabulary
+from teo_sign_training.fitting.fitting import ZOO, make_vocabulary
 from teo_sign_training.fitting.network import Network, on_device
 from teo_sign_translator.pointer import Hypothesis
 from teo_sign_translator.pointer.array_model import ArrayModel
-from teo_sign_translator.pointer.config import POINTER, ZOO
+from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.pointer.decoding import SentenceModel, one_core
 
 
@@ -29,8 +29,8 @@ def pointer() -> SentenceModel:
     return small_model(POINTER, fit_small(POINTER, sentence_pairs(600), epochs=6, rare_word=5.0))
 
 
-@pytest.mark.parametrize("name", ZOO)
-def test_each_model_learns_a_few_sentences_by_heart(name: str) -> None:
+@pytest.mark.parametrize("name", ["rnn_equal", "gru", "lstm_stacked", "gru_attention", POINTER])
+def test_each_mechanism_learns_a_few_sentences_by_heart(name: str) -> None:
     pairs = sentence_pairs(4)
     # Repeated, because rarer words would be unknown ones.
     # Stacked LSTMs are slow to begin; simple RNNs forget with steps as large as theirs and need more of them.

@@ -7,8 +7,7 @@ from __future__ import annotations
 import pytest
 
 from teo_sign_translator.morphology import Morphology, lexicon
-from teo_sign_translator.text.names import PEOPLE
-from teo_sign_translator.text.source_words import SourceWord, source_words
+from teo_sign_translator.text.source_words import PEOPLE, SourceWord, source_words
 
 MORPHOLOGY = Morphology.load()
 

@@ -6,7 +6,7 @@ import pytest
 
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.text.cleaning import clean
-from teo_sign_translator.text.reading import read
+from teo_sign_translator.text.reading import SentenceType, is_negated, read, sentence_type
 from teo_sign_translator.text.rules import TextRules
 
 NUMBERS = TextRules.load().numbers
@@ -129,18 +129,43 @@ def test_number_words_are_read(words: str, value: int, used: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "values"),
+    ("text", "kind"),
     [
-        ("12", ["12"]),
-        ("1.000", ["1000"]),
-        ("1.234.567,8", ["1234567,8"]),
-        ("3,5", ["3,5"]),
-        ("3.5", ["3,5"]),
-        ("1,2,3", ["1", "2", "3"]),
-        ("12.10.2024", ["12", "", "2024"]),
-        ("007", ["007"]),
-        ("x", []),
+        ("¿Vienes?", SentenceType.YES_NO_QUESTION),
+        ("Vienes?", SentenceType.YES_NO_QUESTION),
+        ("¿Dónde vives?", SentenceType.WH_QUESTION),
+        ("¿de donde eres?", SentenceType.WH_QUESTION),
+        ("¿Y tú cómo estás?", SentenceType.WH_QUESTION),
+        ("¿Sabes cómo se llama?", SentenceType.YES_NO_QUESTION),
+        ("¿Haces qué?", SentenceType.WH_QUESTION),
+        ("Hola, ¿cuándo vienes?", SentenceType.WH_QUESTION),
+        ("donde vives", SentenceType.WH_QUESTION),
+        ("como estas", SentenceType.WH_QUESTION),
+        ("cuando vienes", SentenceType.WH_QUESTION),
+        ("Cuando llegue, te llamo", SentenceType.STATEMENT),
+        ("Como pan", SentenceType.STATEMENT),
+        ("Que tengas buen día", SentenceType.STATEMENT),
+        ("¡Qué bien!", SentenceType.EXCLAMATION),
+        ("¡¿Vienes?!", SentenceType.YES_NO_QUESTION),
+        ("Vengo.", SentenceType.STATEMENT),
     ],
 )
-def test_digits_are_read_as_spanish_writes_them(text: str, values: list[str]) -> None:
-    assert [part.value for part in NUMBERS.match_digits(text, 0)] == values
+def test_the_type_of_a_sentence(text: str, kind: SentenceType) -> None:
+    assert sentence_type(read(text).clauses) is kind
+
+
+@pytest.mark.parametrize(
+    ("text", "negated"),
+    [
+        ("No vengo", True),
+        ("Nooooo vengo", True),
+        ("Nunca vengo", True),
+        ("No hay nadie", True),
+        ("Vienes, ¿no?", False),
+        ("De nada", False),
+        ("Vengo", False),
+        ("Una nota", False),
+    ],
+)
+def test_whether_a_sentence_is_negated(text: str, negated: bool) -> None:
+    assert is_negated(read(text).clauses) is negated

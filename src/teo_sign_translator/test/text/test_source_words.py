@@ -55,6 +55,11 @@ def _forms(sentence: str) -> list[str]:
         ("UC3M, mp3 y 3m", "uc3m|,|mp3|y|3|metros"),
         ("el 3.er piso izda.", "el|tercero|piso|izquierda|."),
         ("ciento un días", "101|días"),
+        ("1.234.567,8 y 1,2,3 y 007", "1234567,8|y|1|2|3|y|007"),
+        (
+            "D. Juan, los km. de p.  ej. ti, vitamina d",
+            "don|juan|,|los|kilómetros|de|por|ejemplo|ti|,|vitamina|d",
+        ),
         ("Julia Díez, veintidós, veintidos", "julia|díez|,|22|,|22"),
         ("ﬁn", "fin"),
         ("Me gusta 😀 mucho!!!", "me|gusta|mucho|!"),

@@ -16,11 +16,12 @@ from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
-from teo_sign_training.fitting.devices import named_device
+from teo_sign_training.cli.command import csv_table, markdown_table, plot_png, run_command
+from teo_sign_training.fitting.fitting import ZOO, TrainingConfig, network_config
+from teo_sign_training.fitting.network import named_device
 from teo_sign_training.fitting.run import TrainedModel, load_training_data, train_model
-from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.config import ZOO, NetworkConfig, TrainingConfig, network_config
+from teo_sign_translator.pointer.config import NetworkConfig
 from teo_sign_translator.text.source_words import source_words
 
 if TYPE_CHECKING:
@@ -54,16 +55,18 @@ def run(
         name: train_model(name, network, config, data, read, out, command, console, where)
         for name, network in networks.items()
     }
-    rows = comparison(networks, trained)
+    rows = _comparison(networks, trained)
     console.print(_table(trained, f"{len(data.train)} pairs, at most {epochs} epochs: exact matches"))
     write_atomically(out / "comparison.csv", csv_table(rows).encode())
     write_atomically(out / "comparison.md", "\n".join([*markdown_table(rows), ""]).encode())
-    write_atomically(out / "loss.png", loss_plot(trained))
-    write_atomically(out / "exact.png", exact_plot(trained))
+    write_atomically(out / "loss.png", _loss_plot(trained))
+    write_atomically(out / "exact.png", _exact_plot(trained))
     console.print(f"written to {out}", highlight=False)
 
 
-def comparison(networks: Mapping[str, NetworkConfig], trained: Mapping[str, TrainedModel]) -> list[list[str]]:
+def _comparison(
+    networks: Mapping[str, NetworkConfig], trained: Mapping[str, TrainedModel]
+) -> list[list[str]]:
     """The table, its head first: exact matches and BLEU of each model on each held-out split."""
     splits = list(next(iter(trained.values())).scores)
     head = ["model", "cell", "layers", "layout", "reads", "attention", "copy", "weights"]
@@ -99,7 +102,7 @@ def _table(trained: Mapping[str, TrainedModel], title: str) -> Table:
     return table
 
 
-def loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
+def _loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     """Loss on the development pairs after each epoch, one line a model, as PNG."""
 
     def draw(axes: Axes) -> None:
@@ -123,7 +126,7 @@ def loss_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     return plot_png(draw, size=(8, 5))
 
 
-def exact_plot(trained: Mapping[str, TrainedModel]) -> bytes:
+def _exact_plot(trained: Mapping[str, TrainedModel]) -> bytes:
     """Exact matches of each model on each held-out split, as PNG."""
 
     def draw(axes: Axes) -> None:

@@ -18,15 +18,14 @@ from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
+from teo_sign_training.cli.command import LanguageOption, run_command
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.corpus_files import read_splits, sample
-from teo_sign_training.fitting.examples import Reader
+from teo_sign_training.corpus.pairs import read_splits, sample
+from teo_sign_training.corpus.paper_pairs import Reader
 from teo_sign_training.fitting.metrics import Score, score
-from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.pointer.store import load_sentence_model
+from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model
 from teo_sign_translator.text.source_words import source_words
 
 # Sentences translated between two moves of the progress bar.
@@ -67,7 +66,7 @@ def outcomes(
     return result
 
 
-def scores_by(results: Sequence[Outcome], key: str) -> dict[str, Score]:
+def _scores_by(results: Sequence[Outcome], key: str) -> dict[str, Score]:
     """Scores of all outcomes with the same `split`, or of the same family of rules (`rule`)."""
     groups: defaultdict[str, list[Outcome]] = defaultdict(list)
     for each in results:
@@ -106,8 +105,8 @@ def run(
         raise TranslationError("invalid_data", f"expected splits of {', '.join(splits)}, got {unknown}")
     chosen = [pair for name in wanted for pair in sample(splits[name], pairs, seed)]
     results = outcomes(loaded, chosen, read, beam, console)
-    by_rule = scores_by(results, "rule")
-    console.print(_table(f"{model}, beam {beam}", "split", scores_by(results, "split")))
+    by_rule = _scores_by(results, "rule")
+    console.print(_table(f"{model}, beam {beam}", "split", _scores_by(results, "split")))
     console.print(
         _table("by rule, worst first", "rule", dict(sorted(by_rule.items(), key=lambda item: item[1].exact)))
     )

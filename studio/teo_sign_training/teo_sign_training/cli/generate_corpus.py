@@ -14,10 +14,10 @@ from rich.console import Console
 from rich.progress import track
 
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
+from teo_sign_training.cli.command import LanguageOption, run_command
 from teo_sign_training.corpus.generator import Generator
-from teo_sign_training.corpus.pairs_file import SPLITS, write_pairs
+from teo_sign_training.corpus.pairs import SPLITS, write_pairs
 from teo_sign_training.corpus.paper_pairs import own_pairs
-from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.morphology import Morphology
 
 FILE_NAME = "pairs.tsv"

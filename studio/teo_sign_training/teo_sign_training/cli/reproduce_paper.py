@@ -16,18 +16,18 @@ from rich.progress import Progress
 from rich.table import Table
 
 from teo_common.atomic_files import write_atomically
+from teo_sign_training.cli.command import csv_table, markdown_table, plot_png, run_command
 from teo_sign_training.corpus.paper_pairs import PublishedPair, paper_pairs, paper_predictions
 from teo_sign_training.fitting.lstm256_fitting import Example, LstmTrainingConfig, Training, train
-from teo_sign_training.lstm256.tokens import published_tokens
-from teo_sign_translator.cli.command import csv_table, markdown_table, plot_png, run_command
+from teo_sign_training.lstm256.seq2seq import published_tokens
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 #: The two step sizes that the paper compares; its predictions are made with the first.
-LEARNING_RATES = (0.0001, 0.001)
+_LEARNING_RATES = (0.0001, 0.001)
 #: Part of the pairs that is held out to measure the validation loss.
-HELD_OUT = 0.2
+_HELD_OUT = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +49,11 @@ class Run:
 
 def split(pairs: list[PublishedPair]) -> tuple[list[PublishedPair], list[PublishedPair]]:
     """The pairs to train on, and the last 20 % (rounded up) held out: 31 and 8 of 39."""
-    count = len(pairs) - math.ceil(HELD_OUT * len(pairs))
+    count = len(pairs) - math.ceil(_HELD_OUT * len(pairs))
     return pairs[:count], pairs[count:]
 
 
-def reproduce(config: LstmTrainingConfig, progress: Progress) -> Run:
+def _reproduce(config: LstmTrainingConfig, progress: Progress) -> Run:
     """Train with one learning rate on the published pairs."""
     pairs = paper_pairs()
     examples: list[Example] = [(published_tokens(pair.sentence), pair.glosses) for pair in pairs]
@@ -81,11 +81,11 @@ def run(
     console = Console()
     with Progress(console=console) as progress:
         runs = [
-            reproduce(
+            _reproduce(
                 LstmTrainingConfig(learning_rate=rate, epochs=epochs, batch_size=batch_size, seed=seed),
                 progress,
             )
-            for rate in LEARNING_RATES
+            for rate in _LEARNING_RATES
         ]
     out.mkdir(parents=True, exist_ok=True)
     for each in runs:
@@ -93,7 +93,7 @@ def run(
         write_atomically(out / f"{stem}.csv", _loss_csv(each.training).encode())
         write_atomically(out / f"{stem}.png", _loss_png(each))
     rows = _rows(runs)
-    remarks = differences(runs)
+    remarks = _differences(runs)
     write_atomically(out / "predictions.csv", csv_table(rows).encode())
     write_atomically(out / "predictions.md", _markdown(rows, remarks).encode())
     table = Table(*rows[0], title="Predictions for the paper's first ten sentences")
@@ -105,7 +105,7 @@ def run(
     console.print(f"written to {out}", highlight=False)
 
 
-def differences(runs: list[Run]) -> list[str]:
+def _differences(runs: list[Run]) -> list[str]:
     """What came out, what differs from the paper, and why, in sentences."""
     pairs = paper_pairs()
     shown = paper_predictions()

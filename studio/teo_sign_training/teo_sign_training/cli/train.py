@@ -13,12 +13,13 @@ import typer
 from rich.console import Console
 
 from teo_sign_languages import DEFAULT_LANGUAGE, load_language
-from teo_sign_training.fitting.devices import named_device
-from teo_sign_training.fitting.lstm256_run import SHIPPED_CONFIG, train_published
+from teo_sign_training.cli.command import LanguageOption, run_command
+from teo_sign_training.fitting.fitting import ZOO, TrainingConfig, network_config
+from teo_sign_training.fitting.lstm256_fitting import SHIPPED_CONFIG, train_published
+from teo_sign_training.fitting.network import named_device
 from teo_sign_training.fitting.run import load_training_data, train_model
-from teo_sign_translator.cli.command import LanguageOption, run_command
 from teo_sign_translator.morphology import Morphology
-from teo_sign_translator.pointer.config import POINTER, ZOO, TrainingConfig, network_config
+from teo_sign_translator.pointer.config import POINTER
 from teo_sign_translator.text.source_words import source_words
 
 #: The published model; it needs no corpus.

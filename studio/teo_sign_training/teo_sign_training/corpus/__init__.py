@@ -6,6 +6,6 @@
 keep them. The README beside this file tells how a rule is written.
 """
 
-from teo_sign_training.corpus.pairs_file import SPLITS, Pair, read_pairs, write_pairs
+from teo_sign_training.corpus.pairs import SPLITS, Pair, read_pairs, write_pairs
 
 __all__ = ["SPLITS", "Pair", "read_pairs", "write_pairs"]

@@ -4,20 +4,225 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import accumulate
+from random import Random
+from typing import NamedTuple, TypeVar
 
-from teo_sign_training.corpus.choosers import Chooser
-from teo_sign_training.corpus.fillers import NoFillerError, can_be_in_words, number_phrase, word_phrase
-from teo_sign_training.corpus.grammar import LEXICAL, Grammar, Rule, Slot, fits
-from teo_sign_training.corpus.sides import Sides
-from teo_sign_training.corpus.tenses import Tenses
-from teo_sign_training.corpus.tokens import Phrase, SaidVerb, looked_up
-from teo_sign_training.corpus.verb_phrase import denied_once, without_addressee
-from teo_sign_training.corpus.words import WordLists
-from teo_sign_training.corpus.written_text import write
+from teo_sign_training.corpus.grammar import (
+    CLITIC,
+    LEXICAL,
+    VERB,
+    GlossItem,
+    Grammar,
+    Rule,
+    Shape,
+    Slot,
+    Tenses,
+    TextItem,
+    fits,
+)
+from teo_sign_training.corpus.phrases import (
+    NoFillerError,
+    Phrase,
+    SaidVerb,
+    Sign,
+    can_be_in_words,
+    denied_once,
+    looked_up,
+    number_phrase,
+    say_verb,
+    verb_signs,
+    without_addressee,
+    word_phrase,
+)
+from teo_sign_training.corpus.words import ListedWord, Pool, WordLists
+from teo_sign_training.corpus.writing import SaidWord, write
 from teo_sign_translator.errors import TranslationError
+
+_Weighted = TypeVar("_Weighted", Rule, Shape)
+
+#: Share of the slots that are given a held-out word, where there is one, in sentences that test words.
+_HELD_SHARE = 0.5
+#: Share of contractions that are written where both ways are right ("don't", "do not"): most are in messages,
+#: few in school texts, and a model has to read both.
+_CONTRACTED_SHARE = 0.6
+#: Numbers up to this are mostly written in words, as people do.
+_WORDS_UP_TO = 12
+
+
+@dataclass
+class Chooser:
+    """Chooses by weight at each place of a sentence; its `path` (`S.P.n`) names the place.
+
+    Attributes:
+        random: Source of chance.
+        held: Whether held-out words are to be taken.
+    """
+
+    random: Random
+    held: bool = False
+
+    def rule(self, path: str, rules: Sequence[Rule]) -> Rule:
+        """One of the alternatives, by weight."""
+        del path
+        return self._by_weight(rules)
+
+    def word(self, path: str, pool: Pool) -> ListedWord | None:
+        """A word, by weight."""
+        del path
+        return pool.draw(self.random, self.held and self.random.random() < _HELD_SHARE)
+
+    def shape(self, path: str, shapes: Sequence[Shape]) -> Shape:
+        """A verb shape, by weight."""
+        del path
+        return self._by_weight(shapes)
+
+    def number(self, path: str, low: int, high: int, step: int) -> int:
+        """A number, the small ones more often where there are many."""
+        del path
+        count = (high - low) // step + 1
+        return low + step * int(count * self.random.random() ** 1.5)
+
+    def in_words(self, path: str, value: int) -> bool:
+        """Small numbers mostly in words, large ones mostly in digits."""
+        del path
+        return self.random.random() < (0.7 if value <= _WORDS_UP_TO else 0.3)
+
+    def contracted(self) -> bool:
+        """Whether two words are written as one where both ways are right."""
+        return self.random.random() < _CONTRACTED_SHARE
+
+    def _by_weight(self, items: Sequence[_Weighted]) -> _Weighted:
+        return self.random.choices(items, cum_weights=list(accumulate(item.weight for item in items)))[0]
+
+
+_COLUMNS = ("ms", "fs", "mp", "fp")
+
+
+@dataclass
+class Sides:
+    """The two sides of a rule whose slots are filled.
+
+    Attributes:
+        rule: Whose sides.
+        slots: What fills its slots; the verbs among it are said here.
+        handed: Features handed down to the rule: the person of a verb without a subject of its own.
+        words: Inflects.
+        grammar: Gives the forms of agreeing words. Of its lists `unsaid_verbs` have no sign beside what they
+            govern ("tengo fiebre"), the path of `directed_verbs` shows whom a clitic means ("te ayudo").
+    """
+
+    rule: Rule
+    slots: Mapping[str, Phrase]
+    handed: Mapping[str, str]
+    words: WordLists
+    grammar: Grammar
+    _literals: dict[str, SaidWord] = field(default_factory=dict)
+
+    def said(self) -> tuple[list[SaidWord], list[Sign]]:
+        """The words, then the glosses.
+
+        Raises:
+            NoFillerError: If a verb has no such imperative.
+            TranslationError: "no_form" if it has no other form that it should have.
+        """
+        tokens = [token for item in self.rule.text for token in self._tokens(item)]
+        signs = [sign for item in self.rule.glosses for sign in self._signs(item)]
+        signs.sort(key=lambda sign: not sign.leads)
+        for sign in signs:
+            sign.leads = False
+        return tokens, signs
+
+    def _tokens(self, item: TextItem) -> list[SaidWord]:
+        if item.word:
+            return [self._literal(item)]
+        phrase = self.slots[item.slot]
+        subject = self.slots[item.agree] if item.agree else None
+        if phrase.verb and not phrase.verb.said:
+            self._say(phrase, phrase.verb, subject)
+        elif subject and phrase.verb and phrase.verb.said:
+            subject.say(VERB, phrase.verb.said.finite)
+        return phrase.tokens
+
+    def _literal(self, item: TextItem) -> SaidWord:
+        token = SaidWord(item.word)
+        if item.agree:
+            features = self.slots[item.agree].features
+            column = _COLUMNS.index(features.get("gender", "m")[0] + features.get("number", "s"))
+            token = SaidWord(self.grammar.paradigms[item.word][column], _COLUMNS[column] == "fs")
+        key, again = item.word, 2
+        while key in self._literals:
+            key, again = f"{item.word}#{again}", again + 1
+        self._literals[key] = token
+        return token
+
+    def _say(self, phrase: Phrase, verb: SaidVerb, subject: Phrase | None) -> None:
+        features = subject.features if subject else self.handed
+        carrying = [each for each in self.slots.values() if "clitic" in each.features]
+        try:
+            said = say_verb(
+                self.words,
+                verb.word.lemma,
+                verb.shape,
+                features.get("person", "3") + features.get("number", "s"),
+                [each.features["clitic"] for each in carrying],
+                pronominal=bool(verb.word.features.get("pronominal")),
+            )
+        except TranslationError as error:
+            if verb.shape.mood == "imp":
+                raise NoFillerError(str(error)) from error
+            raise TranslationError(error.code, f"{self.rule.where}: {error}") from error
+        verb.said = said
+        phrase.tokens = said.tokens
+        alone = verb.word.lemma not in self.grammar.word_lists.get("unsaid_verbs", ())
+        phrase.signs = verb_signs(verb.word.lemma, verb.shape, said, said_alone=alone, denied=self._denies())
+        phrase.head = said.main
+        directed = verb.word.lemma in self.grammar.word_lists.get("directed_verbs", ())
+        for carrier, token in zip(carrying, said.clitics, strict=True):
+            shown = directed and "feels" not in carrier.features
+            if shown or carrier.features["clitic"] in self.words.clitics.accusative:
+                carrier.leave_out(CLITIC)
+            carrier.say(CLITIC, token)
+        if subject:
+            subject.say(VERB, said.finite)
+            for sign in phrase.signs:  # before it stands its subject
+                sign.leads = False
+
+    def _denies(self) -> bool:
+        """Whether the clause is negative: it is told so, or a slot says so."""
+        said = (phrase.features.get("pol") for phrase in self.slots.values())
+        return "neg" in (self.handed.get("pol"), *said)
+
+    def _signs(self, item: GlossItem) -> list[Sign]:
+        return self._of_slot(item) if item.slot else [self._gloss(item)]
+
+    def _of_slot(self, item: GlossItem) -> list[Sign]:
+        phrase = self.slots[item.slot]
+        signs = phrase.signs
+        also = self.slots[item.also].head if item.also else None
+        if also:
+            signs = [replace(sign, sources=[*sign.sources, also]) for sign in signs]
+        return signs
+
+    def _gloss(self, item: GlossItem) -> Sign:
+        sign = Sign(item.gloss)
+        for source in item.sources:
+            if source in (VERB, CLITIC):
+                sign.pending = source
+            elif source.startswith("{"):
+                head = self.slots[source.strip("{}")].head
+                if head is not None:
+                    sign.sources.append(head)
+            else:
+                sign.sources.append(self._literals[source])
+        verb = next((phrase.verb for phrase in self.slots.values() if phrase.verb), None)
+        if sign.pending == VERB and verb and verb.said:
+            sign.sources.append(verb.said.finite)
+            sign.pending = ""
+        return sign
+
 
 #: Handed down to all that is inside, unless the rule says otherwise.
 _INHERITED = ("mood", "shapes", "who", "time", "pol", "says", "self")

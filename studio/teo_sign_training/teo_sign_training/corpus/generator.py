@@ -14,13 +14,11 @@ from pathlib import Path
 from random import Random
 
 from teo_common.text_folding import folded
-from teo_sign_training.corpus.choosers import Chooser
-from teo_sign_training.corpus.derivation import Derivation, GeneratedSentence
-from teo_sign_training.corpus.fillers import NoFillerError
-from teo_sign_training.corpus.grammar import LEXICAL, Grammar
+from teo_sign_training.corpus.derivation import Chooser, Derivation, GeneratedSentence
+from teo_sign_training.corpus.grammar import LEXICAL, Grammar, Template, templates
 from teo_sign_training.corpus.grammar_file import load_grammar
-from teo_sign_training.corpus.pairs_file import Pair
-from teo_sign_training.corpus.templates import Template, templates
+from teo_sign_training.corpus.pairs import Pair
+from teo_sign_training.corpus.phrases import NoFillerError
 from teo_sign_training.corpus.words import WordLists, is_held_out
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.morphology import Morphology
@@ -63,7 +61,7 @@ class Generator:
                 "invalid_grammar", f"{grammar_folder}: held_out: expected names of templates, got {unknown}"
             )
         words = WordLists.load(grammar_folder, morphology, grammar)
-        words.held_out = held_out_words(grammar, words)
+        words.held_out = _held_out_words(grammar, words)
         return cls(grammar, words)
 
     @cached_property
@@ -177,7 +175,7 @@ class _Seen:
         return self._made[sentence] >= most or (bool(self._unwanted) and folded(sentence) in self._unwanted)
 
 
-def held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
+def _held_out_words(grammar: Grammar, words: WordLists) -> frozenset[str]:
     """Content words that only tests see: by hash, except those that the grammar itself names."""
     named = {item.word for rule in grammar.rules() for item in rule.text}
     named |= {item.gloss.lower() for rule in grammar.rules() for item in rule.glosses}

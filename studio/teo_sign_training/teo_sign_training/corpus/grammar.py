@@ -1,17 +1,53 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""What a grammar is made of; `text/grammar/*.yaml` are read into these by `grammar_file`."""
+"""What a grammar is made of, its templates, and the tenses that suit a place; `grammar_file` reads it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import product
 
-from teo_sign_training.corpus.patterns import GlossItem, TextItem
 from teo_sign_training.corpus.writing import Writing
 
 #: Kinds of slots that are filled from the word lists; every other name is a category of the grammar.
 LEXICAL = ("noun", "adj", "verb", "name", "number", "adverb")
+
+
+#: Sources of a gloss that the verb's ending or a clitic says.
+VERB, CLITIC = "^", "@"
+
+
+@dataclass(frozen=True, slots=True)
+class TextItem:
+    """One item of the text side: a slot, an agreeing paradigm word or a literal.
+
+    Attributes:
+        slot: Name of the slot; empty for a word.
+        word: The word or mark; empty for a slot.
+        agree: Slot that it agrees with; empty if with none.
+    """
+
+    slot: str
+    word: str
+    agree: str
+
+
+@dataclass(frozen=True, slots=True)
+class GlossItem:
+    """One item of the side of signs: a slot or a gloss.
+
+    Attributes:
+        slot: Name of the slot; else empty.
+        also: Slot whose head says the glosses too; empty for none.
+        gloss: The gloss; empty for a slot.
+        sources: Words of the text side, `{slot}`s, `VERB` or `CLITIC`.
+    """
+
+    slot: str = ""
+    also: str = ""
+    gloss: str = ""
+    sources: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +121,7 @@ class ShapePart:
 
     Attributes:
         lemma: Auxiliary; empty for the main verb, or for a literal.
-        tag: Form, without the person where it is finite; `tags.TAGS` plus the person.
+        tag: Form, without the person where it is finite; `readings.TAGS` plus the person.
         literal: A word as it is (`que`, `a`, `de`); `^` is where clitics stand.
         enclitic: Whether clitics hang on this form.
     """
@@ -198,3 +234,120 @@ def allows(allowed: Sequence[str], given: Sequence[str]) -> bool:
     if forbidden:
         return not any(value in forbidden for value in given)
     return any(value in allowed for value in given)
+
+
+@dataclass(frozen=True, slots=True)
+class Template:
+    """A sentence rule with its spread slots decided.
+
+    Attributes:
+        name: `family.rule`, then the alternative of each spread slot: `statement.plain.thing`.
+        rule: Of the family.
+        spread: Alternative by slot.
+        weight: How often, among all templates; they sum up to 1.
+    """
+
+    name: str
+    rule: Rule
+    spread: Mapping[str, str]
+    weight: float
+
+
+def templates(grammar: Grammar) -> list[Template]:
+    """All templates of a grammar."""
+    total = sum(family.weight for family in grammar.families)
+    found: list[Template] = []
+    for family in grammar.families:
+        rules = sum(rule.weight for rule in family.rules)
+        for rule in family.rules:
+            share = family.weight / total * rule.weight / rules
+            found += _of_rule(grammar, family.name, rule, share)
+    return found
+
+
+def _of_rule(grammar: Grammar, family: str, rule: Rule, share: float) -> Iterator[Template]:
+    slots = [slot for slot in rule.slots if slot.spread]
+    choices = [
+        [
+            (each.name, each.weight)
+            for each in grammar.categories[slot.category]
+            if _possible(each, slot.arguments)
+        ]
+        for slot in slots
+    ]
+    total = 1.0
+    for alternatives in choices:
+        total *= sum(weight for _, weight in alternatives)
+    for combination in product(*choices):
+        weight = share / total
+        for _, each in combination:
+            weight *= each
+        names = [name for name, _ in combination]
+        yield Template(
+            ".".join([family, rule.name, *names]),
+            rule,
+            {slot.name: name for slot, name in zip(slots, names, strict=True)},
+            weight,
+        )
+
+
+def _possible(rule: Rule, arguments: tuple[tuple[str, str], ...]) -> bool:
+    """Whether an alternative may be taken under the features that the rule itself fixes."""
+    given = dict(arguments)
+    for key, allowed in rule.when:
+        value = given.get(key, "-")
+        if not value.startswith("$") and not allows(allowed, [value]):
+            return False
+    return True
+
+
+@dataclass
+class Tenses:
+    """Finds the shapes of a grammar that suit a place.
+
+    Attributes:
+        shapes: All of them.
+        lists: Names of several shapes; `plans` are those of the present that speak of what is to come
+            ("mañana voy").
+    """
+
+    shapes: Sequence[Shape]
+    lists: Mapping[str, tuple[str, ...]]
+    _found: dict[tuple[str, ...], tuple[Shape, ...]] = field(default_factory=dict)
+
+    def fitting(self, mood: str, says: str, kind: str, only: str) -> tuple[Shape, ...]:
+        """The shapes that suit a place.
+
+        Args:
+            mood: Of the clause.
+            says: Time that a time word says; empty or "any" for none.
+            kind: "event" or "state".
+            only: Shapes or lists of them, separated by commas; groups joined by `&` must all allow a shape.
+        """
+        key = (mood, says, kind, only)
+        if key not in self._found:
+            allowed = [
+                {name for each in part.split(",") for name in self.lists.get(each, (each,))}
+                for part in only.split("&")
+                if part
+            ]
+            self._found[key] = tuple(
+                shape
+                for shape in self.shapes
+                if shape.mood == mood
+                and all(shape.name in names for names in allowed)
+                and (shape.kind != "event" or kind == "event")
+                and _time_fits(says, shape, kind, self.lists.get("plans", ()))
+            )
+        return self._found[key]
+
+
+def _time_fits(says: str, shape: Shape, kind: str, plans: Sequence[str]) -> bool:
+    """Whether a tense goes with a time word."""
+    if says in ("", "any"):
+        return True
+    if says == "past":
+        return shape.time == "past" and shape.dated
+    if says == "future":
+        return shape.time == "future" or (shape.time == "present" and shape.name in plans and kind == "event")
+    return shape.time == says

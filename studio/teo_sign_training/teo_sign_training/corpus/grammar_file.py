@@ -1,6 +1,15 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""Reads and checks `text/grammar/*.yaml`."""
+"""Reads and checks `text/grammar/*.yaml`.
+
+Text: words and marks separated by spaces. `{X}` is what slot X says, `{V:S}` a verb agreeing with slot S,
+`un~n` the paradigm word "un" agreeing with slot n.
+
+Signs: `{X}` the glosses of slot X, `{n+V}` the same, which the head of slot V says too ("da miedo": MIEDO).
+`GLOSS` is a gloss that no word says, `GLOSS=word+word` one that those words of the text side say (`word#2`
+the second of them, `{X}` the head of a slot), `GLOSS=^` one that the verb's ending says, `GLOSS=@` one that a
+clitic pronoun says.
+"""
 
 from __future__ import annotations
 
@@ -13,25 +22,70 @@ from typing import Any, NoReturn
 import yaml
 
 from teo_sign_training.corpus.grammar import (
+    CLITIC,
     LEXICAL,
+    VERB,
     Example,
     Family,
+    GlossItem,
     Grammar,
     Rule,
     Shape,
     ShapePart,
     Slot,
-)
-from teo_sign_training.corpus.patterns import (
-    CLITIC,
-    VERB,
-    GlossItem,
     TextItem,
-    parse_glosses,
-    parse_text,
 )
 from teo_sign_training.corpus.writing import parse_writing
 from teo_sign_translator.errors import TranslationError
+
+_SLOT = re.compile(r"\{(?P<slot>\w+)(?::(?P<agree>\w+))?\}")
+_AGREEING = re.compile(r"(?P<word>\w+)~(?P<agree>\w+)")
+_LITERAL = re.compile(r"'?\w+|[¿?¡!,.:]")
+_GLOSS_SLOT = re.compile(r"\{(?P<slot>\w+)(?:\+(?P<also>\w+))?\}")
+_GLOSS = re.compile(r"(?P<gloss>[A-ZÁÉÍÓÚÜÑ0-9_]+)(?:=(?P<sources>\S+))?")
+
+
+def parse_text(text: str) -> tuple[TextItem, ...]:
+    """Parse a text side.
+
+    Raises:
+        TranslationError: "invalid_grammar" naming the item.
+    """
+    items: list[TextItem] = []
+    for written in text.split():
+        if match := _SLOT.fullmatch(written):
+            items.append(TextItem(match["slot"], "", match["agree"] or ""))
+        elif match := _AGREEING.fullmatch(written):
+            items.append(TextItem("", match["word"], match["agree"]))
+        elif _LITERAL.fullmatch(written):
+            items.append(TextItem("", written, ""))
+        else:
+            raise TranslationError(
+                "invalid_grammar",
+                f"expected a word, a mark, {{slot}}, {{verb:subject}} or word~slot, got '{written}'",
+            )
+    return tuple(items)
+
+
+def parse_glosses(text: str) -> tuple[GlossItem, ...]:
+    """Parse a side of signs.
+
+    Raises:
+        TranslationError: "invalid_grammar" naming the item.
+    """
+    items: list[GlossItem] = []
+    for written in text.split():
+        if match := _GLOSS_SLOT.fullmatch(written):
+            items.append(GlossItem(match["slot"], match["also"] or ""))
+        elif match := _GLOSS.fullmatch(written):
+            sources = tuple(match["sources"].split("+")) if match["sources"] else ()
+            items.append(GlossItem(gloss=match["gloss"], sources=sources))
+        else:
+            raise TranslationError(
+                "invalid_grammar", f"expected GLOSS, GLOSS=word or {{slot}}, got '{written}'"
+            )
+    return tuple(items)
+
 
 _SECTIONS = (
     "families",

@@ -1,29 +1,105 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The paper's and the project's own pairs: as published, and as corpus pairs."""
+"""Sentences whose translation is given, the paper's and the project's.
+
+They are read as published, with their words aligned, and as training pairs, which every model has to know by
+heart.
+"""
 
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from teo_common.text_folding import fold
-from teo_sign_training.corpus.aligned_pairs import (
-    NAME,
-    NUMBER,
-    SLOTS,
-    AlignedPair,
-    training_files,
-    training_pairs,
-)
-from teo_sign_training.corpus.pairs_file import Pair
-from teo_sign_translator.data_files import data_file, read_rows
+from teo_common.text_folding import fold, without_accents
+from teo_sign_training.corpus.pairs import Pair
+from teo_sign_translator.data_files import data_file, invalid_line, read_rows
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.morphology import Morphology
+from teo_sign_translator.morphology import Morphology, gloss_name
+from teo_sign_translator.pointer.decoding import SentenceModel
 from teo_sign_translator.text.source_words import SourceWord, source_words
+
+#: Reads a sentence as words: `source_words` with a morphology.
+Reader = Callable[[str], Sequence[SourceWord]]
+
+#: Stand in sentences and glosses for any name and any number.
+NAME = "{nombre}"
+NUMBER = "{número}"
+SLOTS = (NAME, NUMBER)
+
+_ALIGNED = re.compile(r"(?P<gloss>[^()]+)\((?P<words>[^()]*)\)")
+
+
+@dataclass(frozen=True, slots=True)
+class AlignedPair:
+    """A Spanish sentence whose glosses name the words they stand for.
+
+    Attributes:
+        sentence: Spanish, with slots.
+        glosses: Upper case with `_` for spaces, or a slot.
+        sources: For each gloss the words (lower case) that it stands for; empty where nothing in the sentence
+            says it.
+    """
+
+    sentence: str
+    glosses: tuple[str, ...]
+    sources: tuple[tuple[str, ...], ...]
+
+
+def read_aligned_pairs(path: Path) -> list[AlignedPair]:
+    """Read a file of sentences and aligned glosses; `text/paper_alignment.tsv` explains the notation.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    return [
+        _aligned(path, number, sentence, glosses)
+        for number, (sentence, glosses) in read_rows(path, columns=2)
+    ]
+
+
+def training_pairs(folder: Path | None = None) -> list[AlignedPair]:
+    """What the shipped model of a language must know by heart: the paper's sentences, then the project's.
+
+    Args:
+        folder: The language's text folder, by default that of the default language; one without either
+            file has no such sentences.
+    """
+    return [pair for path in training_files(folder) for pair in read_aligned_pairs(path)]
+
+
+def training_files(folder: Path | None = None) -> list[Path]:
+    """Files of the sentences whose translation is given, as far as a language has them."""
+    paths = (
+        (folder or data_file("")) / "paper_alignment.tsv",
+        (folder or data_file("")) / "project_pairs.tsv",
+    )
+    return [path for path in paths if path.is_file()]
+
+
+def _aligned(path: Path, number: int, sentence: str, glosses: str) -> AlignedPair:
+    names: list[str] = []
+    sources: list[tuple[str, ...]] = []
+    for written in glosses.split("/"):
+        match = _ALIGNED.fullmatch(written)
+        if written in SLOTS:
+            names.append(written)
+            sources.append((written,))
+        elif match:
+            names.append(gloss_name(match["gloss"]))
+            sources.append(tuple(match["words"].lower().split()))
+        else:
+            raise invalid_line(path, number, f"'Gloss(words)' or a slot of {SLOTS}", f"'{written}'")
+    present = sentence.lower()
+    lost = [word for words in sources for word in words if word not in present]
+    if lost:
+        raise invalid_line(path, number, "words of the sentence", ", ".join(lost))
+    return AlignedPair(sentence, tuple(names), tuple(sources))
+
 
 #: Fill the slots of the pairs; common names of different lengths, and ages.
 _NAMES = (
@@ -51,7 +127,7 @@ class PublishedPair:
     glosses: tuple[str, ...]
 
 
-def read_pairs(path: Path) -> list[PublishedPair]:
+def _published_pairs(path: Path) -> list[PublishedPair]:
     """Read a file of sentences and glosses.
 
     Raises:
@@ -65,12 +141,12 @@ def read_pairs(path: Path) -> list[PublishedPair]:
 
 def paper_pairs() -> list[PublishedPair]:
     """The paper's 39 pairs, in its order."""
-    return read_pairs(data_file("paper_pairs.tsv"))
+    return _published_pairs(data_file("paper_pairs.tsv"))
 
 
 def paper_predictions() -> list[PublishedPair]:
     """What the paper's model predicts at learning rate 0.0001 for the first ten sentences."""
-    return read_pairs(data_file("paper_predictions.tsv"))
+    return _published_pairs(data_file("paper_predictions.tsv"))
 
 
 def training_data_hash() -> str:
@@ -90,7 +166,7 @@ def own_pairs(morphology: Morphology) -> Iterator[Pair]:
             yield filled(pair, name, number, read)
 
 
-def filled(pair: AlignedPair, name: str, number: str, read: Callable[[str], Sequence[SourceWord]]) -> Pair:
+def filled(pair: AlignedPair, name: str, number: str, read: Reader) -> Pair:
     """A pair whose slots hold a name and a number; `read` makes words of its sentence.
 
     Raises:
@@ -130,3 +206,52 @@ def _slot_place(words: Sequence[SourceWord], filler: str, sentence: str) -> int:
         if word.text == filler or word.form == filler.lower():
             return place
     raise TranslationError("invalid_data", f"expected '{filler}' to be one word of '{sentence}'")
+
+
+#: What fills the slots. A few are enough: the corpus shows hundreds of names and numbers in other sentences.
+_FEW_NAMES = ("Ana", "Pedro", "Lucía", "Juan", "María", "Carlos")
+_FEW_NUMBERS = ("7", "siete", "12", "treinta y cinco", "40", "veintitrés")
+
+_NOT_LETTERS = re.compile(r"[¿?¡!.,:;…]+")
+
+
+def memorised_pairs(read: Reader, folder: Path | None = None) -> tuple[Pair, ...]:
+    """All of `training_pairs`, their slots filled in several ways, with and without a full stop.
+
+    Args:
+        read: How sentences become words.
+        folder: The language's text folder; by default that of the default language.
+
+    Raises:
+        TranslationError: "invalid_data" if a gloss stands for a word that is not read from its sentence.
+    """
+    return tuple(
+        dict.fromkeys(
+            filled(replace(pair, sentence=pair.sentence + stop), name, number, read)
+            for pair in training_pairs(folder)
+            for name, number in zip(_FEW_NAMES, _FEW_NUMBERS, strict=True)
+            for stop in ("", "" if pair.sentence[-1] in "?!…" else ".")
+        )
+    )
+
+
+def ways_of_typing(sentence: str) -> tuple[str, ...]:
+    """As given, without accents, without marks, and with nothing but lower case letters."""
+    bare = " ".join(_NOT_LETTERS.sub(" ", sentence).split())
+    return tuple(dict.fromkeys([sentence, without_accents(sentence), bare, without_accents(bare).lower()]))
+
+
+def not_memorised(model: SentenceModel, read: Reader) -> tuple[str, ...]:
+    """The paper's sentences, in all `ways_of_typing`, that a model does not translate as published.
+
+    Returns:
+        `sentence -> glosses that came out`, none if all are right.
+    """
+    wrong: list[str] = []
+    for pair in paper_pairs():
+        expected = tuple("7" if gloss == "X" else gloss_name(gloss) for gloss in pair.glosses)
+        for sentence in ways_of_typing(pair.sentence.replace(" X ", " 7 ")):
+            got = tuple(gloss.gloss for gloss in model.translate(read(sentence))[0].glosses)
+            if got != expected:
+                wrong.append(f"{sentence} -> {' '.join(got)}")
+    return tuple(wrong)

@@ -11,8 +11,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_training.fitting.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable
-from teo_sign_training.fitting.typing_noise import copies
+from teo_sign_training.fitting.examples import BLANK_ROW, ROOT_ROW, Examples, Ints, WordTable, copies
 from teo_sign_translator.pointer.vocabulary import END_INDEX, READINGS, START_INDEX, UNKNOWN_TAG, Vocabulary
 
 #: Places of "unknown" in the lists of forms and lemmas.

@@ -8,6 +8,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 import torch
@@ -15,15 +16,104 @@ from numpy.typing import NDArray
 
 from teo_common.text_folding import fold
 from teo_sign_training.corpus import Pair
+from teo_sign_training.corpus.paper_pairs import Reader
 from teo_sign_training.fitting.batches import WordNumbers, batches
-from teo_sign_training.fitting.devices import named_device, one_thread, seeded
-from teo_sign_training.fitting.examples import VARIANTS, ExampleReader, Examples, Reader, WordTable
-from teo_sign_training.fitting.network import Network, on_device
-from teo_sign_training.fitting.typing_noise import Typing, copies, typed_sayably, unsayable
+from teo_sign_training.fitting.examples import (
+    VARIANTS,
+    ExampleReader,
+    Examples,
+    Typing,
+    WordTable,
+    copies,
+    typed_sayably,
+    unsayable,
+)
+from teo_sign_training.fitting.network import Network, named_device, on_device, one_thread, seeded
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.config import POINTER, NetworkConfig, refuse
 from teo_sign_translator.pointer.decoding import SPARE
 from teo_sign_translator.pointer.vocabulary import Vocabulary, tag_key
+
+#: By name, from the simplest on. The first ones are the layouts of Figure 1 of arXiv:1907.04198, then its
+#: future work. All read the same words and readings, so that a row of `compare` differs from the next by its
+#: mechanism alone. The equal-length layout reads from both ends: its first gloss stands at the first word,
+#: and may be said by the last.
+ZOO = MappingProxyType(
+    {
+        "rnn_equal": NetworkConfig(cell="rnn", layout="equal_length", bidirectional=True),
+        "lstm_equal": NetworkConfig(cell="lstm", layout="equal_length", bidirectional=True),
+        "rnn": NetworkConfig(cell="rnn"),
+        "gru": NetworkConfig(cell="gru"),
+        "lstm": NetworkConfig(cell="lstm"),
+        "lstm_stacked": NetworkConfig(cell="lstm", layers=2),
+        "gru_attention": NetworkConfig(cell="gru", bidirectional=True, attention=True),
+        "lstm_attention": NetworkConfig(cell="lstm", bidirectional=True, attention=True),
+        "pointer_gru": NetworkConfig(cell="gru", bidirectional=True, attention=True, copy=True),
+        POINTER: NetworkConfig(cell="lstm", bidirectional=True, attention=True, copy=True),
+    }
+)
+
+
+def network_config(name: str) -> NetworkConfig:
+    """The configuration of a model of the zoo.
+
+    Raises:
+        TranslationError: "unknown_model", with the names there are.
+    """
+    if name not in ZOO:
+        raise TranslationError("unknown_model", f"expected a model of {', '.join(ZOO)}, got '{name}'")
+    return ZOO[name]
+
+
+@dataclass(frozen=True, kw_only=True, slots=True)
+class TrainingConfig:
+    """How a network is trained.
+
+    Attributes:
+        epochs: Most passes over the training pairs; three of 200,000 fit into that hour.
+        patience: Epochs without a lower loss on the development pairs after which training ends.
+        batch_size: Pairs per step.
+        learning_rate: Highest step size of AdamW; rises over the first steps, then falls to zero in a line.
+            0.003 trained without a jump of the loss.
+        dropout: Part of each layer's input that is left out during training.
+        rare_word: A word that occurs n times in the training pairs is shown as unknown with probability
+            rare_word / (rare_word + n), so that words never seen are carried over too: a content word about
+            every fifth time, a function word hardly ever.
+        clean: Part of the pairs that is shown as written; the others as people type in haste
+            (`examples.Typing`).
+        attention_weight: Weight of the loss by which attention follows the pairs' alignment.
+        by_heart: Part of a pass that is pairs of the paper and the project, each repeated equally often:
+            they are few, must be known by heart, and are exceptions to the grammar of the others.
+        seed: Of initial weights, order, dropout and noise.
+    """
+
+    epochs: int = 3
+    patience: int = 3
+    batch_size: int = 128
+    learning_rate: float = 0.003
+    dropout: float = 0.15
+    rare_word: float = 30.0
+    clean: float = 0.4
+    attention_weight: float = 0.3
+    by_heart: float = 0.05
+    seed: int = 2019
+
+    def __post_init__(self) -> None:
+        """Refuse values that cannot train anything."""
+        problems = [
+            "epochs, patience and batch_size of at least 1"
+            if min(self.epochs, self.patience, self.batch_size) < 1
+            else "",
+            "learning_rate in (0, 1)" if not 0 < self.learning_rate < 1 else "",
+            "dropout in [0, 1)" if not 0 <= self.dropout < 1 else "",
+            "clean in [0, 1]" if not 0 <= self.clean <= 1 else "",
+            "by_heart in [0, 1)" if not 0 <= self.by_heart < 1 else "",
+            "rare_word and attention_weight of at least 0"
+            if not min(self.rare_word, self.attention_weight) >= 0
+            else "",
+        ]
+        refuse(problems, self)
+
 
 #: Fewer occurrences than these among the training pairs do not teach an embedding anything.
 MIN_FORM, MIN_LEMMA = 10, 3
@@ -37,7 +127,7 @@ _MAX_NORM = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Progress:
+class TrainingProgress:
     """State of a training after an epoch.
 
     Attributes:
@@ -93,7 +183,7 @@ def fit(
     config: TrainingConfig,
     *,
     device: torch.device | None = None,
-    on_progress: Callable[[Progress], None] | None = None,
+    on_progress: Callable[[TrainingProgress], None] | None = None,
 ) -> Fit:
     """Train from nothing. The same arguments give the same weights on the same machine.
 
@@ -167,7 +257,7 @@ def fit(
                 schedule.step()
                 total, count = total + gloss_loss.item(), count + glosses
                 if on_progress is not None and step % 10 == 0:
-                    on_progress(Progress(epoch, step, max(steps, step), total / count, None))
+                    on_progress(TrainingProgress(epoch, step, max(steps, step), total / count, None))
             losses.append(total / count)
             passing += time.monotonic() - began
             if len(development):
@@ -176,7 +266,7 @@ def fit(
                 best, best_epoch = network.weights(), epoch
             if on_progress is not None:
                 last = dev_losses[-1] if dev_losses else None
-                on_progress(Progress(epoch, step, step, losses[-1], last))
+                on_progress(TrainingProgress(epoch, step, step, losses[-1], last))
             if epoch - best_epoch >= config.patience:
                 break
     return Fit(

@@ -18,14 +18,12 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 
 from teo_sign_languages import Language
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting import fitting
-from teo_sign_training.fitting.corpus_files import corpus_hash, read_splits, sample, without
-from teo_sign_training.fitting.examples import Reader
-from teo_sign_training.fitting.memorised_pairs import memorised_pairs, not_memorised
+from teo_sign_training.corpus.pairs import corpus_hash, read_splits, sample, without
+from teo_sign_training.corpus.paper_pairs import Reader, memorised_pairs, not_memorised
+from teo_sign_training.fitting.fitting import Fit, TrainingConfig, TrainingProgress, fit
 from teo_sign_training.fitting.metrics import Score, score
-from teo_sign_translator.pointer.config import NetworkConfig, TrainingConfig
-from teo_sign_translator.pointer.decoding import SentenceModel
-from teo_sign_translator.pointer.store import load_sentence_model, save_sentence_model
+from teo_sign_translator.pointer.config import NetworkConfig
+from teo_sign_translator.pointer.decoding import SentenceModel, load_sentence_model, save_sentence_model
 
 #: Pairs of a held-out split that are translated to score a model: 2,000 give a standard error of 1 % at most.
 SCORED = 2000
@@ -64,7 +62,7 @@ class TrainedModel:
     """
 
     model: SentenceModel
-    fit: fitting.Fit
+    fit: Fit
     scores: dict[str, Score]
     unknown: tuple[str, ...]
 
@@ -122,16 +120,14 @@ def train_model(
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(name, total=config.epochs)
 
-        def show(progress: fitting.Progress) -> None:
+        def show(progress: TrainingProgress) -> None:
             done = progress.epoch - 1 + progress.step / progress.steps
             text = f"{name}: epoch {progress.epoch}, loss {progress.loss:.4f}"
             bar.update(task, completed=done, description=text)
             if progress.step == progress.steps and progress.dev_loss is not None:
                 bar.console.print(f"{text}, dev loss {progress.dev_loss:.4f}", highlight=False)
 
-        fit = fitting.fit(
-            data.train, dev, data.by_heart, read, network, config, device=device, on_progress=show
-        )
+        fitted = fit(data.train, dev, data.by_heart, read, network, config, device=device, on_progress=show)
     card = {
         "description": f"Reads {data.language.spoken.name} words with their readings, says "
         f"{data.language.names.short} glosses; see pointer/config.py.",
@@ -140,8 +136,8 @@ def train_model(
         "training": dataclasses.asdict(config),
         "data": {
             "sha256": data.sha256,
-            "pairs": fit.pairs,
-            "left_out": fit.left_out,
+            "pairs": fitted.pairs,
+            "left_out": fitted.left_out,
             "by_heart": len(data.by_heart),
         },
         "made_by": {
@@ -149,15 +145,15 @@ def train_model(
             "python": platform.python_version(),
             "torch": torch.__version__,
             "numpy": np.__version__,
-            "device": fit.device,
+            "device": fitted.device,
         },
     }
     result = {
-        "losses": _rounded(fit.losses),
-        "dev_losses": _rounded(fit.dev_losses),
-        "best_epoch": fit.best_epoch,
-        "seconds": round(fit.seconds, 1),
-        "pairs_per_second": round(fit.pairs_per_second),
+        "losses": _rounded(fitted.losses),
+        "dev_losses": _rounded(fitted.dev_losses),
+        "best_epoch": fitted.best_epoch,
+        "seconds": round(fitted.seconds, 1),
+        "pairs_per_second": round(fitted.pairs_per_second),
     }
 
     def save() -> None:
@@ -165,8 +161,8 @@ def train_model(
             name,
             out,
             config=network,
-            vocabulary=fit.vocabulary,
-            weights=fit.weights,
+            vocabulary=fitted.vocabulary,
+            weights=fitted.weights,
             card={**card, "result": result},
         )
 
@@ -183,7 +179,7 @@ def train_model(
     if data.by_heart:
         result["paper_sentences_wrong"] = len(unknown)
     save()
-    return TrainedModel(model, fit, scores, unknown)
+    return TrainedModel(model, fitted, scores, unknown)
 
 
 def score_model(model: SentenceModel, pairs: Sequence[Pair], read: Reader) -> Score:

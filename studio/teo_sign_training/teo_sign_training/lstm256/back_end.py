@@ -4,24 +4,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from teo_sign_training.lstm256.gloss_list import GlossList
-from teo_sign_training.lstm256.known_sentences import KnownSentences
+from teo_sign_training.corpus.paper_pairs import SLOTS
 from teo_sign_training.lstm256.phrasebook import Match, Phrasebook
-from teo_sign_training.lstm256.seq2seq import LstmModel
-from teo_sign_training.lstm256.store import load_model
-from teo_sign_training.lstm256.word_by_word import word_by_word
-from teo_sign_translator.output.output_words import PAUSE, OutputWord
+from teo_sign_training.lstm256.seq2seq import MARKS, LstmModel, Prediction, load_model
+from teo_sign_training.lstm256.word_by_word import GlossList, word_by_word
+from teo_sign_translator.output.output_words import PAUSE, OutputWord, carried, lexical, number, spelled
 from teo_sign_translator.pipeline.back_end import TranslatedSentence
-from teo_sign_translator.text.reading import Clause, Word
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import Clause, SentenceType, Word, WordKind
 
 # Clauses that are tried as one sentence of the training data; "Venga, levántate, que tienes que ir al
 # colegio" has three.
 _MOST_CLAUSES = 4
+
+# Probability below which a token of the model is not believed, and the sentence is signed word by word
+# instead: the model would rather say something else.
+_MIN_PROBABILITY = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,10 +43,8 @@ class _Unit:
 class LstmBackEnd:
     """Translates with a model that has learned sentences by heart, and word by word where it must not.
 
-    A sentence of the training data is left to the model. Another sentence is shown to the model if it knows
-    its words; its answer is taken if every gloss stands for a word of the sentence, every word is covered,
-    and it is sure. Whatever is left is signed word by word: listed words by their gloss, numbers by digits,
-    all others spelled.
+    A sentence of the training data is left to the model, also behind a greeting. Whatever is left is signed
+    word by word: listed words by their gloss, numbers by digits, all others spelled.
     """
 
     def __init__(self, model: LstmModel, phrasebook: Phrasebook, glosses: GlossList, *, name: str) -> None:
@@ -57,7 +56,7 @@ class LstmBackEnd:
             glosses: Words with a sign of their own.
             name: Of the model, for the record.
         """
-        self._sentences = KnownSentences(model, phrasebook, glosses)
+        self._model = model
         self._phrasebook = phrasebook
         self._glosses = glosses
         self.name = name
@@ -87,7 +86,7 @@ class LstmBackEnd:
                 continue
             stops = any(clause.closes for clause in run[:-1])
             match = self._phrasebook.match(words, crosses_stop=stops, crosses_pause=True)
-            output_words = self._sentences.translate(match, run) if match else None
+            output_words = self._known(match, run) if match else None
             if match and output_words:
                 return _Unit(run, output_words, match.pattern.type)
         return None
@@ -95,50 +94,16 @@ class LstmBackEnd:
     def _unit(self, clause: Clause) -> _Unit:
         """Translate one clause."""
         known: SentenceType | None = None
-        pieces = self._pieces(clause.words)
         output_words: list[OutputWord] = []
-        for index, piece in enumerate(pieces):
-            part = replace(clause, end=clause.end if index == len(pieces) - 1 else "")
+        for piece in self._known_pieces(clause.words) or [clause.words]:
             if isinstance(piece, Match):
-                translated = self._sentences.translate(piece, [part])
-                words = tuple(word for group in piece.words for word in group)
+                words = [word for group in piece.words for word in group]
                 known = piece.pattern.type
+                translated = self._known(piece, [clause])
             else:
-                translated, words, known = None, tuple(piece), None
-            translated = translated or self._sentences.translate_similar(words, part.end)
+                words, translated = list(piece), None
             output_words += translated or word_by_word(words, self._glosses)
         return _Unit([clause], output_words, known)
-
-    def _pieces(self, words: Sequence[Word]) -> list[Match | Sequence[Word]]:
-        """Find sentences of the training data in a clause: all of it, behind a greeting, joined by "y"."""
-        whole = self._known_pieces(words)
-        if whole:
-            return whole
-        joined: list[tuple[list[Word], list[Match | Sequence[Word]]]] = []
-        rest: list[Word] = []
-        for word in [*words, None]:
-            if word is None or word.fold in ("y", "e"):
-                conjunction = rest[:1] if rest and rest[0].fold in ("y", "e") else []
-                joined.append((conjunction, self._known_pieces(rest[len(conjunction) :])))
-                joined[-1] = (rest, joined[-1][1])
-                rest = []
-            if word is not None:
-                rest.append(word)
-        if not any(known for _, known in joined):
-            return [words]
-        result: list[Match | Sequence[Word]] = []
-        unknown: list[Word] = []
-        for piece, known in joined:
-            if not known:
-                unknown += piece
-                continue
-            if piece[0].fold in ("y", "e"):
-                unknown.append(piece[0])
-            if unknown:
-                result.append(unknown)
-                unknown = []
-            result += known
-        return [*result, unknown] if unknown else result
 
     def _known_pieces(self, words: Sequence[Word]) -> list[Match | Sequence[Word]]:
         """A sentence of the training data, alone or behind a greeting without a comma; empty if neither."""
@@ -154,6 +119,39 @@ class LstmBackEnd:
             words = words[found[1] :]
         return []
 
+    def _known(self, match: Match, clauses: Sequence[Clause]) -> list[OutputWord] | None:
+        """Translate a sentence of the training data.
+
+        Args:
+            match: The sentence.
+            clauses: Where it was found; their marks go to the model with it.
+
+        Returns:
+            Its output words, or None if the model is not sure or says something else than it was taught.
+        """
+        left = list(match.pattern.tokens)
+        tokens: list[str] = []
+        for clause in clauses:
+            # Only a sentence that is one clause has slots; in all others each token is one word.
+            size = len(left) if clause is clauses[-1] else len(clause.words)
+            tokens += left[:size] + self._mark(clause.end)
+            del left[:size]
+        prediction = self._believed(tokens)
+        if prediction is None or prediction.tokens != match.pattern.glosses:
+            return None
+        return _output_words(prediction, match.pattern.sources, match.words)
+
+    def _believed(self, tokens: Sequence[str]) -> Prediction | None:
+        """The model's answer, if it is one and the model is sure of it."""
+        if not all(token in self._model.inputs for token in tokens):
+            return None
+        prediction = self._model.predict(tokens)
+        sure = prediction.complete and all(p >= _MIN_PROBABILITY for p in prediction.probabilities)
+        return prediction if sure and prediction.tokens else None
+
+    def _mark(self, end: str) -> list[str]:
+        return [end] if end in MARKS and end in self._model.inputs else []
+
 
 def _assembled(units: Sequence[_Unit]) -> TranslatedSentence:
     output_words: list[OutputWord] = []
@@ -162,6 +160,59 @@ def _assembled(units: Sequence[_Unit]) -> TranslatedSentence:
     return TranslatedSentence(
         [clause for unit in units for clause in unit.clauses], output_words, units[-1].known
     )
+
+
+def _output_words(
+    prediction: Prediction,
+    sources: Sequence[tuple[int, ...]],
+    words: Sequence[tuple[Word, ...]],
+) -> list[OutputWord]:
+    """Output words of a prediction; words that no gloss stands for go with the next one that has a gloss.
+
+    Args:
+        prediction: Glosses and slots.
+        sources: For each of them the places in `words` that it stands for.
+        words: The words of the sentence, several in one place for a name.
+    """
+    extras = _unclaimed(sources, range(len(words)))
+    result: list[OutputWord] = []
+    for token, probability, own, extra in zip(
+        prediction.tokens, prediction.probabilities, sources, extras, strict=True
+    ):
+        if token not in SLOTS:
+            said = _typed(words, sorted((*own, *extra)))
+            result.append(lexical(token, said, probability))
+            continue
+        result += [carried(word.lower, word.parts) for place in extra for word in words[place]]
+        for word in (word for place in own for word in words[place]):
+            if word.kind is WordKind.NUMBER:
+                result += number(word.value, word.parts, probability)
+            else:
+                result += spelled(word.lower, word.parts, probability)
+    return result
+
+
+def _typed(words: Sequence[tuple[Word, ...]], places: Iterable[int]) -> tuple[str, ...]:
+    return tuple(part for place in places for word in words[place] for part in word.parts)
+
+
+def _unclaimed(sources: Sequence[tuple[int, ...]], places: Iterable[int]) -> list[list[int]]:
+    """For each gloss the places of words without a gloss that go with it: with the gloss of the next word.
+
+    Args:
+        sources: For each gloss the places of the words that it stands for.
+        places: Of all words.
+    """
+    owner: dict[int, int] = {}
+    for index, own in enumerate(sources):
+        for place in own:
+            owner.setdefault(place, index)
+    result: list[list[int]] = [[] for _ in sources]
+    for place in places:
+        if place not in owner:
+            neighbour = min((p for p in owner if p > place), default=max(owner, default=-1))
+            result[owner.get(neighbour, len(sources) - 1)].append(place)
+    return result
 
 
 def load_back_end(name: str, directory: Path, text: Path) -> LstmBackEnd:

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.text_folding import strip_marks
-from teo_sign_training.corpus.aligned_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
-from teo_sign_training.lstm256.gloss_list import GlossList
-from teo_sign_training.lstm256.tokens import MARKS, folded_tokens
+from teo_sign_training.corpus.paper_pairs import NAME, NUMBER, SLOTS, AlignedPair, training_pairs
+from teo_sign_training.lstm256.seq2seq import MARKS, folded_tokens
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.text.reading import Word, WordKind, read
-from teo_sign_translator.text.sentence_type import SentenceType, sentence_type
+from teo_sign_translator.text.reading import SentenceType, Word, WordKind, read, sentence_type
 
 #: Most words that are taken for one name ("María del Carmen de la Torre").
 MAX_NAME_WORDS = 6
@@ -71,7 +70,6 @@ class Phrasebook:
         self._glosses = glosses
         self._literal: dict[tuple[str, ...], Pattern] = {}
         self._with_slots: dict[str, list[Pattern]] = defaultdict(list)
-        self._supports: dict[str, set[str]] = defaultdict(set)
         for pair in pairs:
             pattern = _pattern(pair)
             key = tuple(strip_marks(token) for token in pattern.tokens)
@@ -80,9 +78,6 @@ class Phrasebook:
                 self._with_slots[first if first in SLOTS else key[0]].append(pattern)
             else:
                 self._literal.setdefault(key, pattern)
-            for gloss, places in zip(pattern.glosses, pattern.sources, strict=True):
-                for place in places:
-                    self._supports[key[place]].add(gloss)
         slotted = [pattern for patterns in self._with_slots.values() for pattern in patterns]
         #: Words of the longest sentence that can match.
         self.longest = max(
@@ -134,10 +129,6 @@ class Phrasebook:
                 if filled is not None:
                     return Match(candidate, filled)
         return None
-
-    def supported(self, word: Word) -> frozenset[str]:
-        """Glosses that the word stands for somewhere in the training data; empty if none."""
-        return frozenset(self._supports.get(word.key, ()))
 
     def _fill(self, pattern: Pattern, words: Sequence[Word]) -> tuple[tuple[Word, ...], ...] | None:
         """The words that each token of a pattern stands for, or None if they do not fit."""

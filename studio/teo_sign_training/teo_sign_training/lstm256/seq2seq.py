@@ -1,20 +1,100 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The encoder-decoder LSTM, evaluated with plain arrays: no training framework is needed to translate."""
+"""The published encoder-decoder LSTM on plain arrays: its tokens, its inference, its files."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from teo_sign_training.lstm256.tokens import END, START, TokenList
+from teo_common.text_folding import fold
+from teo_sign_training.corpus.paper_pairs import SLOTS
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.array_cells import Array, LstmLayer
-from teo_sign_translator.pointer.array_model import softmax
-from teo_sign_translator.pointer.weight_shapes import check_weights
+from teo_sign_translator.model_files import Weights, read_model, write_model
+from teo_sign_translator.pointer.array_model import Array, LstmLayer, softmax
+from teo_sign_translator.pointer.config import check_weights
+from teo_sign_translator.text.cleaning import clean
+
+#: Ends and begins every output sequence; always the first two of an output vocabulary.
+END = "<end>"
+START = "<start>"
+#: Marks that are tokens of their own.
+MARKS = ("?", "!")
+
+_TOKEN = re.compile("|".join([*map(re.escape, SLOTS), r"\w+", "[?!]"]))
+
+
+def published_tokens(sentence: str) -> tuple[str, ...]:
+    """Tokens as in the paper: words in lower case with their accents, `!` and `?` tokens of their own.
+
+    Opening marks, commas and points are left out: `"¿Qué tal?"` is `qué tal ?`.
+    """
+    return tuple(_TOKEN.findall(clean(sentence).text.lower()))
+
+
+def folded_tokens(sentence: str) -> tuple[str, ...]:
+    """The same without accents (`ñ` stays), which makes one token of all ways of typing a word."""
+    return tuple(token if token in SLOTS else fold(token) for token in published_tokens(sentence))
+
+
+def mark_variants(tokens: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """The same sentence with its marks typed in every likely way: as given, left out, or others."""
+    inner = tokens[:-1] if tokens[-1:] and tokens[-1] in MARKS else tokens
+    bare = tuple(token for token in inner if token not in MARKS)
+    return list(
+        dict.fromkeys([tokens, *((*body, *end) for body in (bare, inner) for end in ((), ("?",), ("!",)))])
+    )
+
+
+class TokenList:
+    """An ordered set of tokens."""
+
+    def __init__(self, tokens: Sequence[str]) -> None:
+        """Number the tokens from 0.
+
+        Raises:
+            TranslationError: "invalid_model" if a token occurs twice or there is none.
+        """
+        self.tokens = tuple(tokens)
+        self._index = {token: index for index, token in enumerate(self.tokens)}
+        if not self.tokens or len(self._index) != len(self.tokens):
+            raise TranslationError("invalid_model", "expected a vocabulary of one or more tokens, each once")
+
+    @classmethod
+    def of_inputs(cls, sequences: Iterable[Sequence[str]]) -> TokenList:
+        """The vocabulary of input sequences, sorted."""
+        return cls(sorted({token for sequence in sequences for token in sequence}))
+
+    @classmethod
+    def of_outputs(cls, sequences: Iterable[Sequence[str]]) -> TokenList:
+        """The vocabulary of output sequences: END, START, then the tokens sorted."""
+        return cls([END, START, *sorted({token for sequence in sequences for token in sequence})])
+
+    def __len__(self) -> int:
+        return len(self.tokens)
+
+    def __contains__(self, token: object) -> bool:
+        return token in self._index
+
+    def indices(self, tokens: Iterable[str]) -> list[int]:
+        """The places of tokens.
+
+        Raises:
+            TranslationError: "unknown_token" for one that is not in the vocabulary.
+        """
+        try:
+            return [self._index[token] for token in tokens]
+        except KeyError as error:
+            raise TranslationError(
+                "unknown_token", f"expected a token of the vocabulary, got {error}"
+            ) from None
+
 
 #: Longest output [tokens]; the longest of the training pairs has 5. Ends a model that never says END.
 MAX_OUTPUT = 32
@@ -101,3 +181,40 @@ class LstmModel:
             result.append(self.outputs.tokens[token])
             probabilities.append(float(probability[token]))
         return Prediction(tuple(result), tuple(probabilities), complete=False)
+
+
+#: Of the cards of this kind of model.
+SCHEMA = 1
+
+
+def load_model(name: str, directory: Path | None = None) -> LstmModel:
+    """Load a model; arguments and errors are those of `model_files.read_model`."""
+    return read_model(name, SCHEMA, directory, _built)
+
+
+def _built(card: dict[str, Any], weights: Weights) -> LstmModel:
+    lists = card["vocabulary"]
+    return LstmModel(TokenList(lists["input"]), TokenList(lists["output"]), weights)
+
+
+def save_model(
+    name: str,
+    directory: Path,
+    *,
+    inputs: TokenList,
+    outputs: TokenList,
+    weights: Weights,
+    card: Mapping[str, Any],
+) -> None:
+    """Write weights, in half precision, and card.
+
+    Args:
+        name: Of the model and its two files.
+        directory: Made if it is missing.
+        inputs: Goes into the card, in the order of the weights' columns.
+        outputs: Likewise.
+        weights: As `LstmModel` takes them.
+        card: What else the card says.
+    """
+    lists = {"input": list(inputs.tokens), "output": list(outputs.tokens)}
+    write_model(name, directory, SCHEMA, weights, {**card, "vocabulary": lists}, indent=2)

@@ -11,12 +11,11 @@ from PIL import Image
 
 from teo_sign_training.cli import compare, evaluate, train
 from teo_sign_training.corpus import Pair, write_pairs
-from teo_sign_training.fitting.corpus_files import corpus_hash, read_splits, sample, without
+from teo_sign_training.corpus.pairs import corpus_hash, read_splits, sample, without
 from teo_sign_training.fitting.metrics import score
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.model_files import read_card
 from teo_sign_translator.pointer import load_sentence_model
-from teo_sign_translator.pointer.store import SCHEMA
 
 SUBJECTS = ("Ana", "Pedro", "Lucía", "Carmen")
 OBJECTS = ("pan", "libro", "coche", "vaso", "perro", "gato")
@@ -50,7 +49,7 @@ def test_train_writes_a_model_that_says_what_made_it(
     assert "ways of typing the paper's sentences come out wrong" in said
     assert "test_words:" in said
     assert load_sentence_model("pointer", tmp_path).name == "pointer"
-    card = read_card("pointer", SCHEMA, tmp_path)
+    card = read_card("pointer", tmp_path)
     assert card["command"] == "ros2 run teo_sign_translator train pointer --epochs 1 --seed 3 --pairs 150"
     assert card["data"]["sha256"] == corpus_hash(corpus)
     assert card["data"]["pairs"] == 150 + card["data"]["by_heart"]

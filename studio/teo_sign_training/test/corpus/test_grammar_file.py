@@ -20,11 +20,6 @@ from teo_sign_translator.morphology import Morphology
 OTHER_LISTS = ("stressed_a", "mass_classes", "unsaid_verbs", "directed_verbs", "plans")
 
 
-@pytest.fixture(scope="module")
-def generator():
-    return Generator.load(data_file("grammar"), Morphology.load())
-
-
 def test_every_example_beside_a_rule_is_what_the_rule_makes(generator):
     wrong = []
     for family in generator.grammar.families:
@@ -129,13 +124,10 @@ def test_a_fault_is_reported_with_file_and_rule(tmp_path, file, old, new, named)
 
 
 @pytest.mark.parametrize("content", [b"", b"families: [", b"\xff\xfe", b"- a\n- b\n", b"families: 3\n"])
-def test_a_broken_file_is_reported_by_name(tmp_path, content):
+def test_a_broken_file_is_reported_by_name_and_a_folder_without_any_too(tmp_path, content):
+    with pytest.raises(TranslationError, match="found none"):
+        load_grammar(tmp_path)
     (tmp_path / "broken.yaml").write_bytes(content)
     with pytest.raises(TranslationError, match=r"broken\.yaml") as caught:
         load_grammar(tmp_path)
     assert caught.value.code == "invalid_grammar"
-
-
-def test_a_folder_without_grammar_is_reported(tmp_path):
-    with pytest.raises(TranslationError, match="found none"):
-        load_grammar(tmp_path)

@@ -51,14 +51,10 @@ def test_a_line_that_is_no_pair_is_reported_with_its_number(tmp_path, line):
         list(read_pairs(path))
 
 
-@pytest.mark.parametrize("content", [b"es\tlse\n", b"\xff\n"])
-def test_a_file_of_something_else_is_refused(tmp_path, content):
+@pytest.mark.parametrize("content", [b"es\tlse\n", b"\xff\n", None])
+def test_a_file_of_something_else_or_none_is_refused(tmp_path, content):
     path = tmp_path / "pairs.tsv"
-    path.write_bytes(content)
+    if content is not None:
+        path.write_bytes(content)
     with pytest.raises(TranslationError, match=r"pairs\.tsv"):
         list(read_pairs(path))
-
-
-def test_a_missing_file_is_reported(tmp_path):
-    with pytest.raises(TranslationError, match=r"none\.tsv"):
-        list(read_pairs(tmp_path / "none.tsv"))

@@ -9,13 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from teo_common.text_folding import fold
-from teo_sign_training.corpus.fillers import LIMIT
 from teo_sign_training.corpus.grammar_file import load_grammar
-from teo_sign_training.corpus.tokens import SaidWord
-from teo_sign_training.corpus.verb_phrase import in_order
-from teo_sign_training.corpus.written_text import write
+from teo_sign_training.corpus.phrases import LIMIT, SaidWord, in_order
+from teo_sign_training.corpus.writing import write
 from teo_sign_translator.data_files import data_file
-from teo_sign_translator.morphology.enclitics import attach_pronouns
 from teo_sign_translator.text.rules import TextRules
 
 NUMBERS = TextRules.load().numbers
@@ -49,13 +46,7 @@ def test_words_are_joined_as_they_are_written(words, written):
 
 
 def test_feminine_nouns_with_a_stressed_a_take_the_masculine_article():
-    tokens = [
-        SaidWord("la", article=True),
-        SaidWord("agua"),
-        SaidWord("y"),
-        SaidWord("la", article=True),
-        SaidWord("leche"),
-    ]
+    tokens = [SaidWord(word, article=word == "la") for word in ["la", "agua", "y", "la", "leche"]]
     assert write(tokens, GRAMMAR.writing, one_word)[0] == "El agua y la leche"
 
 
@@ -64,36 +55,6 @@ def test_the_words_of_a_contraction_have_one_place():
     text, places = write(tokens, GRAMMAR.writing, one_word)
     assert text == "¿Vas al cine, Ana?"
     assert [places.get(id(token)) for token in tokens] == [None, 0, 1, 1, 2, 3, 4, 5]
-
-
-@pytest.mark.parametrize(
-    ("form", "clitics", "written"),
-    [
-        ("comprar", ("lo",), "comprarlo"),
-        ("dar", ("me", "lo"), "dármelo"),
-        ("da", ("me",), "dame"),
-        ("da", ("me", "lo"), "dámelo"),
-        ("di", ("me",), "dime"),
-        ("levanta", ("te",), "levántate"),
-        ("levantad", ("os",), "levantaos"),
-        ("vestid", ("os",), "vestíos"),
-        ("comiendo", ("lo",), "comiéndolo"),
-        ("siente", ("se",), "siéntese"),
-        ("espere", ("me",), "espéreme"),
-        ("ve", ("te",), "vete"),
-        ("vamos", ("nos",), "vámonos"),
-        ("reír", ("te",), "reírte"),
-        ("leyendo", ("la",), "leyéndola"),
-        ("trae", ("me",), "tráeme"),
-        ("busca", ("lo",), "búscalo"),
-        ("esté", ("se",), "estese"),
-        ("limpia", ("la",), "límpiala"),
-        ("haz", ("lo",), "hazlo"),
-        ("pon", ("te", "lo"), "póntelo"),
-    ],
-)
-def test_clitics_hang_on_the_verb_with_the_accent_that_spelling_asks_for(form, clitics, written):
-    assert attach_pronouns(form, clitics) == written
 
 
 @pytest.mark.parametrize(

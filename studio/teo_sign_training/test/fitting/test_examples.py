@@ -11,22 +11,23 @@ from hypothesis import strategies as st
 
 from teo_common.text_folding import folded, without_accents
 from teo_sign_training.corpus import Pair
-from teo_sign_training.corpus.aligned_pairs import training_pairs
-from teo_sign_training.corpus.paper_pairs import paper_pairs
+from teo_sign_training.corpus.paper_pairs import (
+    Reader,
+    memorised_pairs,
+    paper_pairs,
+    training_pairs,
+)
 from teo_sign_training.fitting.batches import WordNumbers, batches
 from teo_sign_training.fitting.examples import (
     ExampleReader,
     Examples,
-    Reader,
+    Typing,
     WordTable,
-    spans,
+    typed,
+    typed_sayably,
+    unsayable,
 )
 from teo_sign_training.fitting.fitting import make_vocabulary
-from teo_sign_training.fitting.memorised_pairs import (
-    memorised_pairs,
-    ways_of_typing,
-)
-from teo_sign_training.fitting.typing_noise import Typing, copies, typed, typed_sayably, unsayable
 from teo_sign_translator.morphology import Morphology, gloss_name
 from teo_sign_translator.pointer.vocabulary import UNKNOWN_TAG
 from teo_sign_translator.text.source_words import source_words
@@ -103,20 +104,9 @@ def test_the_alignment_follows_the_words_when_marks_are_left_out() -> None:
     noisy = typed(pairs, table, _typing(variant=3, marks=True))
     for examined in (pairs, noisy):
         linked = [table.words[row] for row in examined.words[examined.link_word]]
-        forms = [without_accents(word.form) for word in linked if word is not None]
-        assert forms == [
-            "maria",
-            "como",
-            "manana",
-            "el",
-            "pan",
-            "comera",
-            "no",
-            "bien",
-            "que",
-            "luis",
-            "ven",
-        ] or (forms == ["maria", "como", "mañana", "el", "pan", "comera", "no", "bien", "que", "luis", "ven"])
+        forms = [word.form for word in linked if word is not None]
+        said = " ".join(without_accents(form) for form in forms)
+        assert said.replace("ñ", "n") == "maria como manana el pan comera no bien que luis ven"
 
 
 def test_a_gloss_that_needs_its_accent_keeps_it() -> None:
@@ -126,19 +116,6 @@ def test_a_gloss_that_needs_its_accent_keeps_it() -> None:
         noisy = typed_sayably(pairs, table, _typing(variant=variant, marks=True), closed, copy=True)
         lost = unsayable(noisy, table, closed, copy=True)
         np.testing.assert_array_equal(lost, unsayable(pairs, table, closed, copy=True))
-
-
-def test_copies_are_readings_whose_lemma_is_the_gloss() -> None:
-    pairs, table = examples()
-    ways = copies(pairs, table)
-    glosses = [table.glosses[gloss] for gloss in pairs.glosses[pairs.link_gloss]]
-    for gloss, row, way in zip(glosses, pairs.words[pairs.link_word], ways, strict=True):
-        word = table.words[row]
-        assert word is not None
-        lemmas = [reading.lemma.upper() for reading in word.readings]
-        assert [place for place, copied in enumerate(way) if copied] == [
-            place for place, lemma in enumerate(lemmas) if lemma == gloss
-        ]
 
 
 def test_drawn_ways_of_typing_are_of_every_kind_and_leave_the_rest_clean() -> None:
@@ -174,12 +151,6 @@ def test_taken_pairs_are_the_pairs(places: list[int]) -> None:
         )
 
 
-def test_spans_of_nothing_are_nothing() -> None:
-    places, starts = spans(np.array([0, 2, 5]), np.array([], np.int64))
-    assert len(places) == 0
-    assert starts.tolist() == [0]
-
-
 def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:
     pairs = memorised_pairs(read())
     assert {pair.sentence for pair in training_pairs() if "{" not in pair.sentence} <= {
@@ -197,10 +168,6 @@ def test_each_pair_of_the_paper_and_the_project_is_known_by_heart() -> None:
 def test_no_sentence_is_known_by_heart_in_two_ways() -> None:
     known = {(folded(pair.text), pair.glosses) for pair in memorised_pairs(read())}
     assert len({sentence for sentence, _ in known}) == len(known)
-
-
-def test_ways_of_typing_go_from_as_written_to_bare_letters() -> None:
-    assert ways_of_typing("¿Qué tal?") == ("¿Qué tal?", "¿Que tal?", "Qué tal", "que tal")
 
 
 def test_hidden_nouns_may_be_words_of_which_nothing_is_known() -> None:

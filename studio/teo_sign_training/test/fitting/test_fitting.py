@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+import torch
 from small_language import NOUNS, fit_small, read, sentence_pairs, small_config
 
 from teo_sign_training.corpus import Pair
-from teo_sign_training.fitting.fitting import fit
+from teo_sign_training.fitting.fitting import TrainingConfig, fit
+from teo_sign_training.fitting.network import named_device, one_thread
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.pointer.config import POINTER, NetworkConfig, TrainingConfig
+from teo_sign_translator.pointer.config import POINTER, NetworkConfig
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:
@@ -53,16 +55,14 @@ def test_pairs_that_cannot_be_said_are_counted_and_left_out() -> None:
     assert (trained.pairs, trained.left_out) == (50, 1)
 
 
-def test_an_alignment_outside_the_sentence_is_refused() -> None:
+@pytest.mark.parametrize(
+    ("pairs", "code"),
+    [([], "invalid_config"), ([Pair("como .", ("YO",), ((5,),), "paper", "train")], "invalid_data")],
+)
+def test_no_pairs_and_an_alignment_outside_the_sentence_are_refused(pairs: list[Pair], code: str) -> None:
     with pytest.raises(TranslationError) as error:
-        fit_small(POINTER, [Pair("como .", ("YO",), ((5,),), "paper", "train")], epochs=1)
-    assert error.value.code == "invalid_data"
-
-
-def test_training_without_pairs_is_refused() -> None:
-    with pytest.raises(TranslationError) as error:
-        fit_small(POINTER, [], epochs=1)
-    assert error.value.code == "invalid_config"
+        fit_small(POINTER, pairs, epochs=1)
+    assert error.value.code == code
 
 
 @pytest.mark.parametrize(
@@ -88,3 +88,23 @@ def test_a_training_that_cannot_be_done_is_refused(change: dict[str, Any]) -> No
     with pytest.raises(TranslationError) as error:
         TrainingConfig(**change)
     assert error.value.code == "invalid_config"
+
+
+def test_a_device_is_taken_by_its_name_and_the_best_one_without() -> None:
+    assert named_device("cpu") == torch.device("cpu")
+    assert named_device(None) == torch.device("cuda" if torch.cuda.is_available() else "cpu")
+
+
+@pytest.mark.parametrize("name", ["gpu", "", "cuda:99", "meta:x"])
+def test_a_device_that_is_not_there_is_refused_with_its_name(name: str) -> None:
+    with pytest.raises(TranslationError, match=f"got '{name}'") as caught:
+        named_device(name)
+    assert caught.value.code == "invalid_config"
+
+
+def test_threads_are_given_back_after_a_training_that_fails() -> None:
+    before = torch.get_num_threads()
+    with pytest.raises(ValueError, match="on purpose"), one_thread():
+        assert torch.get_num_threads() == 1
+        raise ValueError("on purpose")
+    assert torch.get_num_threads() == before

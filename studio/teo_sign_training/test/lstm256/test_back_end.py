@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from teo_sign_training.corpus.aligned_pairs import training_pairs
+from teo_sign_training.corpus.paper_pairs import training_pairs
 from teo_sign_training.lstm256.back_end import LstmBackEnd
-from teo_sign_training.lstm256.gloss_list import GlossList
 from teo_sign_training.lstm256.phrasebook import Phrasebook
-from teo_sign_training.lstm256.seq2seq import Prediction
-from teo_sign_training.lstm256.tokens import TokenList
+from teo_sign_training.lstm256.seq2seq import Prediction, TokenList
+from teo_sign_training.lstm256.word_by_word import GlossList
 from teo_sign_translator.errors import TranslationError
 from teo_sign_translator.output.sign_choice import SignChooser
 from teo_sign_translator.output.substitutes import SubstituteLists
-from teo_sign_translator.output.translation import Kind, Origin, Sentence, Token
+from teo_sign_translator.output.translation import Kind, Origin, Sentence
 from teo_sign_translator.pipeline.translator import MAX_SENTENCE_TOKENS, Translator
 from teo_sign_translator.text.cleaning import MAX_TEXT_LENGTH
-from teo_sign_translator.text.sentence_type import SentenceType
+from teo_sign_translator.text.reading import SentenceType
 
 
 def _glosses(translator: Translator, text: str) -> str:
@@ -26,10 +25,6 @@ def _glosses(translator: Translator, text: str) -> str:
 def _only(translator: Translator, text: str) -> Sentence:
     (sentence,) = translator.translate(text).sentences
     return sentence
-
-
-def _word(sentence: Sentence, source: str) -> Token:
-    return next(token for token in sentence.tokens if source in token.source_words)
 
 
 @pytest.mark.parametrize(
@@ -50,7 +45,6 @@ def _word(sentence: Sentence, source: str) -> Token:
         ("Yo tengo siete años", "YO EDAD 7"),
         ("Tengo treinta y cinco años", "YO EDAD 35"),
         ("tengo 12 anos", "YO EDAD 12"),
-        ("Me llamo Ana y tengo 7 años", "MI NOMBRE A-N-A YO EDAD 7"),
         ("¿Quién es Pedro?", "P-E-D-R-O QUIÉN"),
         ("¿Quién es Ana?", "A-N-A QUIÉN"),
         ("Soy Lucía.", "YO L-U-C-I-A"),
@@ -73,13 +67,6 @@ def test_a_number_is_one_token_and_a_longer_one_a_token_for_each_digit(translato
     assert [(token.gloss, token.kind, token.word_index) for token in tokens[2:]] == [("12", Kind.NUMBER, 2)]
     tokens = _only(translator, "Yo tengo 1234567 años").tokens
     assert [(token.gloss, token.word_index) for token in tokens[2:]] == [(digit, 2) for digit in "1234567"]
-
-
-def test_a_comma_that_parts_clauses_is_a_pause(translator: Translator) -> None:
-    tokens = _only(translator, "Hola, me llamo Ana.").tokens
-    assert [token.kind for token in tokens[:3]] == [Kind.LEXICAL, Kind.PAUSE, Kind.LEXICAL]
-    assert tokens[1].gloss == ""
-    assert tokens[1].source_words == ()
 
 
 @pytest.mark.parametrize("text", ["Hola,,, adiós", "Hola, - adiós", "(Hola) – adiós", ", hola; adiós,"])
@@ -120,16 +107,6 @@ def test_a_known_word_is_spelled_where_a_capital_marks_a_name(translator: Transl
     assert _glosses(translator, "QUIERO VER LA CASA") == "QUERER VER CASA"
 
 
-def test_words_without_a_sign_go_with_the_next_word(translator: Translator) -> None:
-    sentence = _only(translator, "El gato duerme en la calle de la")
-    assert _word(sentence, "gato").source_words == ("gato",)
-    assert _word(sentence, "calle").source_words == ("calle",)
-
-
-def test_a_pronoun_made_explicit_has_no_source_words(translator: Translator) -> None:
-    assert _only(translator, "¿Qué tal?").tokens[0].source_words == ()
-
-
 @pytest.mark.parametrize(
     "text", ["El médico compra un coche", "No tengo hambre", "zzz qqq", "Mañana voy al cine"]
 )
@@ -137,12 +114,6 @@ def test_an_unknown_sentence_says_that_it_is_unsure(translator: Translator, text
     for token in _only(translator, text).tokens:
         assert token.confidence <= 0.5
         assert token.origin is not Origin.MODEL
-
-
-def test_an_answer_to_an_unseen_sentence_is_less_sure_than_to_a_known_one(translator: Translator) -> None:
-    sentence = _only(translator, "¿Tienes que ir al colegio?")
-    assert [token.gloss for token in sentence.tokens] == ["TÚ", "COLEGIO", "IR"]
-    assert all(token.origin is Origin.MODEL and 0.35 < token.confidence <= 0.7 for token in sentence.tokens)
 
 
 class _Parrot:
@@ -168,30 +139,19 @@ def _translator_with(model: _Parrot) -> Translator:
     "model",
     [
         _Parrot("TÚ", "COLEGIO"),
-        _Parrot("VAMOS"),
-        _Parrot("VAMOS", "CALLE", "{nombre}"),
-        _Parrot("VAMOS", "CALLE", complete=False),
-        _Parrot("VAMOS", "CALLE", sure=0.4),
+        _Parrot("TÚ", "BIEN", complete=False),
+        _Parrot("TÚ", "BIEN", sure=0.4),
         _Parrot(),
     ],
-    ids=[
-        "a gloss without a word",
-        "a word without a gloss",
-        "a slot too many",
-        "endless",
-        "unsure",
-        "silent",
-    ],
+    ids=["something else", "endless", "unsure", "silent"],
 )
-def test_a_model_that_cannot_account_for_its_answer_is_not_believed(model: _Parrot) -> None:
-    tokens = _only(_translator_with(model), "la calle a la que vamos").tokens
-    assert [token.gloss for token in tokens] == ["CALLE", "VAMOS"]
-    assert {token.origin for token in tokens} == {Origin.WORD_LIST}
-
-
-def test_a_model_that_says_something_else_than_it_was_taught_is_not_believed() -> None:
-    translator = _translator_with(_Parrot("TÚ", "COLEGIO"))
-    assert str(translator.translate("¿Qué tal?")) == "QUÉ T-A-L"
+def test_a_model_that_is_unsure_or_says_something_else_than_it_was_taught_is_not_believed(
+    model: _Parrot,
+) -> None:
+    assert str(_translator_with(_Parrot("TÚ", "BIEN")).translate("¿Qué tal?")) == "TÚ BIEN"
+    tokens = _only(_translator_with(model), "¿Qué tal?").tokens
+    assert "".join(token.gloss for token in tokens) == "QUÉTAL"
+    assert Origin.MODEL not in {token.origin for token in tokens}
 
 
 @pytest.mark.parametrize(
@@ -252,9 +212,7 @@ def test_symbols_that_nothing_is_signed_for_are_reported(translator: Translator)
     assert set(translation.ignored) == {"😀", "\x07", "~"}
 
 
-@pytest.mark.parametrize(
-    "word", ["a", "hola ", "el ", "Ana ", "¿Qué tal? ", "1", "mil ", "que tal y ", "hola, "]
-)
+@pytest.mark.parametrize("word", ["hola ", "¿Qué tal? ", "que tal y "])
 def test_ten_kilobytes_are_translated_within_the_limits_of_a_message(
     translator: Translator, word: str
 ) -> None:
@@ -273,20 +231,3 @@ def test_a_sentence_too_long_for_a_message_is_divided_between_words(translator: 
 def test_a_word_too_long_for_a_message_is_divided(translator: Translator) -> None:
     sentences = translator.translate("a" * 2500).sentences
     assert [len(sentence.tokens) for sentence in sentences] == [1024, 1024, 452]
-
-
-def test_the_translation_can_be_written_as_json(translator: Translator) -> None:
-    content = translator.translate("Me llamo Ana").as_dict()
-    assert content["glosses"] == "MI NOMBRE A-N-A"
-    assert content["sentences"][0]["type"] == "statement"
-    assert content["sentences"][0]["tokens"][2] == {
-        "gloss": "A",
-        "kind": "letter",
-        "confidence": pytest.approx(1.0, abs=0.05),
-        "duration_scale": 1.0,
-        "word_index": 2,
-        "source_words": ["Ana"],
-        "origin": "spelled",
-        "inflection": "",
-        "meant": "",
-    }

@@ -10,10 +10,16 @@ from collections.abc import Callable
 
 import pytest
 
-from teo_sign_training.corpus.aligned_pairs import NUMBER, read_aligned_pairs, training_pairs
-from teo_sign_training.corpus.paper_pairs import paper_pairs, paper_predictions, training_data_hash
-from teo_sign_training.fitting.lstm256_run import shipped_examples
-from teo_sign_training.lstm256.store import SCHEMA, load_model
+from teo_sign_training.corpus.paper_pairs import (
+    NUMBER,
+    paper_pairs,
+    paper_predictions,
+    read_aligned_pairs,
+    training_data_hash,
+    training_pairs,
+)
+from teo_sign_training.fitting.lstm256_fitting import shipped_examples
+from teo_sign_training.lstm256.seq2seq import load_model
 from teo_sign_translator.data_files import data_file
 from teo_sign_translator.model_files import read_card
 from teo_sign_translator.morphology import gloss_name
@@ -148,7 +154,7 @@ def test_the_shipped_model_knows_every_sentence_that_it_was_taught() -> None:
 
 
 def test_the_card_names_the_data_that_the_package_holds() -> None:
-    card = read_card("lstm256", SCHEMA)
+    card = read_card("lstm256")
     assert card["data"]["sha256"] == training_data_hash(), (
         "data changed: run `ros2 run teo_sign_translator train`"
     )

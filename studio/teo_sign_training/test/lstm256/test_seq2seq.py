@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,11 +13,17 @@ import torch
 from teo_sign_training.cli.reproduce_paper import split
 from teo_sign_training.corpus.paper_pairs import paper_pairs
 from teo_sign_training.fitting.lstm256_fitting import EncoderDecoder, LstmTrainingConfig, Training, train
-from teo_sign_training.lstm256.seq2seq import MAX_OUTPUT, LstmModel
-from teo_sign_training.lstm256.store import load_model, save_model
-from teo_sign_training.lstm256.tokens import END, START, TokenList, published_tokens
+from teo_sign_training.lstm256.seq2seq import (
+    END,
+    MAX_OUTPUT,
+    START,
+    LstmModel,
+    TokenList,
+    load_model,
+    published_tokens,
+    save_model,
+)
 from teo_sign_translator.errors import TranslationError
-from teo_sign_translator.model_files import available_models
 
 EXAMPLES = [(published_tokens(pair.sentence), pair.glosses) for pair in paper_pairs()[:8]]
 INPUTS = TokenList.of_inputs(source for source, _ in EXAMPLES)
@@ -28,16 +35,6 @@ def _train(seed: int = 1, batch_size: int = 3, epochs: int = 25) -> Training:
         hidden=32, learning_rate=0.01, epochs=epochs, batch_size=batch_size, seed=seed
     )
     return train(EXAMPLES[:6], EXAMPLES[6:], config)
-
-
-def test_the_loss_falls_and_what_was_taught_is_known() -> None:
-    training = _train()
-    assert len(training.losses) == len(training.validation_losses) == 25
-    assert training.losses[0] > 2
-    assert training.losses[-1] < 0.2
-    assert [training.model.predict(source).tokens for source, _ in EXAMPLES[:6]] == [
-        t for _, t in EXAMPLES[:6]
-    ]
 
 
 def test_the_same_seed_gives_the_same_weights_and_another_seed_others() -> None:
@@ -125,100 +122,46 @@ def test_a_configuration_that_cannot_train_is_refused(change: dict[str, float]) 
     assert error.value.code == "invalid_config"
 
 
-def test_training_without_examples_is_refused() -> None:
-    with pytest.raises(TranslationError) as error:
-        train([], [], LstmTrainingConfig())
-    assert error.value.code == "invalid_config"
-
-
 def test_a_fifth_is_held_out() -> None:
     learned, held_out = split(paper_pairs())
     assert (len(learned), len(held_out)) == (31, 8)
 
 
-def _save(directory: Path) -> None:
-    save_model(
-        "small",
-        directory,
-        inputs=INPUTS,
-        outputs=OUTPUTS,
-        weights=_train(epochs=1).weights,
-        card={"licence": "x"},
-    )
+@pytest.fixture(scope="module")
+def trained() -> Training:
+    return _train()
 
 
-def test_a_saved_model_says_the_same_after_loading(tmp_path: Path) -> None:
-    training = _train()
-    save_model("small", tmp_path, inputs=INPUTS, outputs=OUTPUTS, weights=training.weights, card={})
-    assert available_models(tmp_path) == ("small",)
+def test_the_loss_falls_and_what_was_taught_is_known_also_after_loading(
+    trained: Training, tmp_path: Path
+) -> None:
+    assert len(trained.losses) == len(trained.validation_losses) == 25
+    assert trained.losses[0] > 2
+    assert trained.losses[-1] < 0.2
+    save_model("small", tmp_path, inputs=INPUTS, outputs=OUTPUTS, weights=trained.weights, card={})
     loaded = load_model("small", tmp_path)
-    for source, _ in EXAMPLES:
-        assert loaded.predict(source).tokens == training.model.predict(source).tokens
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.json", "small.safetensors"]
-
-
-def test_an_unknown_model_is_refused_with_those_available(tmp_path: Path) -> None:
-    _save(tmp_path)
-    with pytest.raises(TranslationError, match="small") as error:
-        load_model("large", tmp_path)
-    assert error.value.code == "unknown_model"
-
-
-@pytest.mark.parametrize("name", ["../lstm256", "", "."])
-def test_a_model_name_is_no_path(name: str) -> None:
-    with pytest.raises(TranslationError) as error:
-        load_model(name)
-    assert error.value.code == "unknown_model"
-
-
-def _truncate(directory: Path) -> None:
-    path = directory / "small.safetensors"
-    path.write_bytes(path.read_bytes()[:-100])
-
-
-def _empty(directory: Path) -> None:
-    (directory / "small.safetensors").write_bytes(b"")
-
-
-def _spoil_card(directory: Path) -> None:
-    (directory / "small.json").write_text("{", encoding="utf-8")
-
-
-def _change_card(directory: Path, **values: object) -> None:
-    path = directory / "small.json"
-    path.write_text(json.dumps(json.loads(path.read_text("utf-8")) | values), encoding="utf-8")
-
-
-def _not_a_number(directory: Path) -> None:
-    weights = _train(epochs=1).weights
-    weights["output.bias"][0] = np.nan
-    save_model("small", directory, inputs=INPUTS, outputs=OUTPUTS, weights=weights, card={})
-
-
-def _missing_weight(directory: Path) -> None:
-    weights = _train(epochs=1).weights
-    del weights["encoder.weight_hh_l0"]
-    save_model("small", directory, inputs=INPUTS, outputs=OUTPUTS, weights=weights, card={})
+    for source, target in EXAMPLES[:6]:
+        assert trained.model.predict(source).tokens == loaded.predict(source).tokens == target
 
 
 @pytest.mark.parametrize(
-    "damage",
+    ("card", "weights"),
     [
-        _truncate,
-        _empty,
-        _spoil_card,
-        lambda directory: _change_card(directory, schema=99),
-        lambda directory: _change_card(directory, vocabulary={}),
-        lambda directory: _change_card(directory, vocabulary={"input": ["a"], "output": [END, START]}),
-        lambda directory: _change_card(directory, vocabulary={"input": ["a", "a"], "output": [END, START]}),
-        _not_a_number,
-        _missing_weight,
+        ({"schema": 99}, {}),
+        ({"vocabulary": {}}, {}),
+        ({"vocabulary": {"input": ["a"], "output": [END, START]}}, {}),
+        ({"vocabulary": {"input": ["a", "a"], "output": [END, START]}}, {}),
+        ({}, {"output.bias": np.full(len(OUTPUTS), np.nan, np.float32)}),
+        ({}, {"encoder.weight_hh_l0": np.zeros((1, 1), np.float32)}),
     ],
 )
-def test_a_damaged_model_is_refused(tmp_path: Path, damage: object) -> None:
-    _save(tmp_path)
-    assert callable(damage)
-    damage(tmp_path)
+def test_a_damaged_model_is_refused(
+    trained: Training, tmp_path: Path, card: dict[str, object], weights: dict[str, Any]
+) -> None:
+    changed = trained.weights | weights
+    save_model("small", tmp_path, inputs=INPUTS, outputs=OUTPUTS, weights=changed, card={})
+    path = tmp_path / "small.json"
+    path.write_text(json.dumps(json.loads(path.read_text("utf-8")) | card), encoding="utf-8")
     with pytest.raises(TranslationError) as error:
         load_model("small", tmp_path)
     assert error.value.code == "invalid_model"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The closed list of tags: what a word is, and in which form.
+"""Readings of words, and the closed list of their tags: what a word is, and in which form.
 
 A tag is a class and its features, joined by `:`. Compare the class with `tag_class`, or a feature with
 `tag.startswith("ADV:time")`.
@@ -32,16 +32,17 @@ A tag is a class and its features, joined by `:`. Compare the class with `tag_cl
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import product
 
 PERSONS = ("1s", "2s", "3s", "1p", "2p", "3p")
 #: There is no imperative of the first person singular.
 IMPERATIVE_PERSONS = PERSONS[1:]
-GENDER_NUMBER = ("ms", "fs", "mp", "fp")
-COMMON_NUMBER = ("cs", "cp")
+_GENDER_NUMBER = ("ms", "fs", "mp", "fp")
+_COMMON_NUMBER = ("cs", "cp")
 
 #: Tenses by the tag's beginning; each has all six persons.
-TENSES = (
+_TENSES = (
     "V:ind:pres",
     "V:ind:impf",
     "V:ind:pret",
@@ -54,13 +55,13 @@ TENSES = (
 VERB_TAGS = (
     "V:inf",
     "V:ger",
-    *(f"V:part:{form}" for form in GENDER_NUMBER),
-    *(f"{tense}:{person}" for tense, person in product(TENSES, PERSONS)),
+    *(f"V:part:{form}" for form in _GENDER_NUMBER),
+    *(f"{tense}:{person}" for tense, person in product(_TENSES, PERSONS)),
     *(f"V:imp:{person}" for person in IMPERATIVE_PERSONS),
 )
 _NOMINAL = tuple(gender + number for gender, number in product("mfc", "spn"))
-NOUN_TAGS = tuple(f"N:{form}" for form in _NOMINAL)
-ADJECTIVE_TAGS = tuple(f"A:{form}" for form in _NOMINAL)
+_NOUN_TAGS = tuple(f"N:{form}" for form in _NOMINAL)
+_ADJECTIVE_TAGS = tuple(f"A:{form}" for form in _NOMINAL)
 ADVERB_TAGS = (
     "ADV",
     "ADV:neg",
@@ -74,28 +75,28 @@ ADVERB_TAGS = (
     "ADV:time:future",
     "ADV:time:frequency",
 )
-DETERMINER_TAGS = (
-    *(f"DET:{kind}:{form}" for kind, form in product(("def", "indef", "dem"), GENDER_NUMBER)),
+_DETERMINER_TAGS = (
+    *(f"DET:{kind}:{form}" for kind, form in product(("def", "indef", "dem"), _GENDER_NUMBER)),
     "DET:def:ns",
-    *(f"DET:quant:{form}" for form in (*GENDER_NUMBER, *COMMON_NUMBER)),
-    *(f"DET:poss:{owner}:{form}" for owner, form in product(("1s", "2s", "3s"), COMMON_NUMBER)),
-    *(f"DET:poss:{owner}:{form}" for owner, form in product(("1p", "2p"), GENDER_NUMBER)),
+    *(f"DET:quant:{form}" for form in (*_GENDER_NUMBER, *_COMMON_NUMBER)),
+    *(f"DET:poss:{owner}:{form}" for owner, form in product(("1s", "2s", "3s"), _COMMON_NUMBER)),
+    *(f"DET:poss:{owner}:{form}" for owner, form in product(("1p", "2p"), _GENDER_NUMBER)),
 )
-PRONOUN_TAGS = (
+_PRONOUN_TAGS = (
     *(f"PRON:{person}" for person in PERSONS),
     *(f"PRON:{person}:f" for person in ("1p", "2p", "3p")),
     *(f"PRON:obj:{person}" for person in PERSONS),
     *(f"PRON:obj:{form}" for form in ("3s:m", "3s:f", "3p:m", "3p:f")),
     "PRON:refl",
     *(f"PRON:{case}:{person}" for case, person in product(("prep", "with"), ("1s", "2s", "3s"))),
-    *(f"PRON:poss:{owner}:{form}" for owner, form in product(("1s", "2s", "3s", "1p", "2p"), GENDER_NUMBER)),
+    *(f"PRON:poss:{owner}:{form}" for owner, form in product(("1s", "2s", "3s", "1p", "2p"), _GENDER_NUMBER)),
     "PRON:dem",
     "PRON:ind",
     "PRON:neg",
     "PRON:rel",
 )
-OTHER_TAGS = (
-    *(f"WH{form}" for form in ("", *(f":{form}" for form in (*GENDER_NUMBER, *COMMON_NUMBER)))),
+_OTHER_TAGS = (
+    *(f"WH{form}" for form in ("", *(f":{form}" for form in (*_GENDER_NUMBER, *_COMMON_NUMBER)))),
     "PREP",
     "PREP:art",
     "CONJ",
@@ -135,12 +136,12 @@ _PLAIN_TAGS = (
 #: Every tag there is; the order is stable, new tags are added at the end of their part.
 TAGS = (
     *VERB_TAGS,
-    *NOUN_TAGS,
-    *ADJECTIVE_TAGS,
+    *_NOUN_TAGS,
+    *_ADJECTIVE_TAGS,
     *ADVERB_TAGS,
-    *DETERMINER_TAGS,
-    *PRONOUN_TAGS,
-    *OTHER_TAGS,
+    *_DETERMINER_TAGS,
+    *_PRONOUN_TAGS,
+    *_OTHER_TAGS,
     *_PLAIN_TAGS,
 )
 
@@ -148,3 +149,27 @@ TAGS = (
 def tag_class(tag: str) -> str:
     """The first part of a tag: `"V"` of `"V:ind:pres:1s"`."""
     return tag.partition(":")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One way to read a word.
+
+    Attributes:
+        lemma: Dictionary form in lower case with accents: "comer", "niño"; a name keeps its capital: "Ana"; a
+            number is in digits: "7".
+        tag: One of `TAGS`.
+        clitics: Pronouns that hang on a verb, as written: ("me", "lo") in "dímelo".
+        exact: False if the word must be written with other accents to be this ("como" for "cómo"), or if the
+            word is not known and this is a guess.
+    """
+
+    lemma: str
+    tag: str
+    clitics: tuple[str, ...] = ()
+    exact: bool = True
+
+
+def gloss_name(written: str) -> str:
+    """A gloss as the look-up table names it: `"Por favor"` is `"POR_FAVOR"`."""
+    return written.strip().upper().replace(" ", "_")

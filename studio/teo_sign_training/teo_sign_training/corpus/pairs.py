@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""The corpus file: one sentence and its glosses a line, with its alignment."""
+"""Sentence pairs as files: a line holds a sentence, its glosses and their alignment."""
 
 from __future__ import annotations
 
+import hashlib
+import random
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from teo_common.atomic_files import write_atomically
+from teo_common.text_folding import folded
 from teo_sign_translator.data_files import invalid_line
 from teo_sign_translator.errors import TranslationError
 
@@ -94,3 +97,53 @@ def _pair(path: Path, number: int, fields: list[str]) -> Pair:
     if len(pair.alignment) != len(pair.glosses):
         raise invalid_line(path, number, f"{len(pair.glosses)} alignments, one a gloss", f"{len(places)}")
     return pair
+
+
+def corpus_files(corpus: Path) -> tuple[Path, ...]:
+    """The files of a corpus: itself, or the `.tsv` files of the folder.
+
+    Raises:
+        TranslationError: "invalid_data" if there is none.
+    """
+    files = (corpus,) if corpus.is_file() else tuple(sorted(corpus.glob("*.tsv")))
+    if not files:
+        raise TranslationError(
+            "invalid_data",
+            f"expected a corpus file, or a folder with .tsv files, got {corpus}: make one with "
+            "`ros2 run teo_sign_translator generate_corpus`",
+        )
+    return files
+
+
+def read_splits(corpus: Path) -> dict[str, list[Pair]]:
+    """All pairs by split; a split may be empty.
+
+    Raises:
+        TranslationError: "invalid_data", with file and line.
+    """
+    splits: dict[str, list[Pair]] = {split: [] for split in SPLITS}
+    for path in corpus_files(corpus):
+        for pair in read_pairs(path):
+            splits[pair.split].append(pair)
+    return splits
+
+
+def corpus_hash(corpus: Path) -> str:
+    """SHA-256 over the files of a corpus in the order of their names, hexadecimal."""
+    digest = hashlib.sha256()
+    for path in corpus_files(corpus):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def sample(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
+    """Pairs chosen at random, the same for the same seed; all of them if there are no more than `count`."""
+    if count is None or count >= len(pairs):
+        return pairs
+    return random.Random(seed).sample(pairs, count)
+
+
+def without(pairs: list[Pair], sentences: Iterable[str]) -> list[Pair]:
+    """The pairs whose text, however typed, is none of the sentences."""
+    unwanted = set(map(folded, sentences))
+    return [pair for pair in pairs if folded(pair.text) not in unwanted]

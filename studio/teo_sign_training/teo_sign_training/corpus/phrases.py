@@ -1,16 +1,149 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A verb with its tense, auxiliaries and clitic pronouns."""
+"""Words and glosses while a sentence is made; which gloss stands for which word is kept from the start."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from teo_sign_training.corpus.grammar import Shape
-from teo_sign_training.corpus.tokens import SaidWord, Sign, VerbPhrase
-from teo_sign_training.corpus.words import WordLists
-from teo_sign_training.corpus.writing import Clitics
-from teo_sign_translator.morphology.enclitics import attach_pronouns
+from teo_sign_training.corpus.words import ListedWord, WordLists
+from teo_sign_training.corpus.writing import Clitics, SaidWord
+from teo_sign_translator.morphology import gloss_name
+from teo_sign_translator.morphology.spanish import attach_pronouns
+from teo_sign_translator.text.numerals import Numerals
+
+
+@dataclass(slots=True, eq=False)
+class Sign:
+    """A gloss.
+
+    Attributes:
+        gloss: Upper case.
+        sources: The words that it stands for.
+        pending: What else will say it, once that is known: `grammar.VERB` or `CLITIC`.
+        leads: Whether it governs an infinitive and stands at the front of its predicate.
+    """
+
+    gloss: str
+    sources: list[SaidWord] = field(default_factory=list)
+    pending: str = ""
+    leads: bool = False
+
+
+class VerbPhrase(NamedTuple):
+    """A verb as said.
+
+    Attributes:
+        tokens: Words in order, clitics among them.
+        finite: The word that shows person and tense.
+        main: The word of the main verb.
+        clitics: For each clitic, in the order given, the word that says it.
+        parts: Words of auxiliaries and literals by lemma.
+    """
+
+    tokens: list[SaidWord]
+    finite: SaidWord
+    main: SaidWord
+    clitics: list[SaidWord]
+    parts: dict[str, SaidWord]
+
+
+@dataclass(slots=True, eq=False)
+class Phrase:
+    """A part of a sentence in both languages.
+
+    Attributes:
+        features: Person, number, gender and the like.
+        tokens: Words and marks.
+        signs: Glosses.
+        head: The word that stands for the whole.
+        verb: Its first verb, which shows the tense.
+    """
+
+    features: dict[str, str]
+    tokens: list[SaidWord]
+    signs: list[Sign]
+    head: SaidWord | None = None
+    verb: SaidVerb | None = None
+
+    def say(self, pending: str, token: SaidWord) -> None:
+        """Make a word a source of the signs that are pending for it."""
+        for sign in self.signs:
+            if sign.pending == pending:
+                sign.sources.append(token)
+                sign.pending = ""
+
+    def leave_out(self, pending: str) -> None:
+        """Take away the signs that are pending for a word: another sign shows what they say."""
+        self.signs = [sign for sign in self.signs if sign.pending != pending]
+
+
+@dataclass(slots=True, eq=False)
+class SaidVerb:
+    """A verb that is chosen first and said when its place in the sentence comes.
+
+    Attributes:
+        word: The verb.
+        shape: Its tense and auxiliaries.
+        said: What it has become.
+    """
+
+    word: ListedWord
+    shape: Shape
+    said: VerbPhrase | None = None
+
+
+def looked_up(value: str, features: Mapping[str, str], slots: Mapping[str, Phrase]) -> str:
+    """A value as written, or the feature it names: `$V.object` of slot V, `$pol` handed down; "" for none."""
+    if not value.startswith("$"):
+        return value
+    name, dot, key = value[1:].partition(".")
+    return slots[name].features.get(key, "") if dot else features.get(name, "")
+
+
+#: One more than the largest number that is written in words here.
+LIMIT = 10_000
+#: From here on hundreds agree with what is counted ("doscientas casas").
+_AGREEING_HUNDREDS = 200
+
+
+class NoFillerError(Exception):
+    """Nothing fits a slot this time; another try may succeed."""
+
+
+def word_phrase(words: WordLists, category: str, word: ListedWord, arguments: Mapping[str, str]) -> Phrase:
+    """A noun in its number, an adjective that agrees, a name or an adverb.
+
+    Raises:
+        TranslationError: "no_form" if the morphology does not know the word.
+    """
+    form = word.lemma
+    if category == "noun":
+        form = words.inflect(word.lemma, word.features["tag"])
+    elif category == "adj":
+        number = arguments.get("number", "s")
+        tags = {"m+f": f"A:{arguments.get('gender', 'm')}{number}", "mf": f"A:c{number}", "-": "A"}
+        form = words.inflect(word.lemma, tags.get(word.features["gender"], "A:cn"))
+    token = SaidWord(form)
+    gloss = gloss_name(word.lemma)
+    return Phrase({**word.features, "lemma": word.lemma}, [token], [Sign(gloss, [token])], token)
+
+
+def can_be_in_words(value: int, gender: str) -> bool:
+    """Whether a number may be in words: those that agree ("veintiún", "doscientas") are in digits."""
+    agrees = value >= _AGREEING_HUNDREDS or (value % 10 == 1 and value != 11)
+    return value < LIMIT and not (gender and agrees)
+
+
+def number_phrase(value: int, gender: str, numbers: Numerals, *, in_words: bool) -> Phrase:
+    """A number, in words or digits; one gloss of digits."""
+    token = SaidWord(numbers.in_words(value) if in_words else str(value))
+    features = {"number": "s" if value == 1 else "p", "gender": gender or "m", "person": "3"}
+    return Phrase(features, [token], [Sign(str(value), [token])], token)
+
 
 #: Tags that take the person behind them.
 _FINITE = ("ind:", "sub:", "cond", "imp")
