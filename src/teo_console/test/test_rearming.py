@@ -9,8 +9,7 @@ from std_srvs.srv import Trigger
 
 from teo_console.node.messages import to_answer
 from teo_console.node.rearming import PATIENCE, Rearming, Reply
-from teo_console.protocol.from_page import Command, Order
-from teo_console.protocol.to_page import Answer
+from teo_console.protocol import Answer, Command, Order
 
 REARM = Command(id=7, order=Order.REARM)
 BRAKING = Answer(id=7, success=False, code="moving", message="at rest in 0.19 s")

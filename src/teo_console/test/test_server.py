@@ -18,11 +18,9 @@ import pytest
 from aiohttp import WSMsgType
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage
-from teo_console.protocol.to_page import Answer
+from teo_console.protocol import MESSAGE_BYTES, Answer, FromPage
 from teo_console.server.access import Access
-from teo_console.server.app import make_app
-from teo_console.server.drawable_urdf import drawable_urdf
+from teo_console.server.app import drawable_urdf, make_app
 from teo_console.server.hub import Hub, RateLimit
 from teo_console.server.thread import ServerThread
 

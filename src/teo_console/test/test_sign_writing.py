@@ -13,8 +13,7 @@ from aiohttp import web
 from playwright.sync_api import APIRequestContext, Browser, Page, expect, sync_playwright
 
 from teo_console.api.dictionary import sign_writing_routes
-from teo_console.protocol.from_page import FromPage
-from teo_console.protocol.to_page import Answer
+from teo_console.protocol import Answer, FromPage
 from teo_console.server.access import Access
 from teo_console.server.app import make_app
 from teo_console.server.hub import Hub

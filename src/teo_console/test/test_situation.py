@@ -11,9 +11,9 @@ from msgspec.structs import replace
 
 from teo_common.diagnostics import Level
 from teo_console.errors import ConsoleError
-from teo_console.protocol.to_page import Caption, ExecutorState, Refusal, Sentence, Situation
-from teo_console.situation.sentences import HISTORY, PathReport, SigningReport
-from teo_console.situation.shared_situation import SharedSituation
+from teo_console.protocol import Caption, ExecutorState, Refusal, Sentence, Situation
+from teo_console.sentences import HISTORY, PathReport, SigningReport
+from teo_console.situation import SharedSituation
 
 HELLO = Caption(
     gloss="HOLA", kind="sign", origin="model", words=("Hola",), word_index=0, inflection="", confidence=0.9

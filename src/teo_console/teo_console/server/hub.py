@@ -12,8 +12,7 @@ from collections.abc import Awaitable, Callable
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from teo_console.errors import ConsoleError
-from teo_console.protocol.from_page import MESSAGE_BYTES, FromPage, decode
-from teo_console.protocol.to_page import Answer, encode
+from teo_console.protocol import MESSAGE_BYTES, Answer, FromPage, decode, encode
 from teo_console.server.access import refusal
 
 # A class of thirty, each with a telephone and a computer, and some to spare.

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from msgspec.structs import replace
 
-from teo_console.protocol.to_page import Caption, ExecutorState, Progress, Sentence
+from teo_console.protocol import Caption, ExecutorState, Progress, Sentence
 
 # Sentences that can be looked back at: a lesson's worth, and few enough to be sent whole.
 HISTORY = 30
