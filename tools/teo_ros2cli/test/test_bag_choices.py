@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from teo_ros2cli.bags.background_writer import Arrival, BackgroundWriter
 from teo_ros2cli.bags.metadata import (
     BagMetadata,
     TopicRecord,
@@ -19,13 +18,13 @@ from teo_ros2cli.bags.metadata import (
     read_metadata,
     write_metadata,
 )
-from teo_ros2cli.bags.qos_record import INFINITE, QosRecord, offer_for, read_overrides, request_for, serves
-from teo_ros2cli.bags.schedule import Schedule
+from teo_ros2cli.bags.playback import Schedule
 from teo_ros2cli.bags.selection import TopicSelection, is_hidden
-from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.cli.topic.hz import RateMeter
-from teo_ros2cli.definitions import schema_of
+from teo_ros2cli.bags.writer import Arrival, BackgroundWriter, BagWriter
+from teo_ros2cli.cli.topic.measuring import RateMeter
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import schema_of
+from teo_ros2cli.qos import INFINITE, QosRecord, offer_for, read_overrides, request_for, serves
 
 RELIABLE = QosRecord()
 BEST_EFFORT = QosRecord(reliability="best_effort")

@@ -296,7 +296,7 @@ def make_text_bag(directory: Path, count: int, step: int, kind: str = "std_msgs/
 
     from teo_ros2cli.bags.metadata import TopicRecord
     from teo_ros2cli.bags.writer import BagWriter
-    from teo_ros2cli.definitions import schema_of
+    from teo_ros2cli.interfaces import schema_of
 
     writer = BagWriter(directory)
     schema = schema_of("std_msgs/msg/String")

@@ -22,10 +22,10 @@ from rosbags.typesys import Stores, get_typestore
 from teo_ros2cli.bags.bag import open_bag
 from teo_ros2cli.bags.foreign_bag import open_any_bag
 from teo_ros2cli.bags.metadata import TopicRecord
-from teo_ros2cli.bags.qos_record import QosRecord
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import Schema, schema_of
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import Schema, schema_of
+from teo_ros2cli.qos import QosRecord
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
 TEXT = "std_msgs/msg/String"

@@ -16,14 +16,14 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 
 from teo_ros2cli.bags.bag import Bag, open_bag
-from teo_ros2cli.bags.file_writer import PRESETS
+from teo_ros2cli.bags.mcap_file import PRESETS
 from teo_ros2cli.bags.metadata import NO_START, TopicRecord, read_metadata
-from teo_ros2cli.bags.qos_record import QosRecord
-from teo_ros2cli.bags.reindex import reindex
-from teo_ros2cli.bags.summary import moment_text, size_text, summary
+from teo_ros2cli.bags.rewriting import reindex
 from teo_ros2cli.bags.writer import BagWriter
-from teo_ros2cli.definitions import installed_type_hash, schema_of
+from teo_ros2cli.cli.bag.stored import moment_text, size_text, summary
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import installed_type_hash, schema_of
+from teo_ros2cli.qos import QosRecord
 
 START = 1_700_000_000_123_456_789
 STEP = 10_000_000

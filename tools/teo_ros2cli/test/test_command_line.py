@@ -268,7 +268,7 @@ def test_interfaces_are_shown(ros2: Callable[..., Any]) -> None:
 def test_bag_info_tells_what_is_wrong(tmp_path: Path, ros2: Callable[..., Any]) -> None:
     from teo_ros2cli.bags.metadata import TopicRecord
     from teo_ros2cli.bags.writer import BagWriter
-    from teo_ros2cli.definitions import schema_of
+    from teo_ros2cli.interfaces import schema_of
 
     for name, count in (("good", 3000), ("empty", 0)):
         writer = BagWriter(tmp_path / name)

@@ -23,10 +23,9 @@ from std_msgs.msg import Bool, Byte, ByteMultiArray, Char, Float32, Int8, String
 from trajectory_msgs.msg import JointTrajectory
 
 from teo_ros2cli.errors import Ros2CliError
-from teo_ros2cli.messages.classes import interface_class, message_class
+from teo_ros2cli.interfaces import interface_class, message_class
 from teo_ros2cli.messages.fill import fill_message
-from teo_ros2cli.messages.tree import Abridgement, message_csv, message_tree, select
-from teo_ros2cli.messages.yaml_text import dump, parse, plain
+from teo_ros2cli.messages.tree import Abridgement, dump, message_csv, message_tree, parse, plain, select
 
 CLASSES = (
     JointTrajectory,

@@ -14,9 +14,9 @@ from typing import Any
 from teo_common.mcap_salvage import StoredMessage
 from teo_ros2cli.bags.bag import Bag, open_bag, require_bag
 from teo_ros2cli.bags.metadata import NO_START, BagMetadata, FileRecord, TopicRecord
-from teo_ros2cli.bags.qos_record import DURATIONS, QosRecord
-from teo_ros2cli.definitions import Schema
 from teo_ros2cli.errors import Ros2CliError
+from teo_ros2cli.interfaces import Schema
+from teo_ros2cli.qos import DURATIONS, QosRecord
 
 # What a latched topic of ROS 1 offers in ROS 2.
 _LATCHED = QosRecord(depth=1, durability="transient_local")

@@ -1,17 +1,16 @@
 # SPDX-FileCopyrightText: 2026 TEO signing project
 # SPDX-License-Identifier: Apache-2.0
-"""A subscription that fits itself to the publishers of its topic, those that come later included."""
+"""Receiving messages by subscriptions that fit themselves to their publishers, later ones included."""
 
 from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from typing import Any
 
-from teo_ros2cli.bags.qos_record import QosRecord, request_for, serves
-from teo_ros2cli.graph.qos import from_record, to_record
+from teo_ros2cli.qos import QosRecord, from_record, request_for, serves, to_record
 
 # Messages that may wait in the middleware while Python is busy elsewhere: 10 s of a topic at 100 Hz. The
 # queue drops its oldest when full, so that a slow receiver never holds a publisher back.
@@ -182,3 +181,54 @@ class _Repetitions:
         if len(self._order) > _REMEMBERED:
             self._seen.discard(self._order.popleft())
         return True
+
+
+# Interval of fitting the subscriptions to their publishers [s].
+_FITTING = 0.1
+
+# What every publisher serves: for measuring, where a message that was lost is part of the result.
+ANYTHING = QosRecord(reliability="best_effort")
+
+
+def listen(
+    node: Any,
+    subscriptions: Collection[AdaptiveSubscription],
+    *,
+    until: Callable[[], bool] = lambda: False,
+    deadline: float | None = None,
+    every: tuple[float, Callable[[], None]] | None = None,
+) -> None:
+    """Let subscriptions receive; a context that is shut down ends it with rclpy's exception for that.
+
+    Args:
+        node: The node that they belong to.
+        subscriptions: The subscriptions.
+        until: Asked after each step; True ends.
+        deadline: Moment of the steady clock at which to end [s], None for never.
+        every: A period [s] and what to do in it.
+    """
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+
+    if every is not None:
+        # Of this machine's time: a simulated clock may stand still.
+        from rclpy.clock import Clock
+        from rclpy.clock_type import ClockType
+
+        node.create_timer(*every, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    fitted = 0.0
+    try:
+        while not until():
+            now = time.monotonic()
+            if deadline is not None and now >= deadline:
+                return
+            if now - fitted >= _FITTING:
+                fitted = now
+                for subscription in subscriptions:
+                    subscription.adapt()
+            executor.spin_once(timeout_sec=_FITTING if deadline is None else min(_FITTING, deadline - now))
+            if not node.context.ok():
+                raise ExternalShutdownException  # SIGTERM
+    finally:
+        executor.remove_node(node)
