@@ -195,12 +195,7 @@ def test_messages_are_played_in_order_though_stored_a_little_beside(tmp_path: Pa
     assert [message.log_time for message in open_bag(tmp_path / "bag").messages()] == times
     late = open_bag(tmp_path / "bag").messages(start=times[2500])
     assert [message.log_time for message in late] == times[2500:]
-
-
-def test_only_the_topics_asked_for_are_read(tmp_path: Path) -> None:
-    write_bag(tmp_path / "bag")
-    assert {m.topic for m in open_bag(tmp_path / "bag").messages(topics=["/plan"])} == {"/plan"}
-    assert list(open_bag(tmp_path / "bag").messages(topics=[])) == []
+    assert list(open_bag(tmp_path / "bag").messages(topics=["/other"])) == []
 
 
 # Damage
@@ -239,12 +234,6 @@ def test_metadata_that_promise_more_than_the_file_has_are_corrected(tmp_path: Pa
 def scratched(data: bytes) -> bytes:
     middle = len(data) // 3
     return data[:middle] + bytes(byte ^ 0x55 for byte in data[middle : middle + 40]) + data[middle + 40 :]
-
-
-def test_a_damaged_chunk_is_left_out_and_the_others_are_read(tmp_path: Path) -> None:
-    bag = damaged(tmp_path, scratched)
-    assert any("damaged chunk" in problem for problem in bag.problems)
-    assert bag.metadata.messages == 250
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -308,12 +297,9 @@ def test_a_repaired_bag_is_read_by_everybody(tmp_path: Path, preset: str, share:
 def test_a_damaged_chunk_is_cut_out_of_a_repaired_bag(tmp_path: Path) -> None:
     written = write_bag(tmp_path / "bag")
     path = tmp_path / "bag" / "bag_0.mcap"
-    data = path.read_bytes()
-    middle = len(data) // 3
-    path.write_bytes(
-        data[:middle] + bytes(byte ^ 0x55 for byte in data[middle : middle + 40]) + data[middle + 40 :]
-    )
+    path.write_bytes(scratched(path.read_bytes()))
     (tmp_path / "bag" / "metadata.yaml").unlink()
+    assert any("damaged chunk" in problem for problem in open_bag(tmp_path / "bag", verify=True).problems)
     reindex(tmp_path / "bag")
     read = read_by_others(tmp_path / "bag")
     assert len(read) == 250
@@ -406,9 +392,6 @@ def test_the_summary_has_the_known_layout(tmp_path: Path, monkeypatch: pytest.Mo
         "Service information: ",
     ]
     assert moment_text(0).endswith("1970 00:00:00.000000000 (0.000000000)")
-
-
-def test_sizes_are_shown_in_the_unit_that_fits() -> None:
     assert [size_text(size) for size in (0, 1023, 1024, 5 * 1024**3)] == [
         "0 B",
         "1023 B",

@@ -93,7 +93,7 @@ class Hub:
             await page.socket.close(code=WSCloseCode.GOING_AWAY)
 
     async def _listen(self, page: _Page) -> None:
-        limit = RateLimit(rate=_RATE, burst=_BURST)
+        limit = _RateLimit(rate=_RATE, burst=_BURST)
         malformed = 0
         async for message in page.socket:
             try:
@@ -167,7 +167,7 @@ class _Page:
             pass  # it went while it was sent to; `handle` notices
 
 
-class RateLimit:
+class _RateLimit:
     """A token bucket: a burst, then a steady rate. Times are from a clock that nobody sets [s]."""
 
     def __init__(self, *, rate: float, burst: int) -> None:
