@@ -184,7 +184,7 @@ def schema_of(type_name: str) -> Schema:
 def _feedback_schema(package: str, action: str, type_name: str) -> Schema:
     # An action's feedback travels in a message that no file defines: the goal's identifier and the feedback.
     definition = _text(InterfaceName(package, "action", action))
-    parts = split_sections(definition)
+    parts = _split_sections(definition)
     if len(parts) != 3:
         raise Ros2CliError(
             "interface_not_found", f"'{package}/action/{action}' has {len(parts)} sections, expected 3"
@@ -216,7 +216,7 @@ def _text(name: InterfaceName) -> str:
     return interface_file(name).read_text(encoding="utf-8")
 
 
-def split_sections(definition: str) -> list[str]:
+def _split_sections(definition: str) -> list[str]:
     """Split a service or action definition at its lines of three dashes."""
     sections: list[list[str]] = [[]]
     for line in definition.splitlines(keepends=True):

@@ -103,7 +103,7 @@ _ANCHORS = (
 )
 
 
-class ItemReport(Struct, frozen=True, kw_only=True):
+class _ItemReport(Struct, frozen=True, kw_only=True):
     """What was said of one sign or sentence, over its motions."""
 
     meaning: str
@@ -129,7 +129,7 @@ class Report(Struct, frozen=True, kw_only=True):
     """Krippendorff's alpha of the ratings, nominal; None if it cannot be told."""
     agreement_understood: float | None
     """The same of what was understood."""
-    items: tuple[ItemReport, ...]
+    items: tuple[_ItemReport, ...]
     anchors: tuple[Anchor, ...] = _ANCHORS
 
 
@@ -161,8 +161,8 @@ def report(meanings: Sequence[str], answers: Sequence[Answer]) -> Report:
     )
 
 
-def _item(meaning: str, said: Sequence[Answer]) -> ItemReport:
-    return ItemReport(
+def _item(meaning: str, said: Sequence[Answer]) -> _ItemReport:
+    return _ItemReport(
         meaning=meaning,
         answers=len(said),
         recognised=wilson(sum(answer.recognised for answer in said), len(said)),

@@ -110,10 +110,10 @@ def _faults_told(path: Path) -> Iterator[None]:
 
 
 PROFILE = "ros2"
-LIBRARY = "teo_ros2cli"
+_LIBRARY = "teo_ros2cli"
 
 
-class Preset(NamedTuple):
+class _Preset(NamedTuple):
     """How an MCAP file is laid out.
 
     Args:
@@ -127,13 +127,13 @@ class Preset(NamedTuple):
     checksums: bool = True
 
 
-PRESETS: Mapping[str, Preset] = {
+PRESETS: Mapping[str, _Preset] = {
     # 1 MiB is MCAP's own default; the player reads a chunk ahead, so that the timing is not disturbed.
-    "none": Preset(1024 * 1024, CompressionType.NONE),
-    "fastwrite": Preset(0, CompressionType.NONE, checksums=False),
+    "none": _Preset(1024 * 1024, CompressionType.NONE),
+    "fastwrite": _Preset(0, CompressionType.NONE, checksums=False),
     # The default. A crash loses the open chunk: a quarter of the usual size, and closed every second besides.
-    "zstd_fast": Preset(256 * 1024, CompressionType.ZSTD),
-    "zstd_small": Preset(4 * 1024 * 1024, CompressionType.ZSTD),
+    "zstd_fast": _Preset(256 * 1024, CompressionType.ZSTD),
+    "zstd_small": _Preset(4 * 1024 * 1024, CompressionType.ZSTD),
 }
 DEFAULT_PRESET = "zstd_fast"
 
@@ -173,7 +173,7 @@ class BagFileWriter:
         span: Of the messages that were written.
     """
 
-    def __init__(self, path: Path, preset: Preset, ros_distro: str) -> None:
+    def __init__(self, path: Path, preset: _Preset, ros_distro: str) -> None:
         self.span = Span()
         self._path = path
         self._stream = path.open("xb")
@@ -187,7 +187,7 @@ class BagFileWriter:
             index_types=IndexType.ALL,
             enable_crcs=preset.checksums,
         )
-        self._writer.start(profile=PROFILE, library=LIBRARY)
+        self._writer.start(profile=PROFILE, library=_LIBRARY)
         self._writer.add_metadata("rosbag2", {"ROS_DISTRO": ros_distro})
         self.flush()
 

@@ -142,7 +142,7 @@ class BagWriter:
 
 
 # How often what was written goes to the operating system [s]: what a crash of this process loses.
-FLUSH_INTERVAL = 1.0
+_FLUSH_INTERVAL = 1.0
 
 
 class Arrival(NamedTuple):
@@ -224,7 +224,7 @@ class BackgroundWriter:
         flushed, dirty = time.monotonic(), False
         while True:
             try:
-                item = self._queue.get(timeout=FLUSH_INTERVAL)
+                item = self._queue.get(timeout=_FLUSH_INTERVAL)
             except queue.Empty:
                 item = _NOTHING
             if item is None:
@@ -233,7 +233,7 @@ class BackgroundWriter:
                 if self._failure is None:
                     dirty = self._pass_on(item) or dirty
                     now = time.monotonic()
-                    if dirty and now - flushed >= FLUSH_INTERVAL:
+                    if dirty and now - flushed >= _FLUSH_INTERVAL:
                         self._writer.flush()
                         flushed, dirty = now, False
             except Exception as error:  # told by check() to whoever uses the bag

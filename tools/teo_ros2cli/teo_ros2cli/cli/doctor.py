@@ -10,7 +10,7 @@ import platform
 import socket
 import sys
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -35,12 +35,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the reports that are asked for, or without one how many checks passed and what is wrong."""
     sections = [
-        examine_network(),
-        examine_platform(),
-        examine_middleware(),
+        _examine_network(),
+        _examine_platform(),
+        _examine_middleware(),
     ]
     with known_graph(options, names=True) as node:
-        sections += examine_graph(node, node_names(node))
+        sections += _examine_graph(node, node_names(node))
     failed = [
         section for section in sections if section.problems or (options.include_warnings and section.warnings)
     ]
@@ -73,7 +73,7 @@ _PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
 _HIGHEST_DOMAIN = 101
 
 
-class Section(NamedTuple):
+class _Section(NamedTuple):
     """One subject.
 
     Args:
@@ -91,7 +91,7 @@ class Section(NamedTuple):
     warnings: Sequence[str] = ()
 
 
-def examine_network() -> Section:
+def _examine_network() -> _Section:
     """Look at the network interfaces: by multicast, which one must take, participants find each other."""
     lines: list[tuple[str, str]] = []
     capable = []
@@ -105,48 +105,48 @@ def examine_network() -> Section:
     warnings = (
         () if capable else ("No network interface that is up takes multicast: other machines are not found",)
     )
-    return Section("network", "NETWORK CONFIGURATION", lines, warnings=warnings)
+    return _Section("network", "NETWORK CONFIGURATION", lines, warnings=warnings)
 
 
-def examine_platform(environment: Mapping[str, str] = os.environ) -> Section:
+def _examine_platform() -> _Section:
     """Tell the machine, Python, the distribution of ROS, and what the environment sets for ROS."""
     lines = [
         ("system", f"{platform.system()} {platform.release()} {platform.machine()}"),
         ("python version", platform.python_version()),
-        ("distribution name", environment.get("ROS_DISTRO", "")),
-        *((name, value) for name, value in sorted(environment.items()) if name.startswith(_VARIABLES)),
+        ("distribution name", os.environ.get("ROS_DISTRO", "")),
+        *((name, value) for name, value in sorted(os.environ.items()) if name.startswith(_VARIABLES)),
     ]
     problems = []
-    if not environment.get("ROS_DISTRO"):
+    if not os.environ.get("ROS_DISTRO"):
         problems.append("ROS_DISTRO is not set: source the workspace")
-    domain = environment.get("ROS_DOMAIN_ID", "0")
+    domain = os.environ.get("ROS_DOMAIN_ID", "0")
     if not domain.isdecimal() or int(domain) > _HIGHEST_DOMAIN:
         problems.append(f"ROS_DOMAIN_ID is {domain!r}: expected a number from 0 to {_HIGHEST_DOMAIN}")
     problems += [
         f"{name} names '{file}', which is no file: Fast DDS goes on without it"
         for name in _PROFILES
-        if (file := environment.get(name)) and not Path(file).is_file()
+        if (file := os.environ.get(name)) and not Path(file).is_file()
     ]
-    missing = [entry for entry in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
+    missing = [entry for entry in os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if entry]
     missing = [entry for entry in missing if Path(entry) not in prefixes()]
     warnings = [f"AMENT_PREFIX_PATH names '{entry}', which does not exist" for entry in missing]
-    return Section("platform", "PLATFORM INFORMATION", lines, problems, warnings)
+    return _Section("platform", "PLATFORM INFORMATION", lines, problems, warnings)
 
 
-def examine_middleware() -> Section:
+def _examine_middleware() -> _Section:
     """Tell the middleware that is in use."""
     from rclpy.utilities import get_rmw_implementation_identifier
 
     used, wanted = get_rmw_implementation_identifier(), os.environ.get("RMW_IMPLEMENTATION", "")
     problems = () if wanted in ("", used) else (f"RMW_IMPLEMENTATION is '{wanted}', but '{used}' is used",)
-    return Section("rmw", "RMW MIDDLEWARE", [("middleware name", used)], problems)
+    return _Section("rmw", "RMW MIDDLEWARE", [("middleware name", used)], problems)
 
 
-def examine_nodes(names: Sequence[str]) -> Section:
+def _examine_nodes(names: Sequence[str]) -> _Section:
     """Look for nodes that share a name."""
     shared = sorted(name for name, count in Counter(names).items() if count > 1)
     problems = [f"{names.count(name)} nodes have the name '{name}'" for name in shared]
-    return Section("node", "NODE LIST", [("node", name) for name in sorted(names)], problems)
+    return _Section("node", "NODE LIST", [("node", name) for name in sorted(names)], problems)
 
 
 class Topic(NamedTuple):
@@ -158,7 +158,7 @@ class Topic(NamedTuple):
     subscriptions: Sequence[Any]
 
 
-def examine_topics(topics: Sequence[Topic]) -> Section:
+def _examine_topics(topics: Sequence[Topic]) -> _Section:
     """Look for topics with several types, and for those that only one side has."""
     lines: list[tuple[str, str]] = []
     problems, warnings = [], []
@@ -175,10 +175,10 @@ def examine_topics(topics: Sequence[Topic]) -> Section:
             warnings.append(f"Publisher without subscriber detected on {topic.name}.")
         if subscribed and not published:
             warnings.append(f"Subscriber without publisher detected on {topic.name}.")
-    return Section("topic", "TOPIC LIST", lines, problems, warnings)
+    return _Section("topic", "TOPIC LIST", lines, problems, warnings)
 
 
-def examine_qos(topics: Sequence[Topic]) -> Section:
+def _examine_qos(topics: Sequence[Topic]) -> _Section:
     """Look for publishers and subscriptions of one topic that never meet by what they offer and ask."""
     from rclpy.qos import QoSCompatibility, qos_check_compatible
 
@@ -197,10 +197,10 @@ def examine_qos(topics: Sequence[Topic]) -> Section:
                 lines.append(("compatibility status", state))
                 if verdict == QoSCompatibility.ERROR:
                     problems.append(f"{topic.name}: {pair}: {reason.strip()}")
-    return Section("qos", "QOS COMPATIBILITY LIST", lines, problems)
+    return _Section("qos", "QOS COMPATIBILITY LIST", lines, problems)
 
 
-def examine_graph(node: Any, names: Sequence[str]) -> list[Section]:
+def _examine_graph(node: Any, names: Sequence[str]) -> list[_Section]:
     """Examine the nodes and topics that a node knows, itself left out.
 
     Args:
@@ -219,4 +219,4 @@ def examine_graph(node: Any, names: Sequence[str]) -> list[Section]:
         if not is_hidden(name)
     ]
     topics = [topic for topic in topics if topic.publishers or topic.subscriptions]
-    return [examine_nodes(names), examine_topics(topics), examine_qos(topics)]
+    return [_examine_nodes(names), _examine_topics(topics), _examine_qos(topics)]

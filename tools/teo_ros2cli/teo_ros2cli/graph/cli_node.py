@@ -15,7 +15,7 @@ from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.packages import package_prefix
 
 # Begins the name of the node of a command; an underscore hides it.
-NODE_NAME_PREFIX = "_ros2cli"
+_NODE_NAME_PREFIX = "_ros2cli"
 # Longest time in which a signal is not looked at [s].
 _STEP = 0.05
 
@@ -60,7 +60,7 @@ def cli_node(
     rclpy.init(args=[], context=context, signal_handler_options=handlers)
     try:
         node = rclpy.create_node(
-            name or f"{NODE_NAME_PREFIX}_{os.getpid()}",
+            name or f"{_NODE_NAME_PREFIX}_{os.getpid()}",
             context=context,
             enable_rosout=rosout,
             start_parameter_services=False,

@@ -14,7 +14,7 @@ from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.interfaces import interface_name_of
 
 _Found = TypeVar("_Found")
-UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+_UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 # Every participant of ROS 2 publishes on this topic which nodes it holds; its name goes to DDS unmangled.
 _DISCOVERY_TOPIC = "ros_discovery_info"
 # Bytes of an endpoint's identifier that name its participant.
@@ -78,8 +78,8 @@ def settle(
         picture = _picture(node, names, publishers)
         if picture != last:
             changed, last = now, picture
-        ready = UNKNOWN_NODE not in picture.nodes
-        ready = ready and picture.participants >= local_participants(node.context.get_domain_id())
+        ready = _UNKNOWN_NODE not in picture.nodes
+        ready = ready and picture.participants >= _local_participants(node.context.get_domain_id())
         ready = ready and picture.matched >= len(picture.subscriptions)
         if ready and now - started >= shortest and now - changed >= quiet:
             return
@@ -142,7 +142,7 @@ def _takers(node: Any, publisher: Any) -> tuple[bytes, ...]:
     )
 
 
-def local_participants(domain: int) -> int:
+def _local_participants(domain: int) -> int:
     """Return the number of participants of a domain on this machine; 0 where that cannot be told."""
     try:
         return count_participants(_UDP_TABLE.read_text(encoding="ascii"), domain)

@@ -14,7 +14,7 @@ from teo_ros2cli.qos import QosRecord, from_record, request_for, serves, to_reco
 
 # Messages that may wait in the middleware while Python is busy elsewhere: 10 s of a topic at 100 Hz. The
 # queue drops its oldest when full, so that a slow receiver never holds a publisher back.
-QUEUE_DEPTH = 1000
+_QUEUE_DEPTH = 1000
 # Messages whose identity is kept to know one that comes a second time: more than any latched topic keeps.
 _REMEMBERED = 2000
 
@@ -23,7 +23,7 @@ _REMEMBERED = 2000
 _OVERLAP = 5.0
 
 # Takes a message (bytes if raw) and rclpy's information on it.
-Receiver = Callable[[Any, dict[str, Any]], None]
+_Receiver = Callable[[Any, dict[str, Any]], None]
 
 
 class AdaptiveSubscription:
@@ -53,7 +53,7 @@ class AdaptiveSubscription:
         node: Any,
         topic: str,
         message_class: Any,
-        receive: Receiver,
+        receive: _Receiver,
         *,
         fixed: QosRecord | None = None,
         raw: bool = False,
@@ -136,7 +136,7 @@ class AdaptiveSubscription:
     def _subscribe(self) -> Any:
         from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
 
-        profile = from_record(replace(self.request, depth=max(self.request.depth, QUEUE_DEPTH)))
+        profile = from_record(replace(self.request, depth=max(self.request.depth, _QUEUE_DEPTH)))
         lost = self._lost
         told = None if lost is None else lambda status: lost(status.total_count_change)
         for callback in (told, None):

@@ -33,10 +33,10 @@ class Abridgement(NamedTuple):
     no_strings: bool = False
 
 
-EVERYTHING = Abridgement()
+_EVERYTHING = Abridgement()
 
 
-def message_tree(message: Any, abridgement: Abridgement = EVERYTHING) -> dict[str, Any]:
+def message_tree(message: Any, abridgement: Abridgement = _EVERYTHING) -> dict[str, Any]:
     """Return a message as dicts, lists, strings and numbers, fields in the order of the definition."""
     tree: dict[str, Any] = {}
     fields = message.get_fields_and_field_types()
@@ -45,11 +45,11 @@ def message_tree(message: Any, abridgement: Abridgement = EVERYTHING) -> dict[st
         if abridgement.no_sequences and isinstance(kind, AbstractNestedType):
             tree[name] = _sequence_note(type_text, kind, len(value))
         else:
-            tree[name] = value_tree(value, abridgement)
+            tree[name] = _value_tree(value, abridgement)
     return tree
 
 
-def value_tree(value: Any, abridgement: Abridgement = EVERYTHING) -> Any:
+def _value_tree(value: Any, abridgement: Abridgement = _EVERYTHING) -> Any:
     """Return one value of a message (a message, a sequence or a single value) as plain values."""
     if isinstance(value, bytes):
         return _cut(value.decode("latin-1"), abridgement.length)
@@ -63,10 +63,10 @@ def value_tree(value: Any, abridgement: Abridgement = EVERYTHING) -> Any:
         return message_tree(value, abridgement)
     limit = abridgement.length
     if limit is not None and len(value) > limit:
-        return [*value_tree(value[:limit], abridgement), "..."]
+        return [*_value_tree(value[:limit], abridgement), "..."]
     if hasattr(value, "tolist"):  # array.array and numpy: numbers only
         return value.tolist()
-    return [value_tree(item, abridgement) for item in value]
+    return [_value_tree(item, abridgement) for item in value]
 
 
 def _cut(text: str, limit: int | None) -> str:
@@ -80,7 +80,7 @@ def _sequence_note(type_text: str, kind: AbstractNestedType, length: int) -> str
     return f"<array type: {type_text}>"
 
 
-def message_csv(message: Any, abridgement: Abridgement = EVERYTHING) -> str:
+def message_csv(message: Any, abridgement: Abridgement = _EVERYTHING) -> str:
     """Return all values of a message, nested ones too, separated by commas in the order of the definition."""
     return ",".join(_leaves(message_tree(message, abridgement)))
 

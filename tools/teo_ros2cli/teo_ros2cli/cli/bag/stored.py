@@ -24,7 +24,7 @@ from teo_ros2cli.cli.options import full_name, pattern
 from teo_ros2cli.errors import Ros2CliError
 
 # Largest bag that is read through to check it [bytes]: some seconds.
-VERIFIED_SIZE = 1024**3
+_VERIFIED_SIZE = 1024**3
 
 
 def add_info_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +42,7 @@ def run_info(options: argparse.Namespace) -> int:
         Ros2CliError: The bag cannot be read at all; codes as of `open_any_bag`.
     """
     bag = open_any_bag(options.bag_path)
-    if not bag.problems and bag.size <= VERIFIED_SIZE:
+    if not bag.problems and bag.size <= _VERIFIED_SIZE:
         bag = open_any_bag(options.bag_path, verify=True)
     for problem in bag.problems:
         warn(problem)
@@ -80,7 +80,7 @@ def summary(metadata: BagMetadata, size: int) -> str:
         ("Bag size:", [size_text(size)]),
         ("Storage id:", [metadata.storage]),
         ("ROS Distro:", [metadata.ros_distro or "unknown"]),
-        ("Duration:", [f"{seconds_text(metadata.duration)}s"]),
+        ("Duration:", [f"{_seconds_text(metadata.duration)}s"]),
         ("Start:", [moment_text(start)]),
         ("End:", [moment_text(start + metadata.duration)]),
         ("Messages:", [str(metadata.messages)]),
@@ -94,7 +94,7 @@ def summary(metadata: BagMetadata, size: int) -> str:
     return "\n".join(lines)
 
 
-def seconds_text(nanoseconds: int) -> str:
+def _seconds_text(nanoseconds: int) -> str:
     """Return a time with nine decimals [s]."""
     return f"{nanoseconds // _SECOND}.{nanoseconds % _SECOND:09d}"
 
@@ -103,7 +103,7 @@ def moment_text(nanoseconds: int) -> str:
     """Return a moment [ns since the epoch] in local time, and in seconds since the epoch."""
     local = time.localtime(nanoseconds // _SECOND)
     date = time.strftime("%b %e %Y %H:%M:%S", local)
-    return f"{date}.{nanoseconds % _SECOND:09d} ({seconds_text(nanoseconds)})"
+    return f"{date}.{nanoseconds % _SECOND:09d} ({_seconds_text(nanoseconds)})"
 
 
 def size_text(size: int) -> str:
@@ -172,14 +172,14 @@ def run_convert(options: argparse.Namespace) -> int:
     """Read the bags, write those of the file, and say how many messages each has got.
 
     Raises:
-        Ros2CliError: `outputs_invalid`, `bag_unwritable`, or as of `read_outputs`, `open_any_bag`, `convert`.
+        Ros2CliError: `outputs_invalid`, `bag_unwritable`, or as of `_read_outputs`, `open_any_bag`, `convert`.
     """
     for words in options.input:
         if len(words) > 2:
             raise Ros2CliError(
                 "invalid_input", f"-i takes a bag and its storage identifier, got {' '.join(words)}"
             )
-    outputs = read_outputs(options.output_options)
+    outputs = _read_outputs(options.output_options)
     bags = [open_any_bag(Path(words[0])) for words in options.input]
     for bag in bags:
         for problem in bag.problems:
@@ -193,7 +193,7 @@ def run_convert(options: argparse.Namespace) -> int:
     return 0
 
 
-def read_outputs(path: Path) -> tuple[OutputBag, ...]:
+def _read_outputs(path: Path) -> tuple[OutputBag, ...]:
     """Read the file that says what is to come out; where it names no topics, all do.
 
     Raises:

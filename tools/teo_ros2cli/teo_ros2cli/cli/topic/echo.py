@@ -20,7 +20,7 @@ from teo_ros2cli.cli.options import (
 from teo_ros2cli.errors import Ros2CliError
 from teo_ros2cli.messages.tree import Abridgement, dump, message_csv, message_tree, select
 
-DEFAULT_LENGTH = 128
+_DEFAULT_LENGTH = 128
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -72,8 +72,8 @@ def add_printing_arguments(parser: argparse.ArgumentParser) -> None:
         "--truncate-length",
         "-l",
         type=non_negative_int,
-        default=DEFAULT_LENGTH,
-        help=f"The length to truncate arrays, bytes, and string to (default: {DEFAULT_LENGTH})",
+        default=_DEFAULT_LENGTH,
+        help=f"The length to truncate arrays, bytes, and string to (default: {_DEFAULT_LENGTH})",
     )
     parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
     parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")

@@ -36,7 +36,7 @@ def add_window_arguments(parser: argparse.ArgumentParser, default: int, what: st
 
 
 @contextmanager
-def measured_topics(
+def _measured_topics(
     options: argparse.Namespace, topics: Sequence[str]
 ) -> Iterator[tuple[Any, dict[str, Any]]]:
     """Yield a node that knows the graph, and the message classes of the topics by their full names.
@@ -65,7 +65,7 @@ def measure(
     """Receive messages until interrupted, and report once a second.
 
     Args:
-        node: The node that `measured_topics` yields.
+        node: The node that `_measured_topics` yields.
         classes: Message classes by topic name.
         receive: Takes the topic, the message (bytes if raw) and rclpy's information on it.
         report: Prints what was measured.
@@ -92,7 +92,7 @@ def run_bw(options: argparse.Namespace) -> int:
     """Print the bandwidth once a second, until interrupted.
 
     Raises:
-        Ros2CliError: As of `measured_topics`.
+        Ros2CliError: As of `_measured_topics`.
     """
     arrivals: deque[tuple[float, int]] = deque(maxlen=options.window_size)
 
@@ -100,17 +100,17 @@ def run_bw(options: argparse.Namespace) -> int:
         arrivals.append((time.monotonic(), len(message)))
 
     def report() -> None:
-        text = bandwidth_text(list(arrivals), time.monotonic())
+        text = _bandwidth_text(list(arrivals), time.monotonic())
         if text:
             print(text)
 
-    with measured_topics(options, [options.topic_name]) as (node, classes):
+    with _measured_topics(options, [options.topic_name]) as (node, classes):
         print(f"Subscribed to [{next(iter(classes))}]")
         measure(node, classes, receive, report, raw=True)
     return 0
 
 
-def bandwidth_text(arrivals: list[tuple[float, int]], now: float) -> str:
+def _bandwidth_text(arrivals: list[tuple[float, int]], now: float) -> str:
     """Return the bandwidth of some arrivals (moment [s], size [bytes]) until now; empty with one or none."""
     if len(arrivals) < 2 or now <= arrivals[0][0]:
         return ""
@@ -140,10 +140,10 @@ def run_delay(options: argparse.Namespace) -> int:
     """Print the delay once a second, until interrupted.
 
     Raises:
-        Ros2CliError: `no_header`, and as of `measured_topics`.
+        Ros2CliError: `no_header`, and as of `_measured_topics`.
     """
     delays: deque[float] = deque(maxlen=options.window_size)
-    with measured_topics(options, [options.topic]) as (node, classes):
+    with _measured_topics(options, [options.topic]) as (node, classes):
         for topic, cls in classes.items():
             if cls.get_fields_and_field_types().get("header") != "std_msgs/Header":
                 raise Ros2CliError(
@@ -156,13 +156,13 @@ def run_delay(options: argparse.Namespace) -> int:
 
         def report() -> None:
             if delays:
-                print(delay_text(list(delays)))
+                print(_delay_text(list(delays)))
 
         measure(node, classes, receive, report)
     return 0
 
 
-def delay_text(delays: list[float]) -> str:
+def _delay_text(delays: list[float]) -> str:
     """Return the statistics of some delays [s]."""
     mean = sum(delays) / len(delays)
     deviation = math.sqrt(sum((delay - mean) ** 2 for delay in delays) / len(delays))
@@ -196,11 +196,11 @@ def run_hz(options: argparse.Namespace) -> int:
     """Print the rate once a second, until interrupted.
 
     Raises:
-        Ros2CliError: `invalid_filter`, and as of `measured_topics`.
+        Ros2CliError: `invalid_filter`, and as of `_measured_topics`.
     """
     passes = message_filter(options.filter_expression)
     raw = options.filter_expression is None  # a message that nobody looks into need not be taken apart
-    with measured_topics(options, options.topic_name) as (node, classes):
+    with _measured_topics(options, options.topic_name) as (node, classes):
         meters = {topic: RateMeter(options.window_size) for topic in classes}
         printed: dict[str, int | None] = dict.fromkeys(classes)
 
@@ -215,7 +215,7 @@ def run_hz(options: argparse.Namespace) -> int:
             rates = {topic: rate for topic, rate in fresh.items() if rate is not None}
             printed.update({topic: meters[topic].last for topic in rates})
             if rates:
-                print(rate_text(next(iter(rates.values()))) if len(classes) == 1 else rate_table(rates))
+                print(_rate_text(next(iter(rates.values()))) if len(classes) == 1 else _rate_table(rates))
 
         measure(node, classes, receive, report, raw=raw)
     return 0
@@ -280,7 +280,7 @@ class RateMeter:
         )
 
 
-def rate_text(rate: Rate) -> str:
+def _rate_text(rate: Rate) -> str:
     """Return the statistics of one topic as the command prints them."""
     return (
         f"average rate: {rate.hertz:.3f}\n\tmin: {rate.shortest:.3f}s max: {rate.longest:.3f}s "
@@ -288,7 +288,7 @@ def rate_text(rate: Rate) -> str:
     )
 
 
-def rate_table(rates: dict[str, Rate]) -> str:
+def _rate_table(rates: dict[str, Rate]) -> str:
     """Return the statistics of several topics, a line each."""
     header = ("topic", "rate", "min_delta", "max_delta", "stddev", "window")
     rows = [header]
