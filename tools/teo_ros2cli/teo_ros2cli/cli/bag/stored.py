@@ -172,7 +172,7 @@ def run_convert(options: argparse.Namespace) -> int:
     """Read the bags, write those of the file, and say how many messages each has got.
 
     Raises:
-        Ros2CliError: `outputs_invalid`, `bag_unwritable`, or as of `_read_outputs`, `open_any_bag`, `convert`.
+        Ros2CliError: `outputs_invalid`, `bag_unwritable`, or as of `open_any_bag` and `rewriting.convert`.
     """
     for words in options.input:
         if len(words) > 2:
