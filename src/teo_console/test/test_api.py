@@ -12,8 +12,6 @@ from typing import Any
 import pytest
 from console_api import Api
 
-from teo_console.jobs import recordings as recordings_module
-
 BAG = b"\x89MCAP0\r\n" + bytes(1000)
 
 
@@ -84,15 +82,6 @@ def test_what_makes_no_sense_is_refused_with_a_reason(
 
 def test_a_body_that_is_no_film_may_not_be_large(api: Api) -> None:
     assert api.ask("POST", "/api/coverage", b" " * 200_000)[0] == 413
-
-
-def test_a_recording_that_is_too_large_is_refused_and_nothing_of_it_stays(
-    api: Api, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(recordings_module, "MOST_BYTES", 500_000)
-    status, answer = api.ask("POST", "/api/recordings", BAG + bytes(3_000_000))
-    assert (status, answer["code"]) == (413, "too_large")
-    assert recordings(api) == []
 
 
 def test_a_page_of_another_site_uploads_nothing(api: Api) -> None:

@@ -222,15 +222,6 @@ def test_a_truncated_bag_gives_what_is_before_the_cut(tmp_path: Path, share: flo
         assert {t.name: t.type for t, _ in bag.metadata.topics}["/plan"] == TRAJECTORY
 
 
-def test_metadata_that_promise_more_than_the_file_has_are_corrected(tmp_path: Path) -> None:
-    bag = damaged(tmp_path, lambda data: data[: len(data) // 2])
-    assert bag.metadata.messages < 300
-    assert any(
-        "of 300 messages that the metadata count cannot be read" in problem for problem in bag.problems
-    )
-    assert {topic.name for topic, _ in bag.metadata.topics} == {"/text", "/plan", "/silent"}
-
-
 def scratched(data: bytes) -> bytes:
     middle = len(data) // 3
     return data[:middle] + bytes(byte ^ 0x55 for byte in data[middle : middle + 40]) + data[middle + 40 :]
@@ -283,6 +274,7 @@ def test_a_repaired_bag_is_read_by_everybody(tmp_path: Path, preset: str, share:
     assert (len(told), "bag_1.mcap" in told[0]) == (1, True)
     assert (tmp_path / "bag" / "bag_0.mcap").read_bytes() == whole
     assert any("messages that the metadata count" in problem for problem in bag.problems)
+    assert {topic.name for topic, _ in bag.metadata.topics} == {"/text", "/plan", "/silent"}
     again = open_bag(tmp_path / "bag", verify=True)
     assert (again.problems, again.metadata.messages) == ((), len(read))
     assert again.metadata.custom_data == {"a": "b"}

@@ -48,9 +48,6 @@ def test_pub_once_waits_for_a_subscription_and_delivers_a_nested_message(graph: 
     assert line.endswith(")])")
 
 
-# =builtin_interfaces.msg.Duration(sec=0, nanosec=0))])")
-
-
 # A subscription in a process of its own: prints what comes.
 LISTENER = """
 import sys
