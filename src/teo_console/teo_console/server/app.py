@@ -68,7 +68,7 @@ def make_app(
     return app
 
 
-Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
+_Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 _T = TypeVar("_T")
 
 # What is not here is 400: the request was not right.
@@ -86,7 +86,7 @@ _STATUS = {
 }
 
 
-def answering(handler: Callable[[web.Request], Awaitable[Any]]) -> Handler:
+def answering(handler: Callable[[web.Request], Awaitable[Any]]) -> _Handler:
     """Make a handler's value a JSON answer, and what it refuses an error with code and sentence."""
 
     @functools.wraps(handler)
